@@ -1,9 +1,8 @@
 // Entries are taken in the order in which they are typed and chosen; files and projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {test} from "node:test";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
-  radio as kind, scan, skip, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
+  radio as kind, scan, skip, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
 import {enter, eventually, openPanels, readStl, savedFiles, type, untilReady, writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
@@ -40,7 +39,7 @@ async function free() {
 
 const sizeOf = (bytes) => readStl(bytes).size.map((mm) => mm.toFixed(2));
 
-test("exports a size that was typed just before", {skip}, async () => {
+test("exports a size that was typed just before", async () => {
   await choose("Coin");
   await hold();
   await enter(option("diameter"), "25");
@@ -57,7 +56,7 @@ test("exports a size that was typed just before", {skip}, async () => {
 
 for (const [how, press] of Object.entries({
   "its button": () => page.locator("#export").click(), "its keys": () => page.keyboard.press("Control+e")}))
-  test(`exports by ${how} what Enter has not confirmed`, {skip}, async () => {
+  test(`exports by ${how} what Enter has not confirmed`, async () => {
     await choose("Coin");
     await type(option("diameter"), "31");
     await press();
@@ -71,7 +70,7 @@ for (const [how, press] of Object.entries({
     await free();
   });
 
-test("exports what arrow keys have stepped to", {skip}, async () => {
+test("exports what arrow keys have stepped to", async () => {
   await enter(option("rim"), "3");
   await untilReady(page);
   await option("rim").press("ArrowUp");
@@ -83,7 +82,7 @@ test("exports what arrow keys have stepped to", {skip}, async () => {
   await free();
 });
 
-test("saves a project of what was typed just before", {skip}, async () => {
+test("saves a project of what was typed just before", async () => {
   await choose("Coin");
   await hold();
   await enter(option("diameter"), "27");
@@ -98,7 +97,7 @@ test("saves a project of what was typed just before", {skip}, async () => {
   await free();
 });
 
-test("takes sizes in the order in which they were typed, each as one step", {skip}, async () => {
+test("takes sizes in the order in which they were typed, each as one step", async () => {
   const longer = await value("width");
   await hold();
   await enter(option("plate"), "200x150");
@@ -121,7 +120,7 @@ test("takes sizes in the order in which they were typed, each as one step", {ski
   await free();
 });
 
-test("takes a kind, and what is typed for it, after the entries before", {skip}, async () => {
+test("takes a kind, and what is typed for it, after the entries before", async () => {
   await hold();
   await enter(option("plate"), "140x110");
   await kind("Coin").click();
@@ -137,7 +136,7 @@ test("takes a kind, and what is typed for it, after the entries before", {skip},
   await free();
 });
 
-test("takes back the newest entry that is waiting, and redoes nothing over it", {skip}, async () => {
+test("takes back the newest entry that is waiting, and redoes nothing over it", async () => {
   const rim = await value("rim");
   await enter(option("height"), "4");
   await undo();
@@ -154,7 +153,7 @@ test("takes back the newest entry that is waiting, and redoes nothing over it", 
   await free();
 });
 
-test("goes on with what is being typed while the panel of another kind comes", {skip}, async () => {
+test("goes on with what is being typed while the panel of another kind comes", async () => {
   await hold();
   await enter(option("plate"), "140x110");
   await kind("Coin").click();
@@ -169,7 +168,7 @@ test("goes on with what is being typed while the panel of another kind comes", {
   await free();
 });
 
-test("makes the piece of an export that is opened right after another one was given up", {skip}, async () => {
+test("makes the piece of an export that is opened right after another one was given up", async () => {
   await page.locator("#export").click();
   await page.locator("#export-size").getByText(/triangles$/).waitFor();
   await page.evaluate(() => {
@@ -179,7 +178,7 @@ test("makes the piece of an export that is opened right after another one was gi
   await files();
 });
 
-test("gives what was typed to the scan that it was typed for, when another one is opened", {skip}, async () => {
+test("gives what was typed to the scan that it was typed for, when another one is opened", async () => {
   const other = path.join(folder, "other.ply");
   writeSample("shell", 3000, other);
   await hold();
@@ -197,7 +196,7 @@ test("gives what was typed to the scan that it was typed for, when another one i
   assert.equal((await engine.newestStep(scan)).options.plate, "170x130");
 });
 
-test("waits with an export for a view that is being prepared", {skip}, async () => {
+test("waits with an export for a view that is being prepared", async () => {
   await page.goto(`${engine.address}#`);
   await untilReady(page);
   await openPanels(page);
@@ -213,7 +212,7 @@ test("waits with an export for a view that is being prepared", {skip}, async () 
 
 const SEED = 7, SEQUENCES = 15; // random_entries.mjs runs hundreds of them
 
-test("takes random sequences of entries, and exports what it shows", {skip, timeout: 540000}, async () => {
+test("takes random sequences of entries, and exports what it shows", async () => {
   const shown = await showSmallScan();
   try {
     for (let i = 0; i < SEQUENCES; ++i) await runSequence(shown, SEED + i);

@@ -1,7 +1,6 @@
 // How far an export has come, and that nothing of it goes on once it is cancelled, in Chromium or Firefox.
 import assert from "node:assert/strict";
-import {test} from "node:test";
-import {button, engine, exportDialog as dialog, page, set, skip, withPage} from "./page_suite.mjs";
+import {button, engine, exportDialog as dialog, page, set, test, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 withPage("still_life", 8000, async () => {
@@ -28,7 +27,7 @@ async function cancel() {
   await eventually(async () => assert.equal(await making(), ""));
 }
 
-test("shows how far a piece has come", {skip}, async () => {
+test("shows how far a piece has come", async () => {
   let seen = [];
   for (let i = 0; i < 3 && seen.length === 0; ++i) { // a browser that is held up meanwhile sees none
     await enter(page.locator("#resolution"), String(0.07 - 0.005 * i));
@@ -41,7 +40,7 @@ test("shows how far a piece has come", {skip}, async () => {
   assert.ok(seen.at(-1) > 0 && seen.every((value, i) => value >= (seen[i - 1] ?? 0) && value <= 1), `${seen}`);
 });
 
-test("ends the engine's work when it is cancelled, and saves no file of it", {skip}, async () => {
+test("ends the engine's work when it is cancelled, and saves no file of it", async () => {
   await set("Height in mm", 4); // another piece, which is not made yet
   await untilReady(page);
   await open();
@@ -62,7 +61,7 @@ test("ends the engine's work when it is cancelled, and saves no file of it", {sk
   assert.ok(saved[0] < 2e6, `${saved} bytes, and the other has many times as many`);
 });
 
-test("exports nothing whose piece cannot be made, and says why", {skip}, async () => {
+test("exports nothing whose piece cannot be made, and says why", async () => {
   const error = {kind: "option", input: "rim-bevel", text: "rim-bevel: expected 1 mm"};
   const refuse = (route) => route.fulfill({status: 400, json: {error}});
   await page.route("**/api/piece", refuse);

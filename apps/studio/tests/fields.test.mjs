@@ -1,9 +1,8 @@
 // Numbers, keys and the reach of heights on the page, in Chromium or Firefox.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {test} from "node:test";
 import {button, choose, chooseView, drag, engine, exportDialog, field, folder, found, labelled, middleOf, openExport,
-  page, preset, press, radio, scan, set, skip, slider, text, toast, undo, undoAll, untilText, untilTold,
+  page, preset, press, radio, scan, set, slider, test, text, toast, undo, undoAll, untilText, untilTold,
   withPage} from "./page_suite.mjs";
 import {enter, eventually, ignoreTimers, savedFiles, type, untilReady, untilTimersRan,
   writeSample} from "./support.mjs";
@@ -14,7 +13,7 @@ withPage("still_life", 8000);
 const untilPiece = (size) => untilTold(`piece ${size}`);
 const reach = () => page.locator("#reach");
 
-test("steps by round numbers with arrow keys", {skip}, async () => {
+test("steps by round numbers with arrow keys", async () => {
   const next = (...args) => page.evaluate(async (values) =>
     (await import(new URL("slider.js", location))).nextValue(...values), args);
   for (const [value, direction, isFine, least, wanted] of [[4, 1, false, 0.1, 4.1], [4.13, 1, false, 0.1, 4.2],
@@ -43,7 +42,7 @@ async function takesDragBack(locator, value, [dx, dy]) {
   assert.equal(await value(), before);
 }
 
-test("takes back with Escape what is typed or dragged, and undoes in fields", {skip}, async () => {
+test("takes back with Escape what is typed or dragged, and undoes in fields", async () => {
   await set("Height in mm", 4);
   await set("Height in mm", 5);
   await type(field("Height in mm"), "17");
@@ -59,7 +58,7 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   assert.equal(await text("Height in mm"), "4.00");
 });
 
-test("undoes what a field of the plate has taken, but not while something is typed", {skip}, async () => {
+test("undoes what a field of the plate has taken, but not while something is typed", async () => {
   const plate = labelled("Plate size");
   for (const size of ["150x120", "160x120"]) {
     await enter(plate, size);
@@ -77,7 +76,7 @@ test("undoes what a field of the plate has taken, but not while something is typ
   await untilText(plate, "");
 });
 
-test("keeps the controls of a rim with it, and takes it off a piece without an outline", {skip}, async () => {
+test("keeps the controls of a rim with it, and takes it off a piece without an outline", async () => {
   const isFirst = async () => (await page.locator("#kind-rows").getByLabel("Rim width").count()) > 0;
   await radio("Coin").click();
   assert.ok(await isFirst());
@@ -91,7 +90,7 @@ test("keeps the controls of a rim with it, and takes it off a piece without an o
   assert.ok(!(await isFirst()));
 });
 
-test("keeps the figure's size on another plate, as long as it fits", {skip}, async () => {
+test("keeps the figure's size on another plate, as long as it fits", async () => {
   const plate = labelled("Plate size"), shift = page.locator("#shift");
   const longer = async () => Number(await text("Longer side in mm"));
   await enter(plate, "20cm x 150");
@@ -117,7 +116,7 @@ test("keeps the figure's size on another plate, as long as it fits", {skip}, asy
   await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
-test("takes letters as keys again after Enter, and goes on with Tab from the field", {skip}, async () => {
+test("takes letters as keys again after Enter, and goes on with Tab from the field", async () => {
   const focused = () => page.evaluate(() => document.activeElement.dataset.option);
   await type(field("Height in mm"), "4");
   await page.keyboard.press("Enter");
@@ -129,7 +128,7 @@ test("takes letters as keys again after Enter, and goes on with Tab from the fie
   assert.equal(await focused(), "height");
 });
 
-test("takes back what no piece can be made of", {skip}, async () => {
+test("takes back what no piece can be made of", async () => {
   await labelled("Bent around").selectOption("Cylinder");
   const diameter = page.getByLabel("Bent around: Diameter");
   await enter(diameter, "1");
@@ -142,7 +141,7 @@ test("takes back what no piece can be made of", {skip}, async () => {
   assert.ok(await radio("Plaque").isChecked());
 });
 
-test("says why an entry is refused until the next one is taken, even one that changes nothing", {skip}, async () => {
+test("says why an entry is refused until the next one is taken, even one that changes nothing", async () => {
   const option = labelled, refused = (text) => toast().getByText(text).waitFor();
   const untilGone = () => toast().waitFor({state: "hidden"});
   await page.evaluate(ignoreTimers, 8000); // after which a line goes by itself
@@ -179,7 +178,7 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await page.evaluate(ignoreTimers, Infinity);
 });
 
-test("says without a break that a figure is dragged beyond its plate", {skip}, async () => {
+test("says without a break that a figure is dragged beyond its plate", async () => {
   const shift = page.locator("#shift"), longer = "Longer side in mm", before = await text(longer);
   await enter(labelled("Plate size"), "200x150");
   await set(longer, 100);
@@ -203,7 +202,7 @@ test("says without a break that a figure is dragged beyond its plate", {skip}, a
   await undoAll(page, async () => !await shift.inputValue() && (await text(longer)) === before);
 });
 
-test("knows what a draft angle allows, and exports no piece that cannot be made", {skip}, async () => {
+test("knows what a draft angle allows, and exports no piece that cannot be made", async () => {
   const dialog = exportDialog(), option = labelled;
   await enter(option("Draft angle"), "60");
   await set("Height in mm", 15);
@@ -230,7 +229,7 @@ test("knows what a draft angle allows, and exports no piece that cannot be made"
   await undo(4);
 });
 
-test("steps numbers of the plate by arrow keys", {skip}, async () => {
+test("steps numbers of the plate by arrow keys", async () => {
   const rim = labelled("Rim width");
   await enter(rim, "3");
   const kept = async () => {
@@ -248,7 +247,7 @@ test("steps numbers of the plate by arrow keys", {skip}, async () => {
   await undo();
 });
 
-test("takes back with Escape what a point of the curve is dragged to, and draws no refused curve", {skip}, async () => {
+test("takes back with Escape what a point of the curve is dragged to, and draws no refused curve", async () => {
   await preset().selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
   await point.evaluate((element) => element.scrollIntoView({block: "center"}));
@@ -260,7 +259,7 @@ test("takes back with Escape what a point of the curve is dragged to, and draws 
   await preset().selectOption("As Edge emphasis says");
 });
 
-test("adds a point to the tone curve by a double click, which Delete removes", {skip}, async () => {
+test("adds a point to the tone curve by a double click, which Delete removes", async () => {
   const curve = page.locator("#curve svg"), count = () => curve.locator("circle").count(), before = await count();
   await curve.scrollIntoViewIfNeeded();
   const {x, y, width, height} = await curve.boundingBox(), at = {x: 0.4 * width, y: 0.3 * height};
@@ -274,7 +273,7 @@ test("adds a point to the tone curve by a double click, which Delete removes", {
   await undo(2);
 });
 
-test("shows and takes inches, and keeps millimetres", {skip}, async () => {
+test("shows and takes inches, and keeps millimetres", async () => {
   await set("Longer side in mm", 101.6);
   await page.getByRole("combobox", {name: "Unit of lengths"}).selectOption("inch");
   assert.equal(await text("Longer side in inches"), "4.000");
@@ -293,14 +292,14 @@ test("shows and takes inches, and keeps millimetres", {skip}, async () => {
   assert.equal(await text("Height in mm"), "4.00");
 });
 
-test("exports when Enter is pressed", {skip}, async () => {
+test("exports when Enter is pressed", async () => {
   await openExport();
   const [file] = await savedFiles(found, page, 1, () => enter(labelled("File name"), "medal"));
   assert.equal(file.name, "medal.stl");
   await exportDialog().waitFor({state: "hidden"});
 });
 
-test("says what was saved of an export that is cancelled", {skip}, async () => {
+test("says what was saved of an export that is cancelled", async () => {
   const dialog = exportDialog();
   let asked = 0;
   await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // no file but the first comes
@@ -329,7 +328,7 @@ async function toldSizes() {
   return {shown, exported: [high, thick]};
 }
 
-test("tells the same height and thickness everywhere", {skip}, async () => {
+test("tells the same height and thickness everywhere", async () => {
   await set("Height in mm", 3.175);
   assert.equal(await text("Height in mm"), "3.175");
   await untilTold(/height 3\.175 mm/);
@@ -347,7 +346,7 @@ test("tells the same height and thickness everywhere", {skip}, async () => {
   await undo(3);
 });
 
-test("marks the height that can be reached, and loosens what limits it", {skip}, async () => {
+test("marks the height that can be reached, and loosens what limits it", async () => {
   await set("Longer side in mm", 60);
   await untilReady(page);
   const reachable = async () => parseFloat(await marked()), most = await reachable();
@@ -368,7 +367,7 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   await eventually(async () => assert.ok((await reachable()) > most, `${await reachable()} of ${most}`));
 });
 
-test("marks the height that the view reaches which is shown", {skip}, async () => {
+test("marks the height that the view reaches which is shown", async () => {
   await set("Height in mm", 3); // well within reach
   await untilReady(page);
   const front = await marked();
@@ -381,7 +380,7 @@ test("marks the height that the view reaches which is shown", {skip}, async () =
   }
 });
 
-test("says what a plate leaves to who types a longer side than that", {skip}, async () => {
+test("says what a plate leaves to who types a longer side than that", async () => {
   const plate = labelled("Plate size");
   await enter(plate, "60x50");
   await untilPiece("60.00 × 50.00");
@@ -392,7 +391,7 @@ test("says what a plate leaves to who types a longer side than that", {skip}, as
   await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
-test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {
+test("names the tone curve and the view where they limit the height, and loosens them", async () => {
   await preset().selectOption("Fine detail first");
   await set("Height in mm", 2000);
   await reach().getByText(/^The tone curve keeps the height at [\d.]+ mm\./).waitFor();
@@ -405,7 +404,7 @@ test("names the tone curve and the view where they limit the height, and loosens
   await undo(3);
 });
 
-test("can redo after a drag that was taken back, and ends none after another slider's pause", {skip}, async () => {
+test("can redo after a drag that was taken back, and ends none after another slider's pause", async () => {
   const [heights, counts] = await page.evaluate(async () => {
     const {Document, FIRST} = await import(new URL("document.js", location));
     const [doc, other] = [1, 2].map(() => new Document(() => {})), counts = [];
@@ -429,7 +428,7 @@ test("can redo after a drag that was taken back, and ends none after another sli
   assert.deepEqual([heights, counts], [[9, 6, 7], [2, 2, 3]]);
 });
 
-test("shows no mark of the piece before while another scan opens", {skip}, async () => {
+test("shows no mark of the piece before while another scan opens", async () => {
   const marks = () => page.locator("#overlay > *").count(), other = path.join(folder, "other.ply"), complaints = [];
   page.on("pageerror", (error) => complaints.push(error.message));
   writeSample("shell", 5000, other);

@@ -3,9 +3,8 @@
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
-import {test} from "node:test";
 import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, numbers, openFile, option, page,
-  pieceSize, press, radio, skip, slider, startEngine, text, toast, undo, undoAll, untilText, untilTold,
+  pieceSize, press, radio, skip, slider, startEngine, test, text, toast, undo, undoAll, untilText, untilTold,
   visiblePoints as points, withBrowser} from "./page_suite.mjs";
 import {randomNumbers} from "./random_entries.mjs";
 import {EngineProcess, areKindsDrawn, enter, eventually, holdRequests, ignoreTimers, openPanels, run, untilListening,
@@ -42,7 +41,7 @@ const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.ma
   return {shown, sum};
 }));
 
-test("leads through five steps, once by itself and then from the help", {skip}, async () => {
+test("leads through five steps, once by itself and then from the help", async () => {
   await button("Show me", toast()).click();
   const tour = page.getByRole("dialog", {name: "Tour"});
   for (let step = 1; step <= 5; ++step) {
@@ -62,7 +61,7 @@ test("leads through five steps, once by itself and then from the help", {skip}, 
   assert.ok(!await button("Show me").isVisible());
 });
 
-test("leads back to the relief for the tour, and says that it needs one", {skip}, async () => {
+test("leads back to the relief for the tour, and says that it needs one", async () => {
   const tour = page.getByRole("dialog", {name: "Tour"});
   await button("Relievo, start page").click();
   await button("Help").click();
@@ -80,7 +79,7 @@ test("leads back to the relief for the tour, and says that it needs one", {skip}
   await empty.stop();
 });
 
-test("takes no click before its program has begun, and none is lost", {skip}, async () => {
+test("takes no click before its program has begun, and none is lost", async () => {
   const other = await (await browser.newContext()).newPage(), begin = await holdRequests(other, "**/api/about");
   await other.goto(engine.address, {waitUntil: "commit"});
   const box = await eventually(async () => {
@@ -98,7 +97,7 @@ test("takes no click before its program has begun, and none is lost", {skip}, as
   await other.close();
 });
 
-test("shows nothing of the document on the start page, and changes nothing there by keys", {skip}, async () => {
+test("shows nothing of the document on the start page, and changes nothing there by keys", async () => {
   const parts = ["title", "undo", "redo", "save", "export", "numbers", "remarks"], shown = () => page.evaluate((ids) =>
     ids.filter((id) => document.getElementById(id).checkVisibility()), parts);
   const bronze = radio("Bronze");
@@ -116,7 +115,7 @@ test("shows nothing of the document on the start page, and changes nothing there
   assert.ok(!await bronze.isChecked());
 });
 
-test("offers the tour no longer to whoever begins to work", {skip}, async () => {
+test("offers the tour no longer to whoever begins to work", async () => {
   const other = await (await browser.newContext()).newPage();
   await other.addInitScript(ignoreTimers, 30000); // after which the offer goes by itself
   await other.goto(engine.address);
@@ -131,7 +130,7 @@ test("offers the tour no longer to whoever begins to work", {skip}, async () => 
 });
 
 // The page is told of the exact relief only when it has asked for its facts.
-test("shows the kinds of work before the exact relief is there", {skip}, async () => {
+test("shows the kinds of work before the exact relief is there", async () => {
   const other = await page.context().newPage(), letGo = await holdRequests(other, "**/api/facts");
   const large = path.join(folder, "large.ply");
   writeSample("still_life", 150000, large);
@@ -147,7 +146,7 @@ test("shows the kinds of work before the exact relief is there", {skip}, async (
   await other.close();
 });
 
-test("shows what the view and the six sides look like", {skip}, async () => {
+test("shows what the view and the six sides look like", async () => {
   const shown = (canvases) => canvases.evaluateAll((all) => all.map((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     return data.filter((value, i) => i % 4 === 3 && value > 0).length;
@@ -161,7 +160,7 @@ test("shows what the view and the six sides look like", {skip}, async () => {
   await page.keyboard.press("Escape");
 });
 
-test("shows this scan as each kind of work", {skip}, async () => {
+test("shows this scan as each kind of work", async () => {
   const first = await eventually(async () => {
     const all = await pictures();
     assert.equal(all.length, 6);
@@ -171,7 +170,7 @@ test("shows this scan as each kind of work", {skip}, async () => {
   assert.equal(new Set(first.map(({sum}) => sum)).size, 6, "each picture is another");
 });
 
-test("sets size and material with a kind, and takes all of it back at once", {skip}, async () => {
+test("sets size and material with a kind, and takes all of it back at once", async () => {
   await kind("Coin").click();
   await untilTold(/height 1\.60 mm.*piece 40\.00 × 40\.00/);
   assert.ok(await radio("Struck silver").isChecked());
@@ -187,7 +186,7 @@ test("sets size and material with a kind, and takes all of it back at once", {sk
   assert.ok(await slider("Fine detail").isEnabled());
 });
 
-test("names a kind by its form, whatever its material", {skip}, async () => {
+test("names a kind by its form, whatever its material", async () => {
   await radio("Walnut").click();
   assert.ok(await kind("Plaque").isChecked());
   await kind("Carving").click();
@@ -196,7 +195,7 @@ test("names a kind by its form, whatever its material", {skip}, async () => {
   await undo(3);
 });
 
-test("brings a kind back as it was left", {skip}, async () => {
+test("brings a kind back as it was left", async () => {
   await kind("Coin").click();
   await enter(option("diameter"), "30");
   await untilTold(/piece 30\.00 × 30\.00/);
@@ -212,7 +211,7 @@ test("brings a kind back as it was left", {skip}, async () => {
   assert.ok(await kind("Plaque").isChecked());
 });
 
-test("says what the eye sees, and the paper's symbol in the tip", {skip}, async () => {
+test("says what the eye sees, and the paper's symbol in the tip", async () => {
   for (const [name, symbol] of [["Fine detail", "γ"], ["Edge emphasis", "β"]])
     assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
   assert.match(await page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
@@ -229,7 +228,7 @@ const PANELS = {
   Bent: ["wrap", "thickness", "plate", "margin", "form"],
 };
 
-test("shows first, with each kind, the controls that matter for it", {skip}, async () => {
+test("shows first, with each kind, the controls that matter for it", async () => {
   const panel = page.locator("#kind"), outline = option("outline"), height = option("height");
   const shown = () => panel.locator("[data-option]:visible").evaluateAll((all) =>
     all.map((input) => input.dataset.option));
@@ -260,7 +259,7 @@ test("shows first, with each kind, the controls that matter for it", {skip}, asy
   assert.ok(await kind("Plaque").isChecked());
 });
 
-test("offers what can be done about the scan, and cuts it", {skip}, async () => {
+test("offers what can be done about the scan, and cuts it", async () => {
   const before = await points();
   await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.getByText(/^Removed noise of [\d.]+ sampling distances\./).waitFor();
@@ -280,7 +279,7 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   assert.equal(await bottom.inputValue(), "0");
 });
 
-test("crops the scan by a frame on the picture", {skip}, async () => {
+test("crops the scan by a frame on the picture", async () => {
   const crop = async () => (await page.locator("#crop").inputValue()).split(",").map(Number);
   const before = await points(), frame = page.locator("#crop-frame .frame"), box = async () => frame.boundingBox();
   await openPanels(page);
@@ -321,7 +320,7 @@ test("crops the scan by a frame on the picture", {skip}, async () => {
   await untilReady(page);
 });
 
-test("colours on the piece what a tool leaves standing", {skip}, async () => {
+test("colours on the piece what a tool leaves standing", async () => {
   const orange = () => page.locator("#picture").evaluate((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let count = 0;
@@ -347,7 +346,7 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   await button("Fit").click();
 });
 
-test("moves, scales and turns the figure on its plate by hand", {skip}, async () => {
+test("moves, scales and turns the figure on its plate by hand", async () => {
   const before = await pieceSize();
   const longer = async () => Number(await text("Longer side in mm")), whole = await longer();
   await choose("Place");
@@ -380,7 +379,7 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   await radio("Light").click();
 });
 
-test("puts several files side by side, and turns, scales and removes them", {skip}, async () => {
+test("puts several files side by side, and turns, scales and removes them", async () => {
   await openFile(scans);
   await page.getByText("urn + ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
@@ -404,7 +403,7 @@ test("puts several files side by side, and turns, scales and removes them", {ski
 });
 
 // Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
-test("takes what is changed while a scan is still opening", {skip}, async () => {
+test("takes what is changed while a scan is still opening", async () => {
   const other = await page.context().newPage(), answers = [];
   other.on("response", (response) => answers.push(response.status()));
   await other.addInitScript(() => {
@@ -435,7 +434,7 @@ test("takes what is changed while a scan is still opening", {skip}, async () => 
   await other.close();
 });
 
-test("keeps the view that was asked for last when the one before it arrives later", {skip}, async () => {
+test("keeps the view that was asked for last when the one before it arrives later", async () => {
   const other = await page.context().newPage();
   let asked = 0, letGo;
   const held = new Promise((resolve) => (letGo = resolve));
@@ -501,7 +500,7 @@ function writeBallWithCrumb(file) {
   writePoints(file, [...ball(30000, 1, 0), ...ball(130, 0.065, 1.4)]);
 }
 
-test("leaves out a small piece, and keeps it or not at the press of a button", {skip}, async () => {
+test("leaves out a small piece, and keeps it or not at the press of a button", async () => {
   const file = path.join(folder, "crumb.ply"), crumbs = page.locator("#crumbs");
   const untilWide = (least, most) => eventually(async () => { // the piece, in its heights
     const wide = (await pieceSize()).reduce((x, y) => x / y);
@@ -531,7 +530,7 @@ function writeDepths(file, width, height, depthAt) {
   writeFileSync(file, Buffer.from(numbers.buffer));
 }
 
-test("tells what is taken out of a depth image as background, and advises nothing that the page lacks", {skip}, async () => {
+test("tells what is taken out of a depth image as background, and advises nothing that the page lacks", async () => {
   const depth = path.join(folder, "depth.tif"), colours = path.join(folder, "colours.png");
   writeDepths(depth, 120, 90, (x, y) => { // a ball before a wall
     const off = Math.hypot(x - 60, y - 45);
@@ -553,7 +552,7 @@ test("tells what is taken out of a depth image as background, and advises nothin
   await untilReady(page);
 });
 
-test("finds a table, and leaves it out at the press of a button", {skip}, async () => {
+test("finds a table, and leaves it out at the press of a button", async () => {
   const table = path.join(folder, "table.ply");
   writeBallOnTable(table);
   await openScan(table, "12,000");
@@ -592,7 +591,7 @@ function writeGltf() {
   return files;
 }
 
-test("opens a glTF file together with the buffer that it names", {skip}, async () => {
+test("opens a glTF file together with the buffer that it names", async () => {
   await openScan(writeGltf(), "3,600");
   await page.getByText("wave.zip", {exact: true}).waitFor();
 });

@@ -1,7 +1,6 @@
 // Kinds of work: their numbers are those of their files, and what each takes along.
 import assert from "node:assert/strict";
-import {test} from "node:test";
-import {chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, skip, undo,
+import {chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, test, undo,
   undoAll, untilText, withPage} from "./page_suite.mjs";
 import {enter, eventually, readStl, untilReady} from "./support.mjs";
 
@@ -39,7 +38,7 @@ async function exported() {
   return {name, told, size: readStl(bytes).size.map((mm) => mm.toFixed(2))};
 }
 
-test("tells the thickness of a coin with parts below the ground, as its file has it", {skip}, async () => {
+test("tells the thickness of a coin with parts below the ground, as its file has it", async () => {
   await choose("Coin");
   await set({width: "20"});
   const status = sizeIn(await numbers().innerText()), {told, size} = await exported();
@@ -51,7 +50,7 @@ test("tells the thickness of a coin with parts below the ground, as its file has
   await undo(2);
 });
 
-test("makes the die of exactly the piece that is shown, and takes it back", {skip}, async () => {
+test("makes the die of exactly the piece that is shown, and takes it back", async () => {
   await choose("Coin");
   await set({diameter: "30", rim: "2", height: "0.9", width: "18", shift: "1,-1"});
   const coin = await exported(), before = await kept(), line = {from: [-15.5, -1], to: [15.5, -1], samples: 400};
@@ -84,7 +83,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", {ski
 const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness, margin}) =>
   ({view, up, outline, diameter, width, height, rim, shift, thickness, margin, resolution: 0.1});
 
-test("says in its hint what a seal is, and begins one of its own beside the die of a coin", {skip}, async () => {
+test("says in its hint what a seal is, and begins one of its own beside the die of a coin", async () => {
   assert.match(await radio("Seal").getAttribute("title"), /^Seal: a hollow of its own .* that piece's panel: 30 mm across/);
   await choose("Coin");
   assert.match(await radio("Coin").getAttribute("title"), /40 mm across, 1.6 mm high$/);
@@ -99,7 +98,7 @@ test("says in its hint what a seal is, and begins one of its own beside the die 
   await undo(4);
 });
 
-test("uses no tool for a lithophane, and has it again for a coin", {skip}, async () => {
+test("uses no tool for a lithophane, and has it again for a coin", async () => {
   await set({resolution: "1"}); // a tool's reach takes long
   await option("tool").selectOption("Ball end");
   await page.getByText(/^The tool reaches/).waitFor();
@@ -123,7 +122,7 @@ test("uses no tool for a lithophane, and has it again for a coin", {skip}, async
   await untilReady(page);
 });
 
-test("names the files of each kind", {skip}, async () => {
+test("names the files of each kind", async () => {
   const isNamed = async (file) => {
     await page.keyboard.press("Control+e");
     await untilText(page.locator("#export-name"), file);
@@ -141,7 +140,7 @@ test("names the files of each kind", {skip}, async () => {
   await undoAll(page, () => radio("Plaque").isChecked());
 });
 
-test("says why a figure that fills its plate does not move", {skip}, async () => {
+test("says why a figure that fills its plate does not move", async () => {
   await set({plate: "90x120"});
   const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly as large as fits
   await set({width: longer});

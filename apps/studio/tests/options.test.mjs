@@ -2,8 +2,7 @@
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {test} from "node:test";
-import {DESK, browser, button, engine, folder, found, page, scan, skip, startEngine, toast, undo, undoAll, untilText,
+import {DESK, browser, button, engine, folder, found, page, scan, startEngine, test, toast, undo, undoAll, untilText,
   withBrowser} from "./page_suite.mjs";
 import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeSample} from "./support.mjs";
 
@@ -84,7 +83,7 @@ const reaches = (check) => eventually(async () => {
   assert.ok(check(frame), JSON.stringify(frame));
 });
 
-test("has a control for each option of the table", {skip}, async () => {
+test("has a control for each option of the table", async () => {
   const names = options.map(({name}) => name);
   assert.deepEqual([...names].sort(), Object.keys(CASES).sort(), "an option is missing in this test");
   for (const name of names) assert.equal(await control(name).count(), 1, `the page has no control of ${name}`);
@@ -99,7 +98,7 @@ const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "pl
 const cases = Object.entries(CASES).filter(([name]) => found.name !== "firefox" || KINDS.includes(name));
 
 for (const [name, {value, first = {}, kind}] of cases)
-  test(`passes ${name} on to the engine`, {skip}, async () => {
+  test(`passes ${name} on to the engine`, async () => {
     if (kind) await page.locator(`[data-kind="${kind}"]`).click();
     for (const [other, set_to] of Object.entries(first)) {
       await set(other, set_to);
@@ -114,7 +113,7 @@ for (const [name, {value, first = {}, kind}] of cases)
     await untilReady(page);
   });
 
-test("has a field for each parameter of each shape that the engine takes", {skip}, async () => {
+test("has a field for each parameter of each shape that the engine takes", async () => {
   for (const option of ["base", "wrap"]) {
     const shapes = await page.evaluate(async (option) => Object.entries((await import("./shapes.js")).SHAPES[option])
       .map(([name, {parameters}]) => [name, [...parameters.keys()]]), option);
@@ -129,7 +128,7 @@ test("has a field for each parameter of each shape that the engine takes", {skip
   }
 });
 
-test("shows the parameters of shapes as they were typed, in the unit of the page", {skip}, async () => {
+test("shows the parameters of shapes as they were typed, in the unit of the page", async () => {
   const field = (label) => page.getByRole("textbox", {name: label, exact: true});
   await control("tool").selectOption({label: "V bit"});
   assert.equal(await field("Tool: Angle").inputValue(), "60");
@@ -182,7 +181,7 @@ const makeMaps = (...files) => files.forEach((file) =>
 
 const baseImage = () => page.locator("label, div").filter({has: control("base-image")}).last();
 
-test("lays the relief on an image that is chosen or dropped, names it and removes it", {skip}, async () => {
+test("lays the relief on an image that is chosen or dropped, names it and removes it", async () => {
   const files = ["map.png", "map.tif"].map((name) => path.join(folder, name));
   makeMaps(...files);
   assert.equal(await control("base-image").count(), 1);
@@ -210,7 +209,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   await reaches(({options}) => options.base === "dome:height=5" && !("base-image" in options));
 });
 
-test("opens projects as make makes them, whose height, width or height coefficient they name or not", {skip}, async () => {
+test("opens projects as make makes them, whose height, width or height coefficient they name or not", async () => {
   const stepsOf = (...all) => page.evaluate(async (all) => {
     const [{stepOfProject}, {engine}] = await Promise.all(["document.js", "about.js"].map((file) =>
       import(new URL(file, location))));
@@ -228,7 +227,7 @@ test("opens projects as make makes them, whose height, width or height coefficie
   assert.deepEqual([plate.options.width, both.options.width], [null, 30]);
 });
 
-test("opens a project whose light is as far as numbers go", {skip}, async () => {
+test("opens a project whose light is as far as numbers go", async () => {
   const file = path.join(folder, "light.relievo"), pixels = async (light) => {
     writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: {}, studio: {light}}));
     await page.locator("#file").setInputFiles(file);
@@ -245,7 +244,7 @@ test("opens a project whose light is as far as numbers go", {skip}, async () => 
   assert.ok(!await toast().getByText(/expected/).isVisible());
 });
 
-test("shows a relief without its base image when that is gone, says so, and takes another", {skip}, async () => {
+test("shows a relief without its base image when that is gone, says so, and takes another", async () => {
   const image = path.join(folder, "image.png");
   makeMaps(image);
   await baseImage().locator("input").setInputFiles(image);

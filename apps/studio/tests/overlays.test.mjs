@@ -1,8 +1,7 @@
 // What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
 import assert from "node:assert/strict";
-import {test} from "node:test";
 import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
-  plateLength, press, radio, scan, skip, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
+  plateLength, press, radio, scan, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 const SCREENS = [DESK, TABLET, PHONE];
@@ -11,7 +10,7 @@ withPage("shell", 8000);
 
 const overlap = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
-test("closes by the keyboard a line that offers something, and does what it offers", {skip}, async () => {
+test("closes by the keyboard a line that offers something, and does what it offers", async () => {
   const offer = () => page.evaluate(async () => {
     const {offer, toast} = await import(new URL("messages.js", location));
     window.takeBack = offer("A scan is not found.", "Locate it", () => toast("Located."));
@@ -31,7 +30,7 @@ test("closes by the keyboard a line that offers something, and does what it offe
 });
 
 // The line ends so that its label would lie on that of the relief's height, or of its width.
-test("keeps the labels of measures apart", {skip}, async () => {
+test("keeps the labels of measures apart", async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
     await choose("Measure");
@@ -63,7 +62,7 @@ const scaleBar = () => page.evaluate(() => {
   return {length: width, mm: number * (unit === "in" ? 25.4 : 1)};
 });
 
-test("tells the scale by a bar of a round length, and by rulers that begin at the piece's corner", {skip}, async () => {
+test("tells the scale by a bar of a round length, and by rulers that begin at the piece's corner", async () => {
   await page.setViewportSize(SCREENS[0]);
   await choose("Measure");
   const [mm] = await pieceSize(), scale = (await plateLength()) / mm;
@@ -95,7 +94,7 @@ test("tells the scale by a bar of a round length, and by rulers that begin at th
 });
 
 // The engine refuses pictures of more than eight million pixels.
-test("draws no more pixels on a large screen than the engine makes", {skip}, async () => {
+test("draws no more pixels on a large screen than the engine makes", async () => {
   const large = await browser.newContext({viewport: {width: 2560, height: 1440}, deviceScaleFactor: 2});
   const screen = await large.newPage();
   await screen.goto(engine.address);
@@ -146,7 +145,7 @@ const plateOpacity = () => page.evaluate(() => {
     Math.round(canvas.height / 2 + y * high), 1, 1).data[3]);
 });
 
-test("lays the model over the relief, wherever that stands on its plate, and mirrored", {skip}, async () => {
+test("lays the model over the relief, wherever that stands on its plate, and mirrored", async () => {
   await page.setViewportSize(SCREENS[0]);
   await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {about}}) => {
     const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = about;
@@ -172,7 +171,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
   await page.locator('[data-kind="relief"]').click();
 });
 
-test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}, async (context) => {
+test("takes a pen as it takes a mouse, whatever else touches the screen", async (context) => {
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
   const {touched: tablet, cdp, send: palm, close} = await touchScreen(TABLET);
   await undoAll(tablet);
@@ -207,7 +206,7 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}
   await close();
 });
 
-test("scales and turns the figure by two fingers in one step, and tells how it is placed", {skip}, async (context) => {
+test("scales and turns the figure by two fingers in one step, and tells how it is placed", async (context) => {
   await page.setViewportSize(SCREENS[0]);
   const mouseHint = page.getByText("Drag the figure to move it, with Shift to turn it; the wheel scales it");
   await radio("Place").click();
@@ -259,7 +258,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await close();
 });
 
-test("tells frames in a second while things move, and not at rest", {skip}, async () => {
+test("tells frames in a second while things move, and not at rest", async () => {
   await page.setViewportSize(SCREENS[2]);
   await untilReady(page);
   const numbers = page.locator("#numbers"), [x, y] = await middleOf(page.locator("#stage"));

@@ -2,10 +2,9 @@
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {test} from "node:test";
 import {DESK, PHONE, TABLET, browser, button, chooseView, drag, engine, exportDialog, exportFiles, exported, field,
-  folder, found, middleOf, numbers, openExport, openFile, page, plateLength, preset, press, radio, scan, set, skip,
-  slider, startEngine, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
+  folder, found, middleOf, numbers, openExport, openFile, page, plateLength, preset, press, radio, scan, set, slider,
+  startEngine, test, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
 import {doubleClick, enter, eventually, openPanels, run, savedFiles, type, untilListening, untilReady,
   writeSample} from "./support.mjs";
 
@@ -74,7 +73,7 @@ async function show(side) {
   await untilReady(page);
 }
 
-test("opens a sample and shows its progress, and a coarse relief until the exact one is there", {skip}, async () => {
+test("opens a sample and shows its progress, and a coarse relief until the exact one is there", async () => {
   const areExact = page.evaluate(() => new Promise((resolve) => {
     const seen = [], stage = document.querySelector("#stage");
     stage.addEventListener("picture", () => {
@@ -89,7 +88,7 @@ test("opens a sample and shows its progress, and a coarse relief until the exact
   assert.equal((await areExact)[0], false);
 });
 
-test("opens a scan of the browser", {skip}, async () => {
+test("opens a scan of the browser", async () => {
   await openFile(scan);
   await page.getByText("scan.ply", {exact: true}).waitFor();
   await toast().getByText(/^Your work on .* is kept/).waitFor();
@@ -97,7 +96,7 @@ test("opens a scan of the browser", {skip}, async () => {
   await untilReady(page);
 });
 
-test("drags the height: number and picture change", {skip}, async () => {
+test("drags the height: number and picture change", async () => {
   const start = await value("Height in mm"), first = await picture();
   await pressKey(slider("Height"), "ArrowRight", 10);
   assert.ok((await value("Height in mm")) > start);
@@ -105,7 +104,7 @@ test("drags the height: number and picture change", {skip}, async () => {
   await becomesOther(first);
 });
 
-test("moves a slider that has the focus by wheel, and any by double click", {skip}, async () => {
+test("moves a slider that has the focus by wheel, and any by double click", async () => {
   const height = await value("Height in mm"), panel = page.getByRole("complementary", {name: "Adjustments"});
   await slider("Height").focus();
   await slider("Steepest wall").hover();
@@ -125,7 +124,7 @@ test("moves a slider that has the focus by wheel, and any by double click", {ski
   assert.equal(await value("Height in mm"), height);
 });
 
-test("takes numbers as people type them, and refuses others in one line", {skip}, async () => {
+test("takes numbers as people type them, and refuses others in one line", async () => {
   const width = await value("Longer side in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
     ["3+0.5", "3.5"], ["12 mm", "12.0"], ["1cm", "10.0"]];
   for (const [entered, shown] of typed) {
@@ -148,7 +147,7 @@ test("takes numbers as people type them, and refuses others in one line", {skip}
   assert.equal(await page.getByLabel("Draft angle").inputValue(), "");
 });
 
-test("keeps a locked height while saturation moves", {skip}, async () => {
+test("keeps a locked height while saturation moves", async () => {
   await set("Height in mm", 3);
   await untilHeight(3, 0.01);
   const first = await picture();
@@ -159,7 +158,7 @@ test("keeps a locked height while saturation moves", {skip}, async () => {
   await untilHeight(3, 0.01);
 });
 
-test("lets the height follow when it is not locked", {skip}, async () => {
+test("lets the height follow when it is not locked", async () => {
   await button("Lock the height").click();
   await set("Fine detail value", 0.3);
   await picture();
@@ -167,7 +166,7 @@ test("lets the height follow when it is not locked", {skip}, async () => {
   assert.ok(Math.abs((await value("Height in mm")) - (await heightShown())) < 0.01);
 });
 
-test("undoes and redoes, step by step", {skip}, async () => {
+test("undoes and redoes, step by step", async () => {
   const last = await picture();
   await page.keyboard.press("Escape");
   await undo(2);
@@ -182,7 +181,7 @@ test("undoes and redoes, step by step", {skip}, async () => {
   await becomesSame(before);
 });
 
-test("shapes the tone curve with presets and keys", {skip}, async () => {
+test("shapes the tone curve with presets and keys", async () => {
   const first = await picture();
   await preset().selectOption("Bold edges first");
   await becomesOther(first);
@@ -196,7 +195,7 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
   await untilHeight(3, 0.01);
 });
 
-test("has sliders, defaults and units of the engine's options", {skip}, async () => {
+test("has sliders, defaults and units of the engine's options", async () => {
   const {fields, first, options} = await page.evaluate(async () => {
     const from = (name) => import(new URL(name, location));
     const [{FIELDS}, {FIRST}, {about}] = await Promise.all([from("fields.js"), from("document.js"), from("about.js")]);
@@ -222,7 +221,7 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
   }
 });
 
-test("names what it reads and offers each outline, form and format of the engine, added ones too", {skip}, async () => {
+test("names what it reads and offers each outline, form and format of the engine, added ones too", async () => {
   const added = await page.context().newPage();
   await added.route("**/api/about", async (route) => {
     const response = await route.fetch(), json = await response.json();
@@ -250,7 +249,7 @@ test("names what it reads and offers each outline, form and format of the engine
 const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAttribute("d")).split(/[ML]/).slice(1)
   .map((place) => 1 - Number(place.split(" ")[1]) / 150);
 
-test("draws the curve that the engine has sampled", {skip}, async () => {
+test("draws the curve that the engine has sampled", async () => {
   let sampled = null;
   const listen = (response) => {
     const text = response.url().endsWith("api/frame") && response.headers()["x-relievo"];
@@ -270,7 +269,7 @@ test("draws the curve that the engine has sampled", {skip}, async () => {
   await untilHeight(3, 0.01);
 });
 
-test("changes the method, and its own rim with it, and no other", {skip}, async () => {
+test("changes the method, and its own rim with it, and no other", async () => {
   const rim = page.getByRole("slider", {name: "Soft outline"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
@@ -287,7 +286,7 @@ test("changes the method, and its own rim with it, and no other", {skip}, async 
   await becomesSame(first);
 });
 
-test("turns, lights, cuts and compares", {skip}, async () => {
+test("turns, lights, cuts and compares", async () => {
   const change = async (act) => {
     const before = await picture();
     await act();
@@ -339,7 +338,7 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   await change(() => button("Light from: Raking, above").click());
 });
 
-test("turns the model by hand, shows its relief meanwhile, and undoes the view", {skip}, async () => {
+test("turns the model by hand, shows its relief meanwhile, and undoes the view", async () => {
   const first = await picture();
   const viewIs = (name) => page.locator("#view-name").getByText(name, {exact: true}).waitFor();
   await radio("Turn").click();
@@ -376,7 +375,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await radio("Light").click();
 });
 
-test("chooses another view in the background", {skip}, async () => {
+test("chooses another view in the background", async () => {
   const first = await picture();
   await show("Left");
   await becomesOther(first);
@@ -389,7 +388,7 @@ test("chooses another view in the background", {skip}, async () => {
   await untilReady(page);
 });
 
-test("saves a project, opens it again, and makes the same bytes of it", {skip}, async () => {
+test("saves a project, opens it again, and makes the same bytes of it", async () => {
   await set("Height in mm", 2.5);
   await untilHeight(2.5, 0.01);
   const shown = await picture(), file = path.join(folder, "work.relievo"), made = path.join(folder, "make.stl");
@@ -424,7 +423,7 @@ function hasSizeTold(told, {length}) {
   assert.ok(share > low && share < high, `${told} for ${length} bytes`);
 }
 
-test("exports several files at once, named for their form", {skip}, async () => {
+test("exports several files at once, named for their form", async () => {
   await page.locator("#form").selectOption("mirror");
   await untilReady(page);
   await openExport();
@@ -444,7 +443,7 @@ test("exports several files at once, named for their form", {skip}, async () => 
   await untilReady(page);
 });
 
-test("can be used by the keyboard alone", {skip}, async () => {
+test("can be used by the keyboard alone", async () => {
   await page.locator("#home").focus();
   const missed = () => page.evaluate(() => [...document.querySelectorAll(
     "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
@@ -470,7 +469,7 @@ test("can be used by the keyboard alone", {skip}, async () => {
   await page.keyboard.press("Escape");
 });
 
-test("moves nothing by itself where motion is to be reduced", {skip}, async (context) => {
+test("moves nothing by itself where motion is to be reduced", async (context) => {
   const longest = () => page.evaluate(() => Math.max(...[...document.querySelectorAll("*")].map((element) =>
     parseFloat(getComputedStyle(element).transitionDuration))));
   assert.ok((await longest()) > 0);
@@ -481,7 +480,7 @@ test("moves nothing by itself where motion is to be reduced", {skip}, async (con
   await page.emulateMedia({reducedMotion: "no-preference"});
 });
 
-test("says in plain words what is wrong with a file", {skip}, async () => {
+test("says in plain words what is wrong with a file", async () => {
   const wrong = path.join(folder, "wrong.ply");
   writeFileSync(wrong, "ply\nformat ascii 1.0\nelement vertex 3\n");
   await openFile(wrong);
@@ -495,7 +494,7 @@ test("says in plain words what is wrong with a file", {skip}, async () => {
   complaints.length = 0;
 });
 
-test("cancels", {skip}, async () => {
+test("cancels", async () => {
   await button("Relievo, start page").click();
   await page.getByRole("button", {name: /still life/i}).first().click();
   await button("Cancel").click();
@@ -504,7 +503,7 @@ test("cancels", {skip}, async () => {
   assert.equal(await value("Height in mm"), 2.5);
 });
 
-test("shows whole names, the top of the help and the whole first picture on a phone", {skip}, async () => {
+test("shows whole names, the top of the help and the whole first picture on a phone", async () => {
   await page.setViewportSize(PHONE);
   await untilReady(page);
   await button("Relievo, start page").click();
@@ -529,7 +528,7 @@ test("shows whole names, the top of the help and the whole first picture on a ph
   await page.setViewportSize(DESK);
 });
 
-test("takes two fingers for a closer look, which move nothing else", {skip}, async (context) => {
+test("takes two fingers for a closer look, which move nothing else", async (context) => {
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
   const {touched: tablet, send, fingers, close} = await touchScreen(TABLET), plate = () => plateLength(tablet);
   await radio("Measure", tablet).click();
@@ -547,4 +546,4 @@ test("takes two fingers for a closer look, which move nothing else", {skip}, asy
   await close();
 });
 
-test("complains about nothing", {skip}, () => assert.deepEqual(complaints, []));
+test("complains about nothing", () => assert.deepEqual(complaints, []));

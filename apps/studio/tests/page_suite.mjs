@@ -1,7 +1,8 @@
 // The page of a suite in a browser, and what a hand does there, found by role and label.
 import assert from "node:assert/strict";
+import {rmSync} from "node:fs";
 import path from "node:path";
-import {after, before} from "node:test";
+import {after, before, test as plainTest} from "node:test";
 import {EngineProcess, enter, eventually, findBrowser, openPanels, readStl, savedFiles, showScan, temporaryFolder,
   untilReady, writeSample} from "./support.mjs";
 
@@ -10,18 +11,34 @@ export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), s
 export const DESK = {width: 1280, height: 800}, TABLET = {width: 820, height: 1180}, PHONE = {width: 390, height: 844};
 export let browser, engine, page;
 
+let beginSuite; // starts the browser and what else a suite needs
+
 // Gives the suite a browser. `begin` does what else comes before the tests, and may return the page that they share.
 export function withBrowser(begin) {
-  before(async () => {
-    if (skip) return;
+  beginSuite = async () => {
     browser = await found.launch();
     page = await begin();
-  });
-  after(async () => {
-    await browser?.close();
-    await engine?.stop();
-  });
+  };
+  before(() => skip || beginSuite());
+  after(endSuite);
 }
+
+async function endSuite() {
+  await browser?.close();
+  await engine?.stop();
+}
+
+// A test of the page. After one that fails, the suite begins anew, so that the next one finds what it expects.
+export const test = (name, act) => plainTest(name, {skip}, async (context) => {
+  try {
+    await act(context);
+  } catch (error) {
+    await endSuite();
+    rmSync(state, {recursive: true, force: true});
+    await beginSuite();
+    throw error;
+  }
+});
 
 // Gives the suite a page that shows a scan, of so many points of a sample, with all panels open.
 export function withPage(sample, points, begin = () => {}) {

@@ -1,16 +1,15 @@
 // The page for whoever has a low screen, large type, forced colours or a finger: what is on it can be seen and reached,
 // and moves by nothing else than what is meant to move it.
 import assert from "node:assert/strict";
-import {test} from "node:test";
-import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, skip, slider, touchScreen, undo, undoAll,
-  withPage} from "./page_suite.mjs";
+import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, slider, test, touchScreen, undo,
+  undoAll, withPage} from "./page_suite.mjs";
 import {eventually, openPanels, untilReady} from "./support.mjs";
 
 const ZOOMED = {width: 640, height: 400};
 
 withPage("shell", 6000, () => button("Dismiss").click()); // the offer of the tour
 
-test("moves the divider of the comparison by its line, and nothing else", {skip}, async () => {
+test("moves the divider of the comparison by its line, and nothing else", async () => {
   const compare = button("Compare");
   await compare.click();
   const {x, y, width, height: high} = await page.locator("#stage").boundingBox();
@@ -44,7 +43,7 @@ const colour = async (locator, right, down) => {
 };
 const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
 
-test("tells in forced colours what is pressed, which material is which, and where sliders run", {skip}, async (context) => {
+test("tells in forced colours what is pressed, which material is which, and where sliders run", async (context) => {
   if (found.name !== "chromium") return context.skip("only Chromium takes a wish for forced colours");
   try {
     for (const colorScheme of ["light", "dark"]) {
@@ -70,7 +69,7 @@ test("tells in forced colours what is pressed, which material is which, and wher
   }
 });
 
-test("leaves the picture room at a zoom of 200 %", {skip}, async () => {
+test("leaves the picture room at a zoom of 200 %", async () => {
   await page.setViewportSize(ZOOMED);
   const {width, height} = await page.locator("#stage").boundingBox();
   assert.ok(width >= 300 && height >= 300, `${width} x ${height}`);
@@ -87,8 +86,7 @@ test("leaves the picture room at a zoom of 200 %", {skip}, async () => {
   await untilReady(page);
 });
 
-test("scrolls the panel by a swipe that begins on a slider, which only a sideways drag or a tap moves", {skip},
-  async (context) => {
+test("scrolls the panel by a swipe that begins on a slider, which only a sideways drag or a tap moves", async (context) => {
     if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
     const {touched: phone, send, close} = await touchScreen(PHONE, true), inspector = phone.locator(".inspector");
     const undone = button("Undo", phone), height = () => field("Height in mm", phone).inputValue();
@@ -131,8 +129,7 @@ test("scrolls the panel by a swipe that begins on a slider, which only a sideway
     await close();
   });
 
-test("puts names, numbers and sliders in one order, curves within their box, and no dot before the first number", {skip},
-  async () => {
+test("puts names, numbers and sliders in one order, curves within their box, and no dot before the first number", async () => {
     const [name, value, range] = await Promise.all([page.getByText("Denoise", {exact: true}),
       page.locator("#denoise-value"), page.locator("#denoise")].map((it) => it.boundingBox()));
     assert.ok(name.x + name.width < value.x && range.y >= name.y + name.height - 3 && range.width > 200);
@@ -176,7 +173,7 @@ function covered() {
     }).map((it) => it.outerHTML.slice(0, 80));
 }
 
-test("lays a line for people on no control and not on the picture, wherever one has worked", {skip}, async () => {
+test("lays a line for people on no control and not on the picture, wherever one has worked", async () => {
   const say = () => page.evaluate(async () => (await import(new URL("messages.js", location)))
     .toast("A scan of a long name.ply is not found at /home/somebody/models/a scan of a long name.ply.", true));
   const dismiss = button("Dismiss");

@@ -1,7 +1,6 @@
 // Each state of the page fits each screen, has all its controls within reach, and no findings of axe.
 import assert from "node:assert/strict";
-import {test} from "node:test";
-import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, startEngine,
+import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, startEngine, test,
   withBrowser} from "./page_suite.mjs";
 import {STATES, showScene} from "./states.mjs";
 import {openPanels, untilReady, writeScans} from "./support.mjs";
@@ -129,7 +128,7 @@ const hasNoFindings = (state) => state.test("has no findings of axe", {skip: !pr
   }
 });
 
-test("fits every screen before the first scan", {skip}, async (state) => {
+test("fits every screen before the first scan", async (state) => {
   await assertFits();
   await hasNoFindings(state);
   await page.locator("#file").setInputFiles(scans[0]);
@@ -139,7 +138,7 @@ test("fits every screen before the first scan", {skip}, async (state) => {
   await button("Dismiss").click();
 });
 
-test("leaves the picture room on a phone", {skip}, async () => {
+test("leaves the picture room on a phone", async () => {
   await page.setViewportSize(PHONE);
   const {width, height} = await page.locator("#stage").boundingBox();
   assert.ok(width === PHONE.width && height > 330, `${width} x ${height}`);
@@ -147,7 +146,7 @@ test("leaves the picture room on a phone", {skip}, async () => {
 });
 
 for (const [name, {enter, leave, part}] of Object.entries(STATES))
-  test(`fits every screen: ${name}`, {skip}, async (state) => {
+  test(`fits every screen: ${name}`, async (state) => {
     try {
       await enter(page);
       await assertFits(part);
@@ -159,7 +158,7 @@ for (const [name, {enter, leave, part}] of Object.entries(STATES))
     }
   });
 
-test("fits every screen: a scene", {skip}, async (state) => {
+test("fits every screen: a scene", async (state) => {
   await showScene(page, scans);
   // A line says for eight seconds that work is kept.
   await page.locator("#toast").evaluate((toast) => toast.hidden || toast.querySelector(".close").click());

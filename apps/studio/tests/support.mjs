@@ -13,7 +13,7 @@ const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no
   "--disable-background-networking", "--disable-component-update"];
 
 // All waits end when what they wait for comes. This is how long it may take on a machine that is busy with other work.
-export const PATIENCE_MS = 240000;
+export const PATIENCE_MS = Number(process.env.RELIEVO_PATIENCE_MS ?? 240000);
 
 const folders = [];
 const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true, maxRetries: 5});
@@ -256,12 +256,15 @@ function without(missing) {
   return {skip};
 }
 
-// Gives all pages of a browser their patience.
+// Gives all pages of a browser their patience, and an engine that is as slow as the environment asks for: a test that
+// does not wait for what it tells of fails then, as it would on a busy machine.
 function patient(browser) {
-  const newContext = browser.newContext.bind(browser);
+  const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
+  const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed
   browser.newContext = async (options) => {
     const context = await newContext(options);
     context.setDefaultTimeout(PATIENCE_MS);
+    if (delayMs > 0) await context.route(/\/api\//, later);
     return context;
   };
   return browser;

@@ -2,9 +2,8 @@
 import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {test} from "node:test";
-import {browser, button, chooseView, engine, exported, field, folder, found, middleOf, openFile, preset, scan, skip,
-  slider, startEngine, state, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
+import {browser, button, chooseView, engine, exported, field, folder, found, middleOf, openFile, preset, scan, slider,
+  startEngine, state, test, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
 import {EngineProcess, enter, eventually, openPanels, savedFiles, untilListening, untilReady,
   writeSample} from "./support.mjs";
 
@@ -34,7 +33,7 @@ async function newTab() {
   return tab;
 }
 
-test("works in nine tabs at once, whichever has the stream of events", {skip}, async () => {
+test("works in nine tabs at once, whichever has the stream of events", async () => {
   const tabs = [];
   for (let i = 0; i < 9; ++i) tabs.push(await newTab());
   for (const closed of [0, 4]) await tabs[closed].close(); // the first has the stream
@@ -73,7 +72,7 @@ const untilTold = (of, tabs) => eventually(async () => {
       status?.document === document && status.kept.changed === changed), [document, kept.changed]));
 });
 
-test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
+test("shows two scans in two tabs, and mixes up nothing", async () => {
   const [tab, other] = [await newTab(), await newTab()];
   await setHeight(tab, "3.25");
   await openScan(other, "shell");
@@ -92,7 +91,7 @@ test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
   for (const each of [tab, other]) await each.close();
 });
 
-test("comes back to each scan as it was left, with curve, view and steps, and shows recent ones", {skip}, async () => {
+test("comes back to each scan as it was left, with curve, view and steps, and shows recent ones", async () => {
   const tab = await newTab(), {document} = await engine.json("document", {input: {path: scan}});
   await tab.goto(`${engine.address}#${document}`);
   await tab.reload();
@@ -131,7 +130,7 @@ test("comes back to each scan as it was left, with curve, view and steps, and sh
   await tab.close();
 });
 
-test("is one document in two tabs", {skip}, async () => {
+test("is one document in two tabs", async () => {
   const [tab, other] = [await newTab(), await newTab()], before = await height(tab).inputValue();
   await setHeight(tab, "4.5");
   await untilHeight(other, "4.50");
@@ -153,7 +152,7 @@ test("is one document in two tabs", {skip}, async () => {
   for (const each of [tab, other]) await each.close();
 });
 
-test("loses nothing when the engine is killed in a drag, and finds the next one by itself", {skip}, async () => {
+test("loses nothing when the engine is killed in a drag, and finds the next one by itself", async () => {
   const tab = await newTab(), [x, y] = await middleOf(slider("Height", tab));
   await tab.mouse.move(x, y);
   await tab.mouse.down();
@@ -176,7 +175,7 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await tab.close();
 });
 
-test("shows what another page kept later, and says so where a change of its own is lost", {skip}, async () => {
+test("shows what another page kept later, and says so where a change of its own is lost", async () => {
   const tab = await newTab(), {document, kept} = await engine.json("document", {input: {path: scan}});
   const keep = async (mm, later) => {
     kept.steps[kept.at].options.height = mm;
@@ -197,7 +196,7 @@ test("shows what another page kept later, and says so where a change of its own 
   await tab.close();
 });
 
-test("shows the newer work that it finds with the next engine, and says so", {skip}, async () => {
+test("shows the newer work that it finds with the next engine, and says so", async () => {
   const tab = await newTab(), {document, kept} = await engine.json("document", {input: {path: scan}});
   await engine.stop("SIGKILL");
   await toast(tab).getByText(/engine has stopped/).waitFor();
@@ -211,7 +210,7 @@ test("shows the newer work that it finds with the next engine, and says so", {sk
   await tab.close();
 });
 
-test("opens a project saved with its scan in another studio, where the scan is not", {skip}, async () => {
+test("opens a project saved with its scan in another studio, where the scan is not", async () => {
   const tab = await newTab(), moved = path.join(folder, "moved.ply"), project = path.join(folder, "work.relievo");
   await button("Save project", tab).click();
   await tab.getByRole("radio", {name: /^With the scan/}).check();
@@ -231,7 +230,7 @@ test("opens a project saved with its scan in another studio, where the scan is n
   renameSync(moved, scan);
 });
 
-test("asks for a scan that has moved, takes no other for it unasked, and goes on with it", {skip}, async () => {
+test("asks for a scan that has moved, takes no other for it unasked, and goes on with it", async () => {
   await engine.stop(); // it may have ended by itself, as no page was there for a while
   await startEngine(scan);
   const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
@@ -274,7 +273,7 @@ const choose = (tab, file) => tab.locator("#file").setInputFiles(file);
 const startPage = (tab) => button("Relievo, start page", tab).click();
 const shelf = (tab) => tab.getByRole("list", {name: "Go on with"});
 
-test("goes on opening a scan after a reload, and with one that cannot be kept", {skip}, async () => {
+test("goes on opening a scan after a reload, and with one that cannot be kept", async () => {
   const place = path.join(folder, "reloads"), large = path.join(folder, "large.ply");
   writeSample("green_man", 150000, large);
   const other = await new EngineProcess(place).ready(), tab = await context.newPage();
@@ -304,7 +303,7 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
   await other.stop();
 });
 
-test("removes what is kept, also what it shows", {skip}, async () => {
+test("removes what is kept, also what it shows", async () => {
   const other = await new EngineProcess(path.join(folder, "removes")).ready(), tab = await context.newPage();
   await tab.goto(other.address);
   await untilListening(tab);
