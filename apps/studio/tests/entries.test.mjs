@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
-  radio as kind, scan, skip, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
+  radio as kind, scan, skip, soon, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
 import {enter, eventually, openPanels, readStl, savedFiles, type, untilReady, writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
@@ -45,12 +45,12 @@ test("exports a size that was typed just before", async () => {
   await enter(option("diameter"), "25");
   await page.keyboard.press("Control+e");
   await dialog().getByText("Waiting for what was entered").waitFor();
-  assert.ok(await dialog().getByRole("button", {name: "Export"}).isDisabled());
+  await soon.ok(() => dialog().getByRole("button", {name: "Export"}).isDisabled());
   await waits("Trying Diameter …");
   await release();
   const [file] = await files();
   assert.deepEqual([file.name, ...sizeOf(file.bytes).slice(0, 2)], ["scan-coin.stl", "25.00", "25.00"]);
-  assert.equal(await value("diameter"), "25");
+  await soon.equal(() => value("diameter"), "25");
   await free();
 });
 
@@ -65,7 +65,7 @@ for (const [how, press] of Object.entries({
     await type(option("height"), "1.25"); // a slider's number
     await press();
     await page.locator("#export-size").getByText(/triangles$/).waitFor();
-    assert.match(await page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
+    await soon.match(() => page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
     await page.keyboard.press("Escape");
     await free();
   });
@@ -76,9 +76,9 @@ test("exports what arrow keys have stepped to", async () => {
   await option("rim").press("ArrowUp");
   await page.keyboard.press("Control+e");
   await files();
-  assert.equal(await value("rim"), "3.1");
+  await soon.equal(() => value("rim"), "3.1");
   await undo();
-  assert.equal(await value("rim"), "3");
+  await soon.equal(() => value("rim"), "3");
   await free();
 });
 
@@ -105,18 +105,18 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   await enter(option("plate"), "abc");
   await enter(option("rim"), "2");
   await waits("Trying Plate size, Longer side, Rim width …");
-  assert.deepEqual([await value("plate"), await value("width"), await value("rim")], ["abc", "90.0", "2"]);
+  const plateWidthAndRim = () => Promise.all(["plate", "width", "rim"].map(value));
+  await soon.deepEqual(plateWidthAndRim, ["abc", "90.0", "2"]);
   await release();
   await page.getByText(/^Plate size: expected/).waitFor(); // the next one is taken all the same
-  await eventually(async () =>
-    assert.deepEqual([await value("plate"), await value("width"), await value("rim")], ["200x150", "90.0", "2"]));
+  await soon.deepEqual(plateWidthAndRim, ["200x150", "90.0", "2"]);
   await undo();
-  assert.equal(await value("rim"), "");
+  await soon.equal(() => value("rim"), "");
   await undo();
   await untilReady(page);
-  assert.ok(Number(await value("width")) > 120, "as large as fits");
+  await soon.ok(async () => Number(await value("width")) > 120, "as large as fits");
   await undo();
-  assert.deepEqual([await value("plate"), await value("width")], ["", longer]);
+  await soon.deepEqual(async () => [await value("plate"), await value("width")], ["", longer]);
   await free();
 });
 
@@ -125,14 +125,14 @@ test("takes a kind, and what is typed for it, after the entries before", async (
   await enter(option("plate"), "140x110");
   await kind("Coin").click();
   await waits("Trying Plate size, Coin …");
-  assert.equal(await value("plate"), "140x110");
+  await soon.equal(() => value("plate"), "140x110");
   await release();
   await page.getByText("The size of the plate stays with Plaque, and comes back with it.").waitFor();
-  assert.ok(await kind("Coin").isChecked());
+  await soon.ok(() => kind("Coin").isChecked());
   await kind("Plaque").click();
-  assert.equal(await value("plate"), "140x110");
+  await soon.equal(() => value("plate"), "140x110");
   await kind("Lithophane").click(); // whose plate begins with that size
-  assert.equal(await value("plate"), "140x110");
+  await soon.equal(() => value("plate"), "140x110");
   await free();
 });
 
@@ -143,13 +143,13 @@ test("takes back the newest entry that is waiting, and redoes nothing over it", 
   await hold();
   await enter(option("plate"), "150x120");
   await enter(option("rim"), "1");
-  assert.ok(await button("Redo").isDisabled());
+  await soon.ok(() => button("Redo").isDisabled());
   await page.keyboard.press("Control+Shift+Z");
   await undo();
-  assert.equal(await value("rim"), rim);
+  await soon.equal(() => value("rim"), rim);
   await release();
   await untilTold(/piece 150\.00 × 120\.00/);
-  assert.deepEqual([await value("rim"), await value("height")], [rim, "5.00"]);
+  await soon.deepEqual(async () => [await value("rim"), await value("height")], [rim, "5.00"]);
   await free();
 });
 
@@ -160,10 +160,10 @@ test("goes on with what is being typed while the panel of another kind comes", a
   await type(option("thickness"), "2.");
   await release();
   await page.getByRole("heading", {name: "Coin", exact: true}).waitFor();
-  assert.ok(await kind("Coin").isChecked());
+  await soon.ok(() => kind("Coin").isChecked());
   await page.keyboard.type("75");
   await page.keyboard.press("Enter");
-  assert.equal(await value("thickness"), "2.75");
+  await soon.equal(() => value("thickness"), "2.75");
   await page.locator("#kind-rows").getByLabel("Rim width").waitFor(); // the panel follows
   await free();
 });
@@ -189,7 +189,7 @@ test("gives what was typed to the scan that it was typed for, when another one i
   await release();
   await page.getByText("other.ply", {exact: true}).waitFor();
   await untilReady(page);
-  assert.equal(await value("plate"), "");
+  await soon.equal(() => value("plate"), "");
   await page.locator("#file").setInputFiles(scan);
   await page.locator("#title").getByText("scan.ply", {exact: true}).waitFor();
   await untilReady(page);
@@ -205,7 +205,7 @@ test("waits with an export for a view that is being prepared", async () => {
   await page.keyboard.press("Control+e");
   const [{bytes}] = await files();
   assert.ok(readStl(bytes).isClosed);
-  assert.equal(await value("crop"), "0,0,0.5,1");
+  await soon.equal(() => value("crop"), "0,0,0.5,1");
   await undo();
   await untilReady(page);
 });

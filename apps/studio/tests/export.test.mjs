@@ -1,6 +1,6 @@
 // How far an export has come, and that nothing of it goes on once it is cancelled, in Chromium or Firefox.
 import assert from "node:assert/strict";
-import {button, engine, exportDialog as dialog, page, set, test, withPage} from "./page_suite.mjs";
+import {button, engine, exportDialog as dialog, page, set, soon, test, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 withPage("still_life", 8000, async () => {
@@ -67,7 +67,7 @@ test("exports nothing whose piece cannot be made, and says why", async () => {
   await page.route("**/api/piece", refuse);
   await open();
   await dialog().getByText("Rim bevel: expected 1 mm").waitFor();
-  assert.ok(await dialog().getByRole("button", {name: "Export", exact: true}).isDisabled());
+  await soon.ok(() => dialog().getByRole("button", {name: "Export", exact: true}).isDisabled());
   await cancel();
   await page.unroute("**/api/piece", refuse);
 });

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, chooseView, drag, engine, exportDialog, field, folder, found, labelled, middleOf, openExport,
-  page, preset, press, radio, scan, set, slider, test, text, toast, undo, undoAll, untilText, untilTold,
+  page, preset, press, radio, scan, set, slider, soon, test, text, toast, undo, undoAll, untilTaken, untilText, untilTold,
   withPage} from "./page_suite.mjs";
 import {enter, eventually, ignoreTimers, savedFiles, type, untilReady, untilTimersRan,
   writeSample} from "./support.mjs";
@@ -22,11 +22,11 @@ test("steps by round numbers with arrow keys", async () => {
     assert.equal((await next(value, direction, isFine, least)).toFixed(6), wanted.toFixed(6), `${value} ${direction}`);
   await set("Height in mm", 4);
   await slider("Height").press("ArrowRight");
-  assert.equal(await text("Height in mm"), "4.10");
+  await soon.equal(() => text("Height in mm"), "4.10");
   await field("Height in mm").press("Shift+ArrowDown");
-  assert.equal(await text("Height in mm"), "4.09");
+  await soon.equal(() => text("Height in mm"), "4.09");
   await slider("Steepest wall").press("ArrowLeft");
-  assert.equal(await text("Steepest wall in degrees"), "75");
+  await soon.equal(() => text("Steepest wall in degrees"), "75");
   await slider("Steepest wall").press("ArrowRight");
 });
 
@@ -34,12 +34,12 @@ test("steps by round numbers with arrow keys", async () => {
 async function takesDragBack(locator, value, [dx, dy]) {
   const before = await value(), [x, y] = await middleOf(locator);
   await press([x, y], [x + dx, y + dy]);
-  assert.notEqual(await value(), before);
+  await soon.notEqual(() => value(), before);
   await page.keyboard.press("Escape");
-  assert.equal(await value(), before);
+  await soon.equal(() => value(), before);
   await page.mouse.move(x + 2 * dx, y + 2 * dy, {steps: 4});
   await page.mouse.up();
-  assert.equal(await value(), before);
+  await soon.equal(() => value(), before);
 }
 
 test("takes back with Escape what is typed or dragged, and undoes in fields", async () => {
@@ -47,15 +47,15 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", as
   await set("Height in mm", 5);
   await type(field("Height in mm"), "17");
   await field("Height in mm").press("Escape");
-  assert.equal(await text("Height in mm"), "5.00");
+  await soon.equal(() => text("Height in mm"), "5.00");
   await field("Height in mm").press("Control+z");
-  assert.equal(await text("Height in mm"), "4.00");
+  await soon.equal(() => text("Height in mm"), "4.00");
   await field("Height in mm").press("Control+Shift+Z");
-  assert.equal(await text("Height in mm"), "5.00");
+  await soon.equal(() => text("Height in mm"), "5.00");
 
   await takesDragBack(slider("Fine detail"), () => text("Fine detail value"), [-40, 0]);
   await undo();
-  assert.equal(await text("Height in mm"), "4.00");
+  await soon.equal(() => text("Height in mm"), "4.00");
 });
 
 test("undoes what a field of the plate has taken, but not while something is typed", async () => {
@@ -79,15 +79,15 @@ test("undoes what a field of the plate has taken, but not while something is typ
 test("keeps the controls of a rim with it, and takes it off a piece without an outline", async () => {
   const isFirst = async () => (await page.locator("#kind-rows").getByLabel("Rim width").count()) > 0;
   await radio("Coin").click();
-  assert.ok(await isFirst());
+  await soon.ok(() => isFirst());
   await labelled("Outline").selectOption("Rectangle");
   await page.getByRole("radio", {name: "Plaque", checked: true}).waitFor();
-  assert.ok(await isFirst());
+  await soon.ok(() => isFirst());
   await labelled("Outline").selectOption("None");
   await untilText(labelled("Rim width"), "");
-  assert.equal(await labelled("Outline").inputValue(), "none");
+  await soon.equal(() => labelled("Outline").inputValue(), "none");
   await undo(3);
-  assert.ok(!(await isFirst()));
+  await soon.ok(async () => !(await isFirst()));
 });
 
 test("keeps the figure's size on another plate, as long as it fits", async () => {
@@ -95,24 +95,24 @@ test("keeps the figure's size on another plate, as long as it fits", async () =>
   const longer = async () => Number(await text("Longer side in mm"));
   await enter(plate, "20cm x 150");
   await untilPiece("200.00 × 150.00");
-  assert.ok((await longer()) > 120, "as large as fits");
+  await soon.ok(async () => (await longer()) > 120, "as large as fits");
   await set("Longer side in mm", 64);
   await enter(plate, "200x151");
   await untilPiece("200.00 × 151.00");
-  assert.equal(await longer(), 64);
+  await soon.equal(() => longer(), 64);
   await enter(plate, "60x50");
   await page.getByText("The figure was too large for its plate: now it is as large as fits.").waitFor();
   await untilPiece("60.00 × 50.00");
-  assert.ok((await longer()) < 50);
+  await soon.ok(async () => (await longer()) < 50);
   await enter(shift, "45,0"); // farther than half of the plate
   await page.getByText("The plate has no room for the figure there: it stays where it is.").waitFor();
-  assert.equal(await shift.inputValue(), "");
+  await soon.equal(() => shift.inputValue(), "");
   await undo(2);
   await untilPiece("200.00 × 151.00");
   await enter(shift, "60,0");
   await enter(plate, "100x80"); // whose edge is nearer than that
   await page.getByText("The plate has no room for the figure there: it is in the middle again.").waitFor();
-  assert.deepEqual([await shift.inputValue(), await longer()], ["", 64]);
+  await soon.deepEqual(async () => [await shift.inputValue(), await longer()], ["", 64]);
   await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
@@ -121,11 +121,11 @@ test("takes letters as keys again after Enter, and goes on with Tab from the fie
   await type(field("Height in mm"), "4");
   await page.keyboard.press("Enter");
   await page.keyboard.press("m");
-  assert.ok(await radio("Measure").isChecked());
+  await soon.ok(() => radio("Measure").isChecked());
   await page.keyboard.press("l");
   await page.keyboard.press("Shift+Tab");
   await page.keyboard.press("Tab");
-  assert.equal(await focused(), "height");
+  await soon.equal(() => focused(), "height");
 });
 
 test("takes back what no piece can be made of", async () => {
@@ -133,12 +133,12 @@ test("takes back what no piece can be made of", async () => {
   const diameter = page.getByLabel("Bent around: Diameter");
   await enter(diameter, "1");
   await page.getByText(/^Bent around: expected a diameter of at least/).waitFor();
-  assert.equal(await diameter.inputValue(), "");
-  assert.ok(await toast().isVisible());
+  await soon.equal(() => diameter.inputValue(), "");
+  await soon.ok(() => toast().isVisible());
   await enter(diameter, "200");
   await toast().waitFor({state: "hidden"});
   await undo(2);
-  assert.ok(await radio("Plaque").isChecked());
+  await soon.ok(() => radio("Plaque").isChecked());
 });
 
 test("says why an entry is refused until the next one is taken, even one that changes nothing", async () => {
@@ -153,16 +153,17 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await enter(page.locator("#crop"), "abc");
   await refused("Crop: expected left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8, found 'abc'");
   await untilReady(page);
-  assert.ok(await toast().isVisible());
+  await soon.ok(() => toast().isVisible());
   await enter(option("Margin in mm"), "6");
   await untilGone();
   await enter(page.locator("#crop"), "0,0,0.001,0.001"); // which keeps nothing
   await refused("expected");
   await untilText(page.locator("#crop"), "");
-  assert.ok(await toast().isVisible());
+  await soon.ok(() => toast().isVisible());
   await enter(option("Margin in mm"), "5");
   await untilGone();
   await option("Outline").selectOption("hexagon");
+  await untilTaken(); // no figure is moved before
   await radio("Place").click();
   await page.locator("#stage").click();
   await refused("Give the plate a size first: then the figure can be moved on it.");
@@ -195,8 +196,8 @@ test("says without a break that a figure is dragged beyond its plate", async () 
     await page.mouse.move(middle[0] + 0.4 * width + i, middle[1]);
     await untilTimersRan(page, 50);
   }
-  assert.ok(await toast().isVisible());
-  assert.equal(await page.evaluate(() => window.hidden), 0);
+  await soon.ok(() => toast().isVisible());
+  await soon.equal(() => page.evaluate(() => window.hidden), 0);
   await page.mouse.up();
   await choose("Light");
   await undoAll(page, async () => !await shift.inputValue() && (await text(longer)) === before);
@@ -211,21 +212,21 @@ test("knows what a draft angle allows, and exports no piece that cannot be made"
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e");
   await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
-  assert.ok(await dialog.getByText(`relief ${reached} high,`).isVisible());
-  assert.ok(await button("Export", dialog).isEnabled());
+  await soon.ok(() => dialog.getByText(`relief ${reached} high,`).isVisible());
+  await soon.ok(() => button("Export", dialog).isEnabled());
   await button("Cancel", dialog).click();
   const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // leans enough for the height that is reached
   await enter(option("Rim width"), (bevel + 1).toFixed(2));
   await enter(option("Rim bevel"), bevel.toFixed(2));
   await untilReady(page);
-  assert.equal(Number(await option("Rim bevel").inputValue()), Number(bevel.toFixed(2)));
+  await soon.equal(async () => Number(await option("Rim bevel").inputValue()), Number(bevel.toFixed(2)));
   await undo();
   await enter(option("Rim bevel"), "0.3");
   await page.getByText(/^Rim bevel: expected at least [\d.]+ mm, so that the rim of/).waitFor();
-  assert.equal(await option("Rim bevel").inputValue(), "");
+  await soon.equal(() => option("Rim bevel").inputValue(), "");
   await button("Drop the draft angle").click();
   await reach().getByText("draft angle").waitFor({state: "hidden"});
-  assert.equal(await option("Draft angle").inputValue(), "");
+  await soon.equal(() => option("Draft angle").inputValue(), "");
   await undo(4);
 });
 
@@ -238,12 +239,12 @@ test("steps numbers of the plate by arrow keys", async () => {
   };
   await eventually(async () => assert.equal((await kept())[1], 3));
   await rim.press("ArrowUp");
-  assert.equal(await rim.inputValue(), "3.1");
+  await soon.equal(() => rim.inputValue(), "3.1");
   await rim.press("Shift+ArrowDown");
-  assert.equal(await rim.inputValue(), "3.09");
+  await soon.equal(() => rim.inputValue(), "3.09");
   await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // in one step, when the keys rest
   await undo();
-  assert.equal(await rim.inputValue(), "3");
+  await soon.equal(() => rim.inputValue(), "3");
   await undo();
 });
 
@@ -255,7 +256,7 @@ test("takes back with Escape what a point of the curve is dragged to, and draws 
   const [x, y] = await middleOf(point);
   await takesDragBack(point, value, [0, -25]);
   await drag([x, y], [x, y - 20]);
-  assert.notEqual(await value(), before, "the next drag counts again");
+  await soon.notEqual(() => value(), before, "the next drag counts again");
   await preset().selectOption("As Edge emphasis says");
 });
 
@@ -266,30 +267,30 @@ test("adds a point to the tone curve by a double click, which Delete removes", a
   await curve.dblclick({position: at});
   if (found.name === "firefox") // see doubleClick()
     await curve.dispatchEvent("dblclick", {clientX: x + at.x, clientY: y + at.y});
-  assert.equal(await count(), before + 1);
-  assert.equal(await page.evaluate(() => getSelection().toString()), "");
+  await soon.equal(() => count(), before + 1);
+  await soon.equal(() => page.evaluate(() => getSelection().toString()), "");
   await page.keyboard.press("Delete");
-  assert.equal(await count(), before);
+  await soon.equal(() => count(), before);
   await undo(2);
 });
 
 test("shows and takes inches, and keeps millimetres", async () => {
   await set("Longer side in mm", 101.6);
   await page.getByRole("combobox", {name: "Unit of lengths"}).selectOption("inch");
-  assert.equal(await text("Longer side in inches"), "4.000");
+  await soon.equal(() => text("Longer side in inches"), "4.000");
   await set("Longer side in inches", "2 1/2".replace(" ", "+"));
   await set("Height in inches", "1/8");
-  assert.equal(await text("Height in inches"), "0.125");
+  await soon.equal(() => text("Height in inches"), "0.125");
   await page.getByText(/points.*height 0\.125 in/).waitFor();
   await field("Height in inches").press("ArrowUp");
-  assert.equal(await text("Height in inches"), "0.130");
+  await soon.equal(() => text("Height in inches"), "0.130");
   await set("Height in inches", "4mm");
-  assert.equal(await text("Height in inches"), "0.157");
+  await soon.equal(() => text("Height in inches"), "0.157");
   await page.reload();
   await page.getByText(/points.*height/).waitFor();
   await page.getByRole("combobox", {name: "Unit of lengths"}).selectOption("mm");
-  assert.equal(await text("Longer side in mm"), "63.5");
-  assert.equal(await text("Height in mm"), "4.00");
+  await soon.equal(() => text("Longer side in mm"), "63.5");
+  await soon.equal(() => text("Height in mm"), "4.00");
 });
 
 test("exports when Enter is pressed", async () => {
@@ -330,10 +331,10 @@ async function toldSizes() {
 
 test("tells the same height and thickness everywhere", async () => {
   await set("Height in mm", 3.175);
-  assert.equal(await text("Height in mm"), "3.175");
+  await soon.equal(() => text("Height in mm"), "3.175");
   await untilTold(/height 3\.175 mm/);
-  assert.equal(await text("Plate thickness in mm"), "3.0"); // below the relief
-  assert.deepEqual(await toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
+  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // below the relief
+  await soon.deepEqual(() => toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
   await radio("Measure").click();
   await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
   await radio("Light").click();
@@ -355,14 +356,14 @@ test("marks the height that can be reached, and loosens what limits it", async (
   await eventually(async () => assert.ok((limited = await reachable()) < most, `${limited} of ${most}`));
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
   await reach().getByText(/The steepest wall keeps the height at [\d.]+ mm/).waitFor();
-  assert.equal(await field("Height in mm").getAttribute("aria-invalid"), "true");
+  await soon.equal(() => field("Height in mm").getAttribute("aria-invalid"), "true");
   const reached = (await reach().innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
   await exportDialog().getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
   await button("Cancel", exportDialog()).click();
   await button("Allow steeper walls").click();
-  assert.equal(await text("Steepest wall in degrees"), "85");
+  await soon.equal(() => text("Steepest wall in degrees"), "85");
   await untilReady(page);
   await eventually(async () => assert.ok((await reachable()) > most, `${await reachable()} of ${most}`));
 });
@@ -375,7 +376,7 @@ test("marks the height that the view reaches which is shown", async () => {
     await chooseView(view);
     await eventually(async () => {
       await untilReady(page);
-      assert.equal((await marked()) === front, view === "Front");
+      await soon.equal(async () => (await marked()) === front, view === "Front");
     });
   }
 });
@@ -387,7 +388,7 @@ test("says what a plate leaves to who types a longer side than that", async () =
   await set("Longer side in mm", 30);
   await set("Longer side in mm", 90);
   await page.getByText(/^The plate leaves [\d.]+ mm for the longer side: the figure is as large as that\.$/).waitFor();
-  assert.ok(Number(await text("Longer side in mm")) < 50);
+  await soon.ok(async () => Number(await text("Longer side in mm")) < 50);
   await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
@@ -396,7 +397,7 @@ test("names the tone curve and the view where they limit the height, and loosens
   await set("Height in mm", 2000);
   await reach().getByText(/^The tone curve keeps the height at [\d.]+ mm\./).waitFor();
   await button("Drop the tone curve").click();
-  assert.equal(await preset().inputValue(), "");
+  await soon.equal(() => preset().inputValue(), "");
   await reach().getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
   await button("Choose view", reach()).click();
   await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
@@ -438,7 +439,7 @@ test("shows no mark of the piece before while another scan opens", async () => {
   await page.route("**/api/open", (route) => (open = () => route.continue()));
   await page.locator("#file").setInputFiles(other);
   await page.getByText("other.ply", {exact: true}).waitFor();
-  assert.equal(await marks(), 0);
+  await soon.equal(() => marks(), 0);
   await page.locator("#stage").click({position: {x: 30, y: 30}}); // there is nothing to move yet
   await page.mouse.wheel(0, 100);
   await page.locator("#stage").press("ArrowLeft");

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
 import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, numbers, openFile, option, page,
-  pieceSize, press, radio, skip, slider, startEngine, test, text, toast, undo, undoAll, untilText, untilTold,
+  pieceSize, press, radio, skip, slider, soon, startEngine, test, text, toast, undo, undoAll, untilText, untilTold,
   visiblePoints as points, withBrowser} from "./page_suite.mjs";
 import {randomNumbers} from "./random_entries.mjs";
 import {EngineProcess, areKindsDrawn, enter, eventually, holdRequests, ignoreTimers, openPanels, run, untilListening,
@@ -58,7 +58,7 @@ test("leads through five steps, once by itself and then from the help", async ()
   await tour.waitFor({state: "hidden"});
   await page.reload();
   await untilReady(page);
-  assert.ok(!await button("Show me").isVisible());
+  await soon.ok(async () => !await button("Show me").isVisible());
 });
 
 test("leads back to the relief for the tour, and says that it needs one", async () => {
@@ -89,7 +89,7 @@ test("takes no click before its program has begun, and none is lost", async () =
   });
   const isHit = () => other.evaluate(({x, y, width, height}) =>
     document.querySelector("#help").contains(document.elementFromPoint(x + width / 2, y + height / 2)), box);
-  assert.equal(await isHit(), false);
+  await soon.equal(() => isHit(), false);
   const clicked = button("Help", other).click(); // waits until the button takes clicks
   begin();
   await clicked;
@@ -107,12 +107,12 @@ test("shows nothing of the document on the start page, and changes nothing there
   await page.getByRole("heading", {name: "From scan to bas-relief"}).waitFor();
   assert.deepEqual(await shown(), []);
   for (const key of ["z", "e", "s"]) await page.keyboard.press(`Control+${key}`);
-  assert.equal(await page.locator("dialog[open]").count(), 0);
+  await soon.equal(() => page.locator("dialog[open]").count(), 0);
   await button("Back to the relief").click();
   assert.deepEqual(await shown(), parts);
-  assert.ok(await bronze.isChecked());
+  await soon.ok(() => bronze.isChecked());
   await undo();
-  assert.ok(!await bronze.isChecked());
+  await soon.ok(async () => !await bronze.isChecked());
 });
 
 test("offers the tour no longer to whoever begins to work", async () => {
@@ -122,7 +122,7 @@ test("offers the tour no longer to whoever begins to work", async () => {
   const offered = button("Show me", other);
   await offered.waitFor();
   await untilReady(other);
-  assert.ok(await offered.isVisible());
+  await soon.ok(() => offered.isVisible());
   await radio("Bronze", other).click();
   await offered.waitFor({state: "hidden"});
   await undo(1, other);
@@ -138,7 +138,7 @@ test("shows the kinds of work before the exact relief is there", async () => {
   await untilListening(other);
   await other.locator("#file").setInputFiles(large);
   await other.getByText("large.ply", {exact: true}).waitFor();
-  assert.equal(await other.locator("#kinds svg:visible, #kinds [data-drawn]").count(), 6, "none is blank");
+  await soon.equal(() => other.locator("#kinds svg:visible, #kinds [data-drawn]").count(), 6, "none is blank");
   await other.waitForFunction(() => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
     canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0));
   letGo();
@@ -173,25 +173,25 @@ test("shows this scan as each kind of work", async () => {
 test("sets size and material with a kind, and takes all of it back at once", async () => {
   await kind("Coin").click();
   await untilTold(/height 1\.60 mm.*piece 40\.00 × 40\.00/);
-  assert.ok(await radio("Struck silver").isChecked());
+  await soon.ok(() => radio("Struck silver").isChecked());
   await kind("Seal").click(); // of the same diameter
   await untilTold(/height 1\.20 mm/);
-  assert.ok(await radio("Bronze").isChecked());
+  await soon.ok(() => radio("Bronze").isChecked());
   await kind("Lithophane").click();
   await untilTold(/height 2\.40 mm/);
-  assert.ok(await slider("Fine detail").isDisabled(), "depths alone make a lithophane");
+  await soon.ok(() => slider("Fine detail").isDisabled(), "depths alone make a lithophane");
   await undo(3);
   await untilTold(/height 5\.00 mm/);
-  assert.ok(await kind("Plaque").isChecked());
-  assert.ok(await slider("Fine detail").isEnabled());
+  await soon.ok(() => kind("Plaque").isChecked());
+  await soon.ok(() => slider("Fine detail").isEnabled());
 });
 
 test("names a kind by its form, whatever its material", async () => {
   await radio("Walnut").click();
-  assert.ok(await kind("Plaque").isChecked());
+  await soon.ok(() => kind("Plaque").isChecked());
   await kind("Carving").click();
   await radio("Bronze").click();
-  assert.ok(await kind("Carving").isChecked());
+  await soon.ok(() => kind("Carving").isChecked());
   await undo(3);
 });
 
@@ -205,16 +205,16 @@ test("brings a kind back as it was left", async () => {
   await untilTold(/piece 30\.00 × 30\.00/);
   await option("outline").selectOption("ellipse"); // which no diameter fits
   for (const name of ["Seal", "Coin"]) await choose(name);
-  assert.ok(!await toast().isVisible(), "the piece can be made");
-  assert.equal(await option("outline").inputValue(), "ellipse");
+  await soon.ok(async () => !await toast().isVisible(), "the piece can be made");
+  await soon.equal(() => option("outline").inputValue(), "ellipse");
   await undo(7);
-  assert.ok(await kind("Plaque").isChecked());
+  await soon.ok(() => kind("Plaque").isChecked());
 });
 
 test("says what the eye sees, and the paper's symbol in the tip", async () => {
   for (const [name, symbol] of [["Fine detail", "γ"], ["Edge emphasis", "β"]])
-    assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
-  assert.match(await page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
+    await soon.match(() => page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
+  await soon.match(() => page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
   const tip = await page.getByText("Plate thickness", {exact: true}).getAttribute("title");
   assert.equal(tip, "Smallest thickness of the plate, without the relief");
 });
@@ -244,19 +244,19 @@ test("shows first, with each kind, the controls that matter for it", async () =>
   await outline.selectOption("hexagon"); // a medal of another outline is one still
   await answered;
   await page.locator('#kind-rows [aria-busy="true"]').waitFor({state: "detached"}); // the page has taken it
-  assert.equal(await outline.inputValue(), "hexagon");
-  assert.ok(await kind("Coin").isChecked());
+  await soon.equal(() => outline.inputValue(), "hexagon");
+  await soon.ok(() => kind("Coin").isChecked());
   const untilKind = (name) => page.getByRole("radio", {name, exact: true, checked: true}).waitFor();
   await outline.selectOption({label: "Round corners"});
   await untilKind("Plaque");
   await outline.focus();
   await outline.selectOption("circle"); // whose control moves into another panel
   await untilKind("Coin");
-  assert.equal(await page.evaluate(() => document.activeElement.id), "outline");
+  await soon.equal(() => page.evaluate(() => document.activeElement.id), "outline");
   assert.deepEqual(await shown(), PANELS.Coin);
   await undoAll();
   await untilReady(page);
-  assert.ok(await kind("Plaque").isChecked());
+  await soon.ok(() => kind("Plaque").isChecked());
 });
 
 test("offers what can be done about the scan, and cuts it", async () => {
@@ -264,7 +264,7 @@ test("offers what can be done about the scan, and cuts it", async () => {
   await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.getByText(/^Removed noise of [\d.]+ sampling distances\./).waitFor();
   const noise = page.locator("#denoise");
-  assert.ok(Number(await noise.inputValue()) > 0);
+  await soon.ok(async () => Number(await noise.inputValue()) > 0);
   await button("Keep the noise").click();
   await untilText(noise, "0");
   await untilReady(page);
@@ -273,10 +273,10 @@ test("offers what can be done about the scan, and cuts it", async () => {
   const bottom = slider("Cut away: Bottom");
   await bottom.fill("40");
   await eventually(async () => assert.ok((await points()) < 0.85 * before, `${await points()} of ${before}`));
-  assert.equal(await page.locator("#crop").inputValue(), "0,0.4,1,1");
+  await soon.equal(() => page.locator("#crop").inputValue(), "0,0.4,1,1");
   await undo();
   await eventually(async () => assert.equal(await points(), before));
-  assert.equal(await bottom.inputValue(), "0");
+  await soon.equal(() => bottom.inputValue(), "0");
 });
 
 test("crops the scan by a frame on the picture", async () => {
@@ -314,7 +314,7 @@ test("crops the scan by a frame on the picture", async () => {
   await radio("Crop").click();
   await button("Whole scan").click();
   await eventually(async () => assert.equal(await points(), before));
-  assert.equal(await page.locator("#crop").inputValue(), "");
+  await soon.equal(() => page.locator("#crop").inputValue(), "");
   await button("Done").click();
   await undo(6);
   await untilReady(page);
@@ -337,12 +337,12 @@ test("colours on the piece what a tool leaves standing", async () => {
   await page.locator("#stage").focus();
   for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
   await untilReady(page);
-  assert.ok((await orange()) > marked / 2);
+  await soon.ok(async () => (await orange()) > marked / 2);
   await page.locator("#finish").selectOption("reachable");
   await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
   await undo(3);
   await untilReady(page);
-  assert.ok((await orange()) < before + 500);
+  await soon.ok(async () => (await orange()) < before + 500);
   await button("Fit").click();
 });
 
@@ -359,12 +359,12 @@ test("moves, scales and turns the figure on its plate by hand", async () => {
   await untilReady(page);
   const [right, up] = await shift();
   assert.ok(right > 2 && up > 1, `${right},${up}`);
-  assert.deepEqual(await pieceSize(), before, "the plate stays as large as it was");
-  assert.equal(await page.locator("#toast").getByText(/expected/).count(), 0);
+  await soon.deepEqual(() => pieceSize(), before, "the plate stays as large as it was");
+  await soon.equal(() => page.locator("#toast").getByText(/expected/).count(), 0);
   const kept = await longer(); // too far for it: it stays on the plate, as large as it is
   await drag([x + 30, y - 20], ...[100, 200, 300, 400].map((across) => [x + across, y - 20]));
   await untilReady(page);
-  assert.equal(await longer(), kept);
+  await soon.equal(() => longer(), kept);
   const [farthest] = await shift();
   assert.ok(farthest >= right && farthest + kept / 2 <= before[0] / 2, `${farthest} on ${before}`);
   await page.keyboard.down("Shift");
@@ -390,12 +390,12 @@ test("puts several files side by side, and turns, scales and removes them", asyn
     const [x, y] = await pieceSize();
     assert.ok(x / y < 0.95 * across / up, `${x} × ${y} after ${across} × ${up}`);
   });
-  assert.equal(await page.getByLabel("Size (%) of ammonite.ply").inputValue(), "50");
-  assert.equal(await text("Height in mm"), "5.00");
+  await soon.equal(() => page.getByLabel("Size (%) of ammonite.ply").inputValue(), "50");
+  await soon.equal(() => text("Height in mm"), "5.00");
   await button("Remove urn.ply").click();
   await page.getByText("ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
-  assert.equal(await page.locator("#scene li").count(), 1);
+  await soon.equal(() => page.locator("#scene li").count(), 1);
   await engine.stop(); // the scans of a scene stay as long as it does
   await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
@@ -418,7 +418,7 @@ test("takes what is changed while a scan is still opening", async () => {
   await other.locator("#file").setInputFiles(scans[1]);
   await other.getByText("ammonite.ply", {exact: true}).waitFor();
   await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
-  assert.ok(await button("Choose view", other).isDisabled(), "there is no model yet");
+  await soon.ok(() => button("Choose view", other).isDisabled(), "there is no model yet");
   await openPanels(other);
   await enter(other.locator("#crop"), "0,0.4,1,1");
   await enter(field("Height in mm", other), "2.5");
@@ -426,7 +426,7 @@ test("takes what is changed while a scan is still opening", async () => {
   await other.evaluate(() => window.letOpen());
   await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
   await untilReady(other);
-  assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
+  await soon.equal(() => other.locator("#crop").inputValue(), "0,0.4,1,1");
   const part = await points(other);
   await enter(other.locator("#crop"), "");
   await eventually(async () => assert.ok((await points(other)) > 1.2 * part, `${await points(other)} after ${part}`));
@@ -456,12 +456,12 @@ test("keeps the view that was asked for last when the one before it arrives late
   });
   await eventually(async () => assert.ok((await points(other)) < whole)); // the first has arrived
   const part = await points(other);
-  assert.equal(await crop.inputValue(), "0,0.1,1,1");
-  assert.ok(await other.locator('[role="application"][aria-busy="true"]').isVisible());
+  await soon.equal(() => crop.inputValue(), "0,0.1,1,1");
+  await soon.ok(() => other.locator('[role="application"][aria-busy="true"]').isVisible());
   letGo();
   await untilReady(other);
-  assert.equal(await crop.inputValue(), "0,0.1,1,1");
-  assert.ok((await points(other)) > part);
+  await soon.equal(() => crop.inputValue(), "0,0.1,1,1");
+  await soon.ok(async () => (await points(other)) > part);
   await other.close();
 });
 
@@ -513,11 +513,11 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
   await untilWide(1.15, 1.25); // from -1 to 1.465 radii, of a margin of a tenth
-  assert.ok(await crumbs.isChecked());
+  await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();
   await untilWide(0.97, 1.03);
-  assert.ok(!await crumbs.isChecked());
+  await soon.ok(async () => !await crumbs.isChecked());
 });
 
 // Writes a picture of depths, which has 16 bits in grey, as a TIFF.
@@ -541,14 +541,14 @@ test("tells what is taken out of a depth image as background, and advises nothin
   await page.getByText("depth.tif", {exact: true}).waitFor();
   await untilReady(page);
   const found = page.locator("#offers li", {hasText: /background/});
-  assert.match(await found.innerText(), /^120 x 90 depths, .*\d+ points of background taken out/);
+  await soon.match(() => found.innerText(), /^120 x 90 depths, .*\d+ points of background taken out/);
   await button("Hide what was found").click();
   await found.waitFor({state: "hidden"});
   await page.locator("#file").setInputFiles(colours);
   const said = toast().getByText(/colours\.png/);
   await said.waitFor();
-  assert.match(await said.innerText(), /Save it as a picture in greys/);
-  assert.doesNotMatch(await said.innerText(), /option|depth-values/);
+  await soon.match(() => said.innerText(), /Save it as a picture in greys/);
+  await soon.doesNotMatch(() => said.innerText(), /option|depth-values/);
   await untilReady(page);
 });
 
@@ -566,11 +566,11 @@ test("finds a table, and leaves it out at the press of a button", async () => {
     assert.ok(Math.abs(left - (1 - share)) < 0.06, `${left} left of a table of ${share}`);
   });
   await untilReady(page);
-  assert.ok(!await page.locator("#plane").isChecked());
+  await soon.ok(async () => !await page.locator("#plane").isChecked());
   await offered("Keep it").click();
   await note(/^Found a table/).waitFor();
   await eventually(async () => assert.equal(await points(), before));
-  assert.equal(await note(/fills its whole frame/).count(), 0);
+  await soon.equal(() => note(/fills its whole frame/).count(), 0);
 });
 
 // Writes the points of a waving surface as a glTF file with its buffer beside it, and returns both files.

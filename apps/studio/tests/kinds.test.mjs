@@ -1,7 +1,7 @@
 // Kinds of work: their numbers are those of their files, and what each takes along.
 import assert from "node:assert/strict";
-import {chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, test, undo,
-  undoAll, untilText, withPage} from "./page_suite.mjs";
+import {choose, chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, soon,
+  test, undo, undoAll, untilTaken, untilText, withPage} from "./page_suite.mjs";
 import {enter, eventually, readStl, untilReady} from "./support.mjs";
 
 withPage("green_man", 5000, async () => {
@@ -11,17 +11,6 @@ withPage("green_man", 5000, async () => {
 });
 
 const sizeIn = (text) => text.match(/[\d.]+ × [\d.]+ × [\d.]+/)[0].split(" × ");
-
-// Waits until nothing is tried, and the piece is shown as its file will be.
-async function untilTaken() {
-  await page.waitForFunction(() => !document.querySelector('[aria-busy="true"]'));
-  await untilReady(page);
-}
-
-async function choose(name) {
-  await radio(name).click();
-  await untilTaken();
-}
 
 async function set(values) {
   for (const [name, text] of Object.entries(values)) await enter(option(name), text);
@@ -60,7 +49,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await untilReady(page);
   const die = await exported();
   await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // all but the form
-  assert.equal((await kept()).form, "die");
+  await soon.equal(async () => (await kept()).form, "die");
   assert.deepEqual([coin.name, die.name], ["scan-coin.stl", "scan-die.stl"]);
   await page.getByText(`The die itself is ${die.told.join(" × ")} mm.`).waitFor();
   assert.deepEqual(die.told, die.size);
@@ -68,7 +57,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   const [relief, hollow] = [await profile("relief"), (await profile("die")).reverse()];
   const inner = relief.flatMap((z, i) => (i > 30 && i < 370 ? [Math.abs(z + hollow[i])] : []));
   assert.ok(inner.filter((gap) => gap < 0.02).length > 0.97 * inner.length, `${Math.max(...inner)}`);
-  assert.ok(await radio("Coin").isChecked() && !(await radio("Seal").isChecked()));
+  await soon.ok(async () => await radio("Coin").isChecked() && !(await radio("Seal").isChecked()));
   await undo();
   await page.getByRole("heading", {name: "Coin", exact: true}).waitFor();
   await eventually(async () => assert.deepEqual(await kept(), before));
@@ -76,7 +65,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await page.getByRole("button", {name: "Back to the coin"}).click();
   await eventually(async () => assert.deepEqual(await kept(), before));
   await undo(8);
-  assert.ok(await radio("Plaque").isChecked());
+  await soon.ok(() => radio("Plaque").isChecked());
 });
 
 // Returns the options of a document that the engine needs for heights.
@@ -86,9 +75,9 @@ const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness,
 test("says in its hint what a seal is, and begins one of its own beside the die of a coin", async () => {
   assert.match(await radio("Seal").getAttribute("title"), /^Seal: a hollow of its own .* that piece's panel: 30 mm across/);
   await choose("Coin");
-  assert.match(await radio("Coin").getAttribute("title"), /40 mm across, 1.6 mm high$/);
+  await soon.match(() => radio("Coin").getAttribute("title"), /40 mm across, 1.6 mm high$/);
   await set({diameter: "33"});
-  assert.match(await radio("Coin").getAttribute("title"), /33 mm across, 1.6 mm high$/);
+  await soon.match(() => radio("Coin").getAttribute("title"), /33 mm across, 1.6 mm high$/);
   await page.getByRole("button", {name: "Make the die of this coin"}).click();
   await page.getByRole("heading", {name: "Die of the coin"}).waitFor();
   await choose("Seal");
@@ -105,7 +94,7 @@ test("uses no tool for a lithophane, and has it again for a coin", async () => {
   await option("finish").selectOption("Reachable");
   await choose("Lithophane");
   await page.getByText(/^The tool reaches/).waitFor({state: "hidden"});
-  assert.ok(!(await option("tool").isVisible()) && !(await option("finish").isVisible()));
+  await soon.ok(async () => !(await option("tool").isVisible()) && !(await option("finish").isVisible()));
   const asked = [];
   await page.route("**/api/export", (route) => {
     asked.push(route.request().postDataJSON().options);
@@ -117,7 +106,8 @@ test("uses no tool for a lithophane, and has it again for a coin", async () => {
   assert.deepEqual([asked[0].form, asked[0].tool, asked[0].finish], ["lithophane", undefined, undefined]);
   await choose("Coin");
   await page.getByText(/^The tool reaches/).waitFor();
-  assert.deepEqual([await option("tool").inputValue(), await option("finish").inputValue()], ["ball", "reachable"]);
+  await untilText(option("tool"), "ball");
+  await untilText(option("finish"), "reachable");
   await undo(5);
   await untilReady(page);
 });

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, browser, button, engine, folder, found, page, scan, startEngine, test, toast, undo, undoAll, untilText,
-  withBrowser} from "./page_suite.mjs";
+import {DESK, browser, button, engine, folder, found, page, scan, soon, startEngine, test, toast, undo, undoAll,
+  untilText, withBrowser} from "./page_suite.mjs";
 import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeSample} from "./support.mjs";
 
 let options;
@@ -86,7 +86,7 @@ const reaches = (check) => eventually(async () => {
 test("has a control for each option of the table", async () => {
   const names = options.map(({name}) => name);
   assert.deepEqual([...names].sort(), Object.keys(CASES).sort(), "an option is missing in this test");
-  for (const name of names) assert.equal(await control(name).count(), 1, `the page has no control of ${name}`);
+  for (const name of names) await soon.equal(() => control(name).count(), 1, `the page has no control of ${name}`);
   const beyond = await page.locator("label [data-option]").evaluateAll((all) => all.filter((input) =>
     input.getBoundingClientRect().right > input.closest("label").getBoundingClientRect().right + 0.5)
     .map((input) => input.dataset.option));
@@ -104,7 +104,7 @@ for (const [name, {value, first = {}, kind}] of cases)
       await set(other, set_to);
       await reaches((frame) => frame.options[other] === set_to);
     }
-    assert.notEqual((await sent()).options[name], value);
+    await soon.notEqual(async () => (await sent()).options[name], value);
     await set(name, value);
     if (name === "alpha") await reaches((frame) => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
     else if (name === "tone") await reaches((frame) => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
@@ -131,7 +131,7 @@ test("has a field for each parameter of each shape that the engine takes", async
 test("shows the parameters of shapes as they were typed, in the unit of the page", async () => {
   const field = (label) => page.getByRole("textbox", {name: label, exact: true});
   await control("tool").selectOption({label: "V bit"});
-  assert.equal(await field("Tool: Angle").inputValue(), "60");
+  await soon.equal(() => field("Tool: Angle").inputValue(), "60");
   await enter(field("Tool: Tip"), "0.5");
   await reaches(({options}) => options.tool === "v:60:0.5");
   await enter(field("Tool: Angle"), ""); // which a bit cannot do without
@@ -141,7 +141,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await reaches(({options}) => options.tool === "ball:3.175");
   await enter(field("Tool: Diameter"), "wide");
   await page.getByText(/^Diameter: expected a number from/).waitFor();
-  assert.equal(await field("Tool: Diameter").inputValue(), "3.175");
+  await soon.equal(() => field("Tool: Diameter").inputValue(), "3.175");
   await control("tool").selectOption({label: "None"});
   await reaches(({options}) => !("tool" in options));
   await undo();
@@ -149,7 +149,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await untilText(field("Tool: Diameter"), "0.125");
   await page.locator("#unit").selectOption("mm");
   await page.locator('[data-kind="shell"]').click();
-  assert.equal(await field("Bent around: Around by").inputValue(), "180");
+  await soon.equal(() => field("Bent around: Around by").inputValue(), "180");
   await enter(field("Bent around: Diameter"), "200"); // in place of the angle
   await reaches(({options}) => options.wrap === "cylinder:diameter=200");
   await page.getByLabel("Bent around: On the inside").check();
@@ -184,7 +184,7 @@ const baseImage = () => page.locator("label, div").filter({has: control("base-im
 test("lays the relief on an image that is chosen or dropped, names it and removes it", async () => {
   const files = ["map.png", "map.tif"].map((name) => path.join(folder, name));
   makeMaps(...files);
-  assert.equal(await control("base-image").count(), 1);
+  await soon.equal(() => control("base-image").count(), 1);
   await baseImage().locator("input").setInputFiles(files[0]);
   await reaches(({options: {base, "base-image": map}}) => base === "image" && map?.endsWith("/map.png"));
   await baseImage().getByText("map.png").waitFor();
@@ -200,7 +200,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
 
   await baseImage().locator("input").setInputFiles(scan); // no image: refused, and nothing changes
   await page.getByText("expected a PNG or TIFF picture of depths").waitFor();
-  assert.match((await sent()).options["base-image"], /map\.tif$/);
+  await soon.match(async () => (await sent()).options["base-image"], /map\.tif$/);
   await baseImage().getByRole("button", {name: "Remove the base image"}).click();
   await reaches(({options}) => !("base" in options) && !("base-image" in options));
   await undo();
@@ -241,7 +241,7 @@ test("opens a project whose light is as far as numbers go", async () => {
   await page.locator("#stage").press("ArrowUp");
   await reaches(({light}) => Math.abs(Math.hypot(...light) - 1) < 1e-3 && light[2] > Math.sin(38 * Math.PI / 180));
   await untilReady(page);
-  assert.ok(!await toast().getByText(/expected/).isVisible());
+  await soon.ok(async () => !await toast().getByText(/expected/).isVisible());
 });
 
 test("shows a relief without its base image when that is gone, says so, and takes another", async () => {

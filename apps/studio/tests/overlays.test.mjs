@@ -1,7 +1,7 @@
 // What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
-  plateLength, press, radio, scan, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
+  plateLength, press, radio, scan, soon, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 const SCREENS = [DESK, TABLET, PHONE];
@@ -18,14 +18,14 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await offer();
   await button("Locate it").focus();
   await page.keyboard.press("Tab");
-  assert.equal(await page.evaluate(() => document.activeElement.ariaLabel), "Dismiss");
+  await soon.equal(() => page.evaluate(() => document.activeElement.ariaLabel), "Dismiss");
   await page.keyboard.press("Enter");
   await toast().waitFor({state: "hidden"});
   await offer();
   await button("Locate it").click();
   await toast().getByText("Located.").waitFor();
   await page.evaluate(() => window.takeBack()); // no other line goes with the offer
-  assert.ok(await toast().isVisible());
+  await soon.ok(() => toast().isVisible());
   await button("Dismiss").click();
 });
 
@@ -101,7 +101,7 @@ test("draws no more pixels on a large screen than the engine makes", async () =>
   await untilReady(screen);
   const {width, height} = await screen.locator("#picture").evaluate(({width, height}) => ({width, height}));
   assert.ok(width * height > 6e6 && width * height <= 8e6, `${width} x ${height}`);
-  assert.equal(await screen.getByRole("alert").filter({hasText: /million/}).count(), 0);
+  await soon.equal(() => screen.getByRole("alert").filter({hasText: /million/}).count(), 0);
   await large.close();
 });
 
@@ -163,7 +163,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
       await untilReady(page);
       const off = (await edgesOff()).sort((a, b) => a - b); // a quarter with sloping walls or the rim may have others
       assert.ok(off[2] <= 2, `${kind}: ${off}`);
-      if (kind === "coin") assert.deepEqual(await plateOpacity(), [255, 255, 255, 255, 0, 0, 0, 0]);
+      if (kind === "coin") await soon.deepEqual(() => plateOpacity(), [255, 255, 255, 255, 0, 0, 0, 0]);
     });
   }
   await page.locator("#stage").press("Escape");
@@ -188,13 +188,13 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", async 
   await palm("touchStart", [{x: x + 30, y: y + 30, id: 5}]);
   await palm("touchEnd", []);
   await pen("mouseMoved", middle[0] + 80, middle[1] - 50);
-  assert.equal(await tablet.evaluate(() => window.pointer), "pen");
+  await soon.equal(() => tablet.evaluate(() => window.pointer), "pen");
   const [sunX, sunY] = await sun();
   assert.ok(Math.hypot(sunX - width / 2 - 80, sunY - height / 2 + 50) < 2, `${sunX} ${sunY}`);
   await pen("mouseReleased", middle[0] + 80, middle[1] - 50, {buttons: 0});
-  assert.equal(await tablet.locator("#overlay .sun").count(), 0);
+  await soon.equal(() => tablet.locator("#overlay .sun").count(), 0);
   await undo(1, tablet);
-  assert.ok(await button("Undo", tablet).isDisabled(), "one stroke is one step");
+  await soon.ok(() => button("Undo", tablet).isDisabled(), "one stroke is one step");
   await radio("Crop", tablet).click();
   const frame = tablet.locator("#crop-frame .frame"), whole = await frame.boundingBox();
   await pen("mousePressed", whole.x + whole.width, whole.y + whole.height / 2);
@@ -218,7 +218,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await undoAll(phone);
   await radio("Place", phone).click();
   await phone.getByText("One finger moves the figure, two scale and turn it").waitFor();
-  assert.ok(!await phone.getByText("Drag the figure").isVisible());
+  await soon.ok(async () => !await phone.getByText("Drag the figure").isVisible());
   await untilReady(phone);
   const plate = () => plateLength(phone), step = async () => {
     const {steps, at} = await engine.kept({path: scan});
@@ -240,11 +240,11 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await untilReady(phone);
   const scaled = await step();
   assert.deepEqual([scaled.view, scaled.up, scaled.at], ["front", "", before.at + 1]);
-  assert.ok(Math.abs(await plate() - wide) < 2, "the plate and the picture stay as they are");
+  await soon.ok(async () => Math.abs(await plate() - wide) < 2, "the plate and the picture stay as they are");
   await undo(1, phone);
   await eventually(async () => assert.equal((await step()).at, before.at));
   await untilReady(phone);
-  assert.equal(Number(await longer.inputValue()), whole);
+  await soon.equal(async () => Number(await longer.inputValue()), whole);
   await pinch(40);
   await phone.locator("#overlay").getByText("40° to the left", {exact: true}).waitFor();
   await send("touchEnd", []);
@@ -271,9 +271,9 @@ test("tells frames in a second while things move, and not at rest", async () => 
   await press([x, y]);
   await eventually(async () => {
     for (let i = 0; i < 40; ++i) await page.mouse.move(x + 2 * i, y - 50 + i);
-    assert.ok(await page.evaluate(() => window.told.some((text) => /\d frames\/s/.test(text))));
+    await soon.ok(() => page.evaluate(() => window.told.some((text) => /\d frames\/s/.test(text))));
   });
   await page.mouse.up();
   await untilReady(page);
-  assert.doesNotMatch(await numbers.textContent(), /frames\/s/);
+  await soon.doesNotMatch(() => numbers.textContent(), /frames\/s/);
 });

@@ -4,7 +4,7 @@ import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {DESK, PHONE, TABLET, browser, button, chooseView, drag, engine, exportDialog, exportFiles, exported, field,
   folder, found, middleOf, numbers, openExport, openFile, page, plateLength, preset, press, radio, scan, set, slider,
-  startEngine, test, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
+  soon, startEngine, test, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
 import {doubleClick, enter, eventually, openPanels, run, savedFiles, type, untilListening, untilReady,
   writeSample} from "./support.mjs";
 
@@ -84,7 +84,7 @@ test("opens a sample and shows its progress, and a coarse relief until the exact
   await page.getByRole("list", {name: "Try a sample"}).getByRole("button", {name: /green man/i}).click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor();
   await untilReady(page);
-  assert.match(await numbers().innerText(), /[\d,]+ of 300,000 points/);
+  await soon.match(() => numbers().innerText(), /[\d,]+ of 300,000 points/);
   assert.equal((await areExact)[0], false);
 });
 
@@ -99,7 +99,7 @@ test("opens a scan of the browser", async () => {
 test("drags the height: number and picture change", async () => {
   const start = await value("Height in mm"), first = await picture();
   await pressKey(slider("Height"), "ArrowRight", 10);
-  assert.ok((await value("Height in mm")) > start);
+  await soon.ok(async () => (await value("Height in mm")) > start);
   await untilHeight(await value("Height in mm"), 0.01);
   await becomesOther(first);
 });
@@ -111,17 +111,17 @@ test("moves a slider that has the focus by wheel, and any by double click", asyn
   const scrolled = await panel.evaluate((element) => element.scrollTop);
   await page.mouse.wheel(0, -100);
   await eventually(async () => assert.ok((await panel.evaluate((element) => element.scrollTop)) < scrolled));
-  assert.equal(await value("Steepest wall in degrees"), 76);
+  await soon.equal(() => value("Steepest wall in degrees"), 76);
   await slider("Steepest wall").focus();
   await slider("Steepest wall").hover();
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
   await eventually(async () => { // again if the machine is so slow that these were two clicks
     await doubleClick(slider("Steepest wall"));
-    assert.equal(await value("Steepest wall in degrees"), 76);
+    await soon.equal(() => value("Steepest wall in degrees"), 76);
   });
   await set("Height in mm", "nonsense");
-  assert.equal(await value("Height in mm"), height);
+  await soon.equal(() => value("Height in mm"), height);
 });
 
 test("takes numbers as people type them, and refuses others in one line", async () => {
@@ -129,31 +129,31 @@ test("takes numbers as people type them, and refuses others in one line", async 
     ["3+0.5", "3.5"], ["12 mm", "12.0"], ["1cm", "10.0"]];
   for (const [entered, shown] of typed) {
     await set("Longer side in mm", entered);
-    assert.equal(await text("Longer side in mm"), shown, entered);
+    await soon.equal(() => text("Longer side in mm"), shown, entered);
   }
   for (const entered of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
     await set("Longer side in mm", entered);
     await toast().getByText(`Longer side: expected a number from 0.1 to 100000 mm, such as`).waitFor();
-    assert.ok((await toast().innerText()).endsWith(`found '${entered}'.`), entered);
-    assert.equal(await text("Longer side in mm"), "10.0");
+    await soon.ok(() => toast().innerText()).endsWith(`found '${entered}'.`, entered);
+    await soon.equal(() => text("Longer side in mm"), "10.0");
   }
   await set("Edge emphasis value", "1mm");
   await toast().getByText("Edge emphasis: expected a number from 0 to 100, such as").waitFor();
   await field("Longer side in mm").press("ArrowUp");
-  assert.ok((await value("Longer side in mm")) > 10);
+  await soon.ok(async () => (await value("Longer side in mm")) > 10);
   await set("Longer side in mm", width);
   await enter(page.getByLabel("Draft angle"), "15 degrees");
   await toast().getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
-  assert.equal(await page.getByLabel("Draft angle").inputValue(), "");
+  await soon.equal(() => page.getByLabel("Draft angle").inputValue(), "");
 });
 
 test("keeps a locked height while saturation moves", async () => {
   await set("Height in mm", 3);
   await untilHeight(3, 0.01);
   const first = await picture();
-  assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
+  await soon.equal(() => button("Lock the height").getAttribute("aria-pressed"), "true");
   await pressKey(slider("Edge emphasis"), "ArrowRight", 30);
-  assert.ok((await value("Edge emphasis value")) > 0.1);
+  await soon.ok(async () => (await value("Edge emphasis value")) > 0.1);
   await becomesOther(first);
   await untilHeight(3, 0.01);
 });
@@ -162,21 +162,21 @@ test("lets the height follow when it is not locked", async () => {
   await button("Lock the height").click();
   await set("Fine detail value", 0.3);
   await picture();
-  assert.ok(Math.abs((await heightShown()) - 3) > 0.05);
-  assert.ok(Math.abs((await value("Height in mm")) - (await heightShown())) < 0.01);
+  await soon.ok(async () => Math.abs((await heightShown()) - 3) > 0.05);
+  await soon.ok(async () => Math.abs((await value("Height in mm")) - (await heightShown())) < 0.01);
 });
 
 test("undoes and redoes, step by step", async () => {
   const last = await picture();
   await page.keyboard.press("Escape");
   await undo(2);
-  assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
+  await soon.equal(() => button("Lock the height").getAttribute("aria-pressed"), "true");
   await untilHeight(3, 0.01);
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
   let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
   do await undo(); while (++steps < 30 && (await value("Edge emphasis value")) > 0);
-  assert.equal(await value("Edge emphasis value"), 0);
+  await soon.equal(() => value("Edge emphasis value"), 0);
   while (steps-- > 0) await button("Redo").click();
   await becomesSame(before);
 });
@@ -185,11 +185,11 @@ test("shapes the tone curve with presets and keys", async () => {
   const first = await picture();
   await preset().selectOption("Bold edges first");
   await becomesOther(first);
-  assert.ok(await slider("Edge emphasis").isDisabled());
+  await soon.ok(() => slider("Edge emphasis").isDisabled());
   const point = page.getByRole("slider", {name: /Curve point 2 of/});
   await pressKey(point, "ArrowUp", 5);
   await preset().waitFor();
-  assert.match(await point.getAttribute("aria-valuetext"), /keeps 40 percent/);
+  await soon.match(() => point.getAttribute("aria-valuetext"), /keeps 40 percent/);
   await point.press("Delete");
   await page.getByRole("slider", {name: "Curve point 3 of 3"}).waitFor();
   await untilHeight(3, 0.01);
@@ -232,7 +232,7 @@ test("names what it reads and offers each outline, form and format of the engine
   });
   await added.goto(engine.address);
   await untilReady(added);
-  assert.equal(await added.locator("#readable").textContent(), "point cloud (ADDED)");
+  await soon.equal(() => added.locator("#readable").textContent(), "point cloud (ADDED)");
   const {options, formats} = await engine.about();
   for (const name of ["outline", "form"]) {
     const values = await added.locator(`#${name} option`).evaluateAll((all) => all.map(({value}) => value));
@@ -273,15 +273,15 @@ test("changes the method, and its own rim with it, and no other", async () => {
   const rim = page.getByRole("slider", {name: "Soft outline"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
-  assert.equal(await rim.getAttribute("aria-valuetext"), "0.3 points of the scan");
+  await soon.equal(() => rim.getAttribute("aria-valuetext"), "0.3 points of the scan");
   await method.selectOption("All forms alike");
   await becomesOther(first);
   await untilHeight(3, 0.01);
-  assert.equal(await rim.getAttribute("aria-valuetext"), "2.0 points of the scan");
+  await soon.equal(() => rim.getAttribute("aria-valuetext"), "2.0 points of the scan");
   await rim.press("ArrowRight");
   const touched = await rim.getAttribute("aria-valuetext");
   await method.selectOption("Fine forms first");
-  assert.equal(await rim.getAttribute("aria-valuetext"), touched);
+  await soon.equal(() => rim.getAttribute("aria-valuetext"), touched);
   await undo(3);
   await becomesSame(first);
 });
@@ -310,7 +310,7 @@ test("turns, lights, cuts and compares", async () => {
     assert.ok(Math.abs(x3 - box.width / 2) < 2, `${x3} of ${x2}`);
   });
   await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();
-  assert.ok((await page.locator("#section-chart text").count()) > 6);
+  await soon.ok(async () => (await page.locator("#section-chart text").count()) > 6);
   await page.locator("#section-chart").hover();
   await page.getByText(/^2\d\.\d+ mm along, height -?[\d.]+ mm$/).waitFor();
   await drag(middle, [box.x + box.width - 4, middle[1]]); // beyond the plate, which has no heights there
@@ -403,7 +403,7 @@ test("saves a project, opens it again, and makes the same bytes of it", async ()
   await openFile(file);
   await page.getByText("Turned by hand").waitFor();
   await untilReady(page);
-  assert.equal(await value("Height in mm"), 2.5);
+  await soon.equal(() => value("Height in mm"), 2.5);
   await untilHeight(2.5, 0.01);
   await becomesSame(shown);
 
@@ -455,12 +455,12 @@ test("can be used by the keyboard alone", async () => {
     await page.evaluate(() => (document.activeElement.dataset.reached = "yes"));
     if ((await missed()).length > 0) await page.keyboard.press("Tab");
   }
-  assert.deepEqual(await missed(), [], `of ${all}`);
+  await soon.deepEqual(() => missed(), [], `of ${all}`);
   const material = () => page.locator("#materials [aria-checked=true]").getAttribute("data-material");
   const before = await material();
   await page.locator("#materials [aria-checked=true]").focus(); // in a group by arrows
   await page.keyboard.press("ArrowRight");
-  assert.notEqual(await material(), before);
+  await soon.notEqual(() => material(), before);
   await button("Undo").focus();
   await page.keyboard.press("Enter");
   await eventually(async () => assert.equal(await material(), before));
@@ -472,11 +472,11 @@ test("can be used by the keyboard alone", async () => {
 test("moves nothing by itself where motion is to be reduced", async (context) => {
   const longest = () => page.evaluate(() => Math.max(...[...document.querySelectorAll("*")].map((element) =>
     parseFloat(getComputedStyle(element).transitionDuration))));
-  assert.ok((await longest()) > 0);
+  await soon.ok(async () => (await longest()) > 0);
   await page.emulateMedia({reducedMotion: "reduce"});
   if (!await page.evaluate(() => matchMedia("(prefers-reduced-motion: reduce)").matches))
     return context.skip("the browser's driver does not reduce motion");
-  assert.equal(await longest(), 0);
+  await soon.equal(() => longest(), 0);
   await page.emulateMedia({reducedMotion: "no-preference"});
 });
 
@@ -500,7 +500,7 @@ test("cancels", async () => {
   await button("Cancel").click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
   await page.getByText("scan.ply", {exact: true}).first().waitFor();  // the scan before it
-  assert.equal(await value("Height in mm"), 2.5);
+  await soon.equal(() => value("Height in mm"), 2.5);
 });
 
 test("shows whole names, the top of the help and the whole first picture on a phone", async () => {
@@ -514,7 +514,7 @@ test("shows whole names, the top of the help and the whole first picture on a ph
   }), ["block ellipsis"]));
   await button("Back to the relief").click();
   await button("Help").click();
-  assert.equal(await page.locator("#help-dialog").evaluate((dialog) => dialog.scrollTop), 0);
+  await soon.equal(() => page.locator("#help-dialog").evaluate((dialog) => dialog.scrollTop), 0);
   await page.keyboard.press("Escape");
   const covered = await page.locator("#progress").evaluate((box) => {
     box.hidden = false;
@@ -542,7 +542,7 @@ test("takes two fingers for a closer look, which move nothing else", async (cont
     const now = await plate();
     assert.ok(Math.abs(now / before - 2) < 0.05, `${now} of ${before}`);
   });
-  assert.equal(await button("Undo", tablet).isEnabled(), canUndo);
+  await soon.equal(() => button("Undo", tablet).isEnabled(), canUndo);
   await close();
 });
 

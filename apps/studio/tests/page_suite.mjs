@@ -58,6 +58,11 @@ export async function startEngine(...args) {
   return engine;
 }
 
+// Assertions of node:assert on what a function reads of the page, which are repeated until they hold: a click or key may
+// have reached the browser, and not yet the page.
+export const soon = Object.fromEntries(["equal", "notEqual", "ok", "deepEqual", "match", "doesNotMatch"].map((name) =>
+  [name, (read, ...wanted) => eventually(async () => assert[name](await read(), ...wanted))]));
+
 // ---------------------------------------------------------------------------------------------------- controls
 
 export const button = (name, of = page) => of.getByRole("button", {name, exact: true});
@@ -84,9 +89,15 @@ export async function undoAll(of = page, isEnough = () => false) {
   while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
 }
 
+// Waits until no entry is being tried, and the piece is shown as its file will be.
+export async function untilTaken(of = page) {
+  await soon.equal(() => of.locator("#trying").textContent(), "");
+  await untilReady(of);
+}
+
 export async function choose(name, of = page) {
   await radio(name, of).click();
-  await untilReady(of);
+  await untilTaken(of);
 }
 
 export async function chooseView(side, of = page) {

@@ -1,7 +1,7 @@
 // The page for whoever has a low screen, large type, forced colours or a finger: what is on it can be seen and reached,
 // and moves by nothing else than what is meant to move it.
 import assert from "node:assert/strict";
-import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, slider, test, touchScreen, undo,
+import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, slider, soon, test, touchScreen, undo,
   undoAll, withPage} from "./page_suite.mjs";
 import {eventually, openPanels, untilReady} from "./support.mjs";
 
@@ -17,15 +17,15 @@ test("moves the divider of the comparison by its line, and nothing else", async 
     document.querySelector("#overlay").viewBox.baseVal.width);
   for (const [from, at, to] of [[0.5, 0.15, 0.7], [0.7, 0.5, 0.2], [0.2, 0.85, 0.5]]) {
     await page.mouse.move(x + from * width, y + at * high);
-    assert.equal(await page.locator("#stage").evaluate((stage) => getComputedStyle(stage).cursor), "ew-resize");
+    await soon.equal(() => page.locator("#stage").evaluate((stage) => getComputedStyle(stage).cursor), "ew-resize");
     await drag([x + from * width, y + at * high], [x + to * width, y + 0.4 * high]);
     assert.ok(Math.abs(await line() - to) < 0.01, `${await line()} where ${to} was dragged to`);
-    assert.ok(Math.abs(await page.locator("#split").inputValue() / 1000 - to) < 0.01);
+    await soon.ok(async () => Math.abs(await page.locator("#split").inputValue() / 1000 - to) < 0.01);
   }
-  assert.ok(await button("Undo").isDisabled(), "the light stays where it is");
+  await soon.ok(() => button("Undo").isDisabled(), "the light stays where it is");
   await drag([x + 0.8 * width, y + 0.5 * high]); // beside the line a drag moves the light
-  assert.ok(await button("Undo").isEnabled());
-  assert.ok(Math.abs(await line() - 0.5) < 0.01);
+  await soon.ok(() => button("Undo").isEnabled());
+  await soon.ok(async () => Math.abs(await line() - 0.5) < 0.01);
   await undo();
   await compare.click();
 });
@@ -49,17 +49,19 @@ test("tells in forced colours what is pressed, which material is which, and wher
     for (const colorScheme of ["light", "dark"]) {
       await page.emulateMedia({forcedColors: "active", colorScheme});
       for (const [pressed, other, ...place] of [["Light", "Orbit", 0.04, 0.5], ["Plaque", "Coin", 0.05, 0.9]])
-        assert.ok(apart(await colour(radio(pressed), ...place), await colour(radio(other), ...place)) > 100, pressed);
+        await soon.ok(async () =>
+          apart(await colour(radio(pressed), ...place), await colour(radio(other), ...place)) > 100, pressed);
       const lock = button("Lock the height"), on = await colour(lock, 0.5, 0.1);
       await lock.click();
-      assert.ok(apart(on, await colour(lock, 0.5, 0.1)) > 100, "the lock");
+      await soon.ok(async () => apart(on, await colour(lock, 0.5, 0.1)) > 100, "the lock");
       await undo();
       const materials = await page.locator("#materials button").all(), seen = [];
       for (const material of materials) seen.push(await colour(material, 0.5, 0.5));
       for (const [i, a] of seen.entries())
         for (const b of seen.slice(0, i)) assert.ok(apart(a, b) > 25, `materials ${JSON.stringify(seen)}`);
       const margin = slider("Margin"), ground = await colour(margin, 0.9, 0.1);
-      for (const at of [0.05, 0.95]) assert.ok(apart(await colour(margin, at, 0.5), ground) > 100, "slider");
+      for (const at of [0.05, 0.95])
+        await soon.ok(async () => apart(await colour(margin, at, 0.5), ground) > 100, "slider");
       const go = button("Export"), plain = await colour(go, 0.5, 0.12);
       const line = await Promise.all([0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65].map((right) => colour(go, right, 0.5)));
       assert.ok(line.some((it) => apart(it, plain) > 100), "letters of Export");
@@ -77,7 +79,7 @@ test("leaves the picture room at a zoom of 200 %", async () => {
     await radio(tool).click();
     const stage = await page.locator("#stage").boundingBox();
     assert.ok(stage.width >= 300 && stage.height >= 180, `${tool}: ${stage.width} x ${stage.height}`);
-    assert.ok(await page.locator(part).isVisible());
+    await soon.ok(() => page.locator(part).isVisible());
   }
   await page.getByRole("button", {name: /notes? on the scan/}).click(); // which has what a higher screen offers, too
   await page.locator("#notes").getByRole("button", {name: "Keep them"}).waitFor();
@@ -109,23 +111,23 @@ test("scrolls the panel by a swipe that begins on a slider, which only a sideway
         const before = await range.inputValue(), top = await middle(range), label = await range.getAttribute("aria-label");
         await swipe(range, across, down);
         await eventually(async () => assert.ok(Math.abs(await inspector.evaluate((it) => it.scrollTop) - top) > 20, label));
-        assert.equal(await range.inputValue(), before, label);
-        assert.ok(await undone.isDisabled(), label);
+        await soon.equal(() => range.inputValue(), before, label);
+        await soon.ok(() => undone.isDisabled(), label);
       }
     }
     const range = slider("Height", phone), before = await height();
     await middle(range);
     const to = await swipe(range, 6, 0);
     await eventually(async () => assert.ok(Math.abs(await range.inputValue() / 1000 - to) < 0.06, `${to}`));
-    assert.notEqual(await height(), before);
+    await soon.notEqual(() => height(), before);
     await undone.click();
-    assert.equal(await height(), before);
+    await soon.equal(() => height(), before);
     await eventually(async () => assert.ok(await undone.isDisabled()));
     const {x, y, width, height: high} = await range.boundingBox();
     await phone.touchscreen.tap(x + 0.8 * width, y + high / 2);
     await eventually(async () => assert.ok(Math.abs(await range.inputValue() / 1000 - 0.8) < 0.06));
     await undone.click();
-    assert.equal(await height(), before);
+    await soon.equal(() => height(), before);
     await close();
   });
 

@@ -1,6 +1,6 @@
 // Each state of the page fits each screen, has all its controls within reach, and no findings of axe.
 import assert from "node:assert/strict";
-import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, startEngine, test,
+import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, soon, startEngine, test,
   withBrowser} from "./page_suite.mjs";
 import {STATES, showScene} from "./states.mjs";
 import {openPanels, untilReady, writeScans} from "./support.mjs";
@@ -124,7 +124,7 @@ const hasNoFindings = (state) => state.test("has no findings of axe", {skip: !pr
   for (const {screen = DESK, colorScheme = "light", forcedColors = "none"} of MEDIA) {
     await page.setViewportSize(screen);
     await page.emulateMedia({colorScheme, forcedColors});
-    assert.deepEqual(await findings(), [], JSON.stringify({screen, colorScheme, forcedColors}));
+    await soon.deepEqual(() => findings(), [], JSON.stringify({screen, colorScheme, forcedColors}));
   }
 });
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {browser, button, chooseView, engine, exported, field, folder, found, middleOf, openFile, preset, scan, slider,
-  startEngine, state, test, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
+  soon, startEngine, state, test, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
 import {EngineProcess, enter, eventually, openPanels, savedFiles, untilListening, untilReady,
   writeSample} from "./support.mjs";
 
@@ -68,7 +68,7 @@ const untilTold = (of, tabs) => eventually(async () => {
   const kept = await engine.kept(recent.find((entry) => entry.document === document).input);
   assert.equal(kept.steps[kept.at].options.height.toFixed(2), await height(of).inputValue());
   for (const tab of tabs)
-    assert.ok(await tab.evaluate(([document, changed]) => window.told.some((status) =>
+    await soon.ok(() => tab.evaluate(([document, changed]) => window.told.some((status) =>
       status?.document === document && status.kept.changed === changed), [document, kept.changed]));
 });
 
@@ -78,8 +78,9 @@ test("shows two scans in two tabs, and mixes up nothing", async () => {
   await openScan(other, "shell");
   await setHeight(other, "1.5");
   for (const each of [tab, other]) await untilTold(each, [tab, other]);
-  assert.deepEqual([await title(tab).innerText(), await title(other).innerText()], ["scan.ply", "shell.ply"]);
-  assert.deepEqual([await height(tab).inputValue(), await height(other).inputValue()], ["3.25", "1.50"]);
+  const titles = () => Promise.all([tab, other].map((each) => title(each).innerText()));
+  await soon.deepEqual(titles, ["scan.ply", "shell.ply"]);
+  for (const [of, mm] of [[tab, "3.25"], [other, "1.50"]]) await soon.equal(() => height(of).inputValue(), mm);
   await tab.getByText("of 20,000 points").waitFor();
   for (const [of, name, mm] of [[tab, /^scan/, 3.25], [other, /^shell/, 1.5]]) {
     const file = await exported(of);
@@ -87,7 +88,7 @@ test("shows two scans in two tabs, and mixes up nothing", async () => {
     assert.ok(Math.abs(file.size[2] - 3 - mm) < 0.01, `${file.size}`);
   }
   for (const each of [tab, other]) await each.reload().then(() => untilReady(each)); // each stays with its document
-  assert.deepEqual([await title(tab).innerText(), await title(other).innerText()], ["scan.ply", "shell.ply"]);
+  await soon.deepEqual(titles, ["scan.ply", "shell.ply"]);
   for (const each of [tab, other]) await each.close();
 });
 
@@ -105,9 +106,9 @@ test("comes back to each scan as it was left, with curve, view and steps, and sh
   await untilReady(tab);
   const [shaped, told] = [await curve(), await tab.locator("#numbers").innerText()];
   await openScan(tab, "green_man");
-  assert.equal(await tone.inputValue(), "");
-  assert.notEqual(await view.innerText(), "Left");
-  assert.notEqual(await curve(), shaped);
+  await soon.equal(() => tone.inputValue(), "");
+  await soon.notEqual(() => view.innerText(), "Left");
+  await soon.notEqual(() => curve(), shaped);
   await setHeight(tab, "6");
   await untilReady(tab);
   await startPage(tab);
@@ -117,15 +118,15 @@ test("comes back to each scan as it was left, with curve, view and steps, and sh
   await eventually(async () => assert.match(await picture.getAttribute("src"), /^data:image\/jpeg/));
   await recent.getByRole("button", {name: /^scan\.ply/}).click();
   await untilReady(tab);
-  assert.equal(await title(tab).innerText(), "scan.ply");
-  assert.equal(await height(tab).inputValue(), "2.75");
-  assert.equal(await view.innerText(), "Left");
-  assert.equal(await tone.locator("option:checked").innerText(), "Bold edges first");
-  assert.deepEqual([await curve(), await tab.locator("#numbers").innerText()], [shaped, told]);
+  await soon.equal(() => title(tab).innerText(), "scan.ply");
+  await soon.equal(() => height(tab).inputValue(), "2.75");
+  await soon.equal(() => view.innerText(), "Left");
+  await soon.equal(() => tone.locator("option:checked").innerText(), "Bold edges first");
+  await soon.deepEqual(async () => [await curve(), await tab.locator("#numbers").innerText()], [shaped, told]);
   await undo(1, tab);
-  assert.equal(await height(tab).inputValue(), "3.25");
+  await soon.equal(() => height(tab).inputValue(), "3.25");
   await undo(2, tab);
-  assert.notEqual(await view.innerText(), "Left");
+  await soon.notEqual(() => view.innerText(), "Left");
   await untilReady(tab);
   await tab.close();
 });
@@ -146,7 +147,7 @@ test("is one document in two tabs", async () => {
     if (typed !== taken) await tab.getByText(/expected left, bottom, right and top as shares/).waitFor();
     await eventually(async () => {
       for (const of of [tab, other]) await untilReady(of);
-      assert.deepEqual(await crops(), [taken, taken]);
+      await soon.deepEqual(() => crops(), [taken, taken]);
     });
   }
   for (const each of [tab, other]) await each.close();
@@ -167,7 +168,7 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   assert.equal((await startEngine()).address, address);
   await untilSaid(tab, "The engine is back, and goes on with what this page shows.");
   await untilReady(tab);
-  assert.equal(await height(tab).inputValue(), dragged);
+  await soon.equal(() => height(tab).inputValue(), dragged);
   await eventually(async () => {
     const {options} = await engine.newestStep(scan);
     assert.deepEqual([options.height.toFixed(2), options.width], [dragged, 80]);
@@ -184,12 +185,12 @@ test("shows what another page kept later, and says so where a change of its own 
   };
   await keep(5.5, 1000);
   await untilHeight(tab, "5.50");
-  assert.ok(!await toast(tab).isVisible());
+  await soon.ok(async () => !await toast(tab).isVisible());
   await tab.evaluate(() => (window.isDeaf = true));
   await keep(4.75, 600000); // later than what this page changes now, however busy the machine is
   await tab.waitForFunction((changed) => window.missed.some((status) => status.kept?.changed === changed),
     kept.changed);
-  assert.equal(await height(tab).inputValue(), "5.50");
+  await soon.equal(() => height(tab).inputValue(), "5.50");
   await setHeight(tab, "3.5");
   await untilSaid(tab, "Newer work of another page is shown here.");
   await untilHeight(tab, "4.75");
@@ -223,7 +224,8 @@ test("opens a project saved with its scan in another studio, where the scan is n
   await tab.locator("#samples button").first().waitFor();
   await choose(tab, project);
   await untilPoints(tab, "20,000");
-  assert.deepEqual([await title(tab).innerText(), await height(tab).inputValue()], ["scan.ply", "6.50"]);
+  await soon.equal(() => title(tab).innerText(), "scan.ply");
+  await soon.equal(() => height(tab).inputValue(), "6.50");
   assert.ok(Math.abs((await exported(tab)).size[2] - 9.5) < 0.01);
   await tab.close();
   await elsewhere.stop();
@@ -255,17 +257,17 @@ test("asks for a scan that has moved, takes no other for it unasked, and goes on
     await locate(file);
     const name = path.basename(file);
     await toast(tab).getByText(`${name} is not scan.ply as it was when this work was kept.`).waitFor();
-    assert.equal(await title(tab).innerText(), "shell.ply");
+    await soon.equal(() => title(tab).innerText(), "shell.ply");
   }
   await button("Use it all the same", tab).click();
   await toast(tab).getByText(/^broken\.ply.*expected/).waitFor();
   await eventually(async () => assert.equal(await title(tab).innerText(), "shell.ply"));
   await untilReady(tab);
-  assert.deepEqual(await kept(), before);
+  await soon.deepEqual(() => kept(), before);
   await locate(fileOf("green_man")); // by mistake
   await answerWith("Locate another file", moved);
   await untilPoints(tab, "20,000");
-  assert.equal(await height(tab).inputValue(), "6.50");
+  await soon.equal(() => height(tab).inputValue(), "6.50");
   await tab.close();
 });
 
@@ -298,7 +300,7 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
   await tab.getByText("of 5,000 points").waitFor();
   await tab.reload();
   await tab.getByText("of 5,000 points").waitFor();
-  assert.equal(await title(tab).innerText(), "green_man.ply");
+  await soon.equal(() => title(tab).innerText(), "green_man.ply");
   await tab.close();
   await other.stop();
 });
@@ -324,7 +326,7 @@ test("removes what is kept, also what it shows", async () => {
   await eventually(async () => assert.deepEqual(await other.json("kept"), {documents: 0, bytes: 0}));
   await tab.reload();
   await tab.locator("#samples button").first().waitFor();
-  assert.ok(await tab.locator("#recent-shelf").isHidden());
+  await soon.ok(() => tab.locator("#recent-shelf").isHidden());
   await tab.close();
   await other.stop();
 });
