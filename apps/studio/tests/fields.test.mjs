@@ -376,7 +376,7 @@ test("marks the height that the view reaches which is shown", async () => {
     await chooseView(view);
     await eventually(async () => {
       await untilReady(page);
-      await soon.equal(async () => (await marked()) === front, view === "Front");
+      assert.equal((await marked()) === front, view === "Front");
     });
   }
 });

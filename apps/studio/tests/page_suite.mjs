@@ -13,13 +13,14 @@ export let browser, engine, page;
 
 let beginSuite; // starts the browser and what else a suite needs
 
-// Gives the suite a browser. `begin` does what else comes before the tests, and may return the page that they share.
+// Gives the suite a browser. `begin` does what else comes before the tests, and may return the page that they share. It
+// is told whether the suite begins anew after a test that has failed.
 export function withBrowser(begin) {
-  beginSuite = async () => {
+  beginSuite = async (isAnew) => {
     browser = await found.launch();
-    page = await begin();
+    page = await begin(isAnew);
   };
-  before(() => skip || beginSuite());
+  before(() => skip || beginSuite(false));
   after(endSuite);
 }
 
@@ -35,7 +36,7 @@ export const test = (name, act) => plainTest(name, {skip}, async (context) => {
   } catch (error) {
     await endSuite();
     rmSync(state, {recursive: true, force: true});
-    await beginSuite();
+    await beginSuite(true);
     throw error;
   }
 });

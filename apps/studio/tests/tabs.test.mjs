@@ -68,7 +68,7 @@ const untilTold = (of, tabs) => eventually(async () => {
   const kept = await engine.kept(recent.find((entry) => entry.document === document).input);
   assert.equal(kept.steps[kept.at].options.height.toFixed(2), await height(of).inputValue());
   for (const tab of tabs)
-    await soon.ok(() => tab.evaluate(([document, changed]) => window.told.some((status) =>
+    assert.ok(await tab.evaluate(([document, changed]) => window.told.some((status) =>
       status?.document === document && status.kept.changed === changed), [document, kept.changed]));
 });
 
@@ -147,7 +147,7 @@ test("is one document in two tabs", async () => {
     if (typed !== taken) await tab.getByText(/expected left, bottom, right and top as shares/).waitFor();
     await eventually(async () => {
       for (const of of [tab, other]) await untilReady(of);
-      await soon.deepEqual(() => crops(), [taken, taken]);
+      assert.deepEqual(await crops(), [taken, taken]);
     });
   }
   for (const each of [tab, other]) await each.close();
