@@ -104,7 +104,7 @@ TEST_F(BatchRun, DoesNothingTwice) {
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
 }
 
-// An option that is changed and changed back: the outputs are those of the value between.
+// If an option is changed and changed back, the outputs are those of the change and have to be made again.
 TEST_F(BatchRun, KeepsOnlyWhatWasMadeLast) {
   jobs_.resize(1);
   run_jobs();

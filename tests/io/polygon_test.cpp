@@ -21,8 +21,8 @@ Vec3 area_of(const Polygon& p) {
   return sum;
 }
 
-// Triangles that are none of them turned over, and whose areas add up to the polygon's, cover it without
-// overlap if it does not cross itself.
+// Triangles cover a polygon that does not cross itself without overlap if none of them is turned over and
+// their areas add up to the polygon's.
 void expect_covered(const Polygon& polygon, const char* what) {
   const auto triangles = triangulate(polygon);
   const Vec3 area = area_of(polygon);

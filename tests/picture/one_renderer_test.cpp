@@ -64,7 +64,7 @@ Image8 live_picture(const RenderOptions& options) {
   return picture.image;
 }
 
-// The finished solid, where the live picture has its plate.
+// Draws the finished solid where the live picture shows its plate.
 Image8 picture_of_solid(const RenderOptions& options) {
   const SolidBody owner(bodies().solid);
   DrawCache cache;

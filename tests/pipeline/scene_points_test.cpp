@@ -65,7 +65,7 @@ TEST(SeenScene, TakesFewerPointsOfMeshesOfFewTriangles) {
   EXPECT_EQ(usual_points(Scene{{mesh, cloud}}), 3e5);
 }
 
-// The file as it is in the scene.
+// Returns the file with its points, mesh and normals placed as in the scene.
 CloudFile baked(const CloudFile& file, const PlacedModel& place, bool is_mirrored) {
   CloudFile made = file;
   for (Vec3& p : made.cloud.points) p = place(p);

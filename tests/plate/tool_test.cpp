@@ -38,7 +38,7 @@ Image<float> closed_by_brute_force(const Image<float>& z, double step, const Too
   float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
   for (const float value : z.pixels)
     if (value == value) lowest = std::min(lowest, value), highest = std::max(highest, value);
-  // Flanks end where they are as high as the picture.
+  // A flank ends where it has risen by the range of the picture's heights.
   const double half_angle = tool.angle_deg * std::numbers::pi / 360,
                flank = tool.tip_mm / 2 + static_cast<double>(highest - lowest) * std::tan(half_angle);
   const auto profile = [&](int dx, int dy) {

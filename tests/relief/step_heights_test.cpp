@@ -89,7 +89,7 @@ TEST(Steps, TakeNothingWhereSlopesReachTheHeight) {
   EXPECT_NEAR(relief.heights[0], model.make(relief.shape).heights[0], 1e-6);
 }
 
-// With a share S of the height h the relief is that of its slopes and the terraces' depths times S h / span.
+// With a share S of the height h, heights are those of the slopes plus the terraces' depths times S h / span.
 TEST(Steps, TakeTheShareAskedFor) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   const double height = .1, share = .4;

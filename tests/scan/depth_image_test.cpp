@@ -260,7 +260,7 @@ TEST(DepthCloud, RefusesWhatItCannotUse) {
   EXPECT_EQ(depth_cloud(image_of(hills, 0), {}, &progress).error().kind, ErrorKind::cancelled);
 }
 
-// All of its normals face the viewer, but from the sides they look inwards: they must not be turned.
+// All normals of a hollow face the viewer, but from its sides they point inwards: they must not be turned.
 TEST(DepthCloud, OfAHollowBecomesARelief) {
   const auto hollow = depth_cloud(image_of([](int c, int r) { return 1 - hills(c, r); }, 0), as_heights());
   ASSERT_TRUE(hollow);

@@ -24,8 +24,8 @@ inline std::string output_of(const std::string& command) {
   return output;
 }
 
-// The number that admesh's report gives for `label`, after its repairs; -1 if it has no such line. Its lines
-// hold either one number, or one before and one after the repairs, then perhaps another label.
+// Returns the number that admesh reports for `label` after its repairs; -1 if the report has no such line. A
+// line has either one number, or one before and one after the repairs; another label may follow.
 inline int reported(const std::string& report, const std::string& label) {
   const std::size_t line = report.find("\n" + label);
   if (line == std::string::npos) return -1;
