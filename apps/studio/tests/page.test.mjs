@@ -42,7 +42,7 @@ async function picture() {
   return Buffer.from(await read(), "base64");
 }
 
-// Mean difference of two pictures' reds, of 255. A locked height is met to a part in a thousand, not to the bit.
+// Returns the mean difference of two pictures' reds, up to 255. A locked height is met to a thousandth, not to the bit.
 function difference(a, b) {
   if (a.length !== b.length) return 255;
   let sum = 0;

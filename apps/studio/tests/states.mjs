@@ -16,7 +16,7 @@ const undone = (times) => async (page) => {
 };
 const kind = (name) => ({enter: (page) => choose(name, page), leave: undone(1)});
 
-// More than steps at depth jumps can make up for.
+// Asks for a height that cannot be reached even with steps at depth jumps.
 const highest = async (page) => {
   await enter(field("Steepest wall in degrees", page), "30");
   await enter(field("Height in mm", page), "300");

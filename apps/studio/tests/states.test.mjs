@@ -100,7 +100,7 @@ async function misfits(screen, part) {
   return all.filter(({found}) => found.length > 0);
 }
 
-// How the page may be shown: axe looks at each, and in Firefox at the last alone, as it reads styles and not pixels.
+// Axe looks at the page in these media, in Firefox in the last alone, as it reads styles and not pixels.
 const ALL_MEDIA = [{screen: PHONE}, {screen: PHONE, colorScheme: "dark"}, {colorScheme: "dark"},
   {forcedColors: "active"}, {}];
 const MEDIA = found.name === "firefox" ? ALL_MEDIA.slice(-1) : ALL_MEDIA;

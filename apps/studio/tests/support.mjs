@@ -25,7 +25,7 @@ export function temporaryFolder() {
   return folders.at(-1);
 }
 
-// Imports a module of the page that imports no other. By its file, Node 18 takes it for a module of another kind.
+// Imports a module of the page that imports no other, by its text: Node 18 would take its file for CommonJS.
 export const pageModule = (name) => {
   const text = readFileSync(new URL(`../page/${name}`, import.meta.url), "utf8");
   return import(`data:text/javascript,${encodeURIComponent(text)}`);
