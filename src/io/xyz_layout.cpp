@@ -37,7 +37,7 @@ ColumnNames split_names(std::string_view line) {
   return names;
 }
 
-// Returns the words that separators of any kind part.
+// Returns the words between separators of any kind.
 ColumnNames split_words(std::string_view line) {
   const std::string_view separators = " \t\v\f,;\"'";
   ColumnNames words;

@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Triangles name the surface's points by number, then the plate's eight corners.
+// The corners of the triangles are the surface's points and, numbered after them, the plate's eight corners.
 struct PlateMesh {
   std::vector<Triangle> triangles;
   PlateParts parts;

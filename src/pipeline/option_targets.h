@@ -1,4 +1,5 @@
-// Holds the options while they are read from values, and has the functions with which the rows of the table read them.
+// Stores the options while they are read from values, and has the functions by which rows of the table read
+// them.
 #pragma once
 
 #include <optional>

@@ -91,7 +91,7 @@ Result<void> check_plate_size(const ReliefOptions& options) {
       name, cat("expected more than ", edge_mm, " mm, which margin and rim take, found ", least_mm, " mm"));
 }
 
-// Returns the default that rules: the paper's for its method, another one for all others.
+// Returns `paper` for the paper's method, else `others`.
 double by_method(const ReliefOptions& options, double paper, double others) {
   return options.effective_method() == Method::paper ? paper : others;
 }

@@ -43,15 +43,15 @@ Frame frame_around(Points points) {
   return {(min + max) / 2, (max - min) / 2};
 }
 
-// The directions of the sides of a regular polygon, counter-clockwise, whose corners lie on the unit circle, four of them
-// on the axes.
+// A regular polygon whose corners lie on the unit circle, four of them on the axes. Its sides are
+// counter-clockwise.
 struct CircleSides {
   std::vector<Vec2> normals;  // unit length
   double distance = 1;        // of the sides from the centre
 };
 
-// Returns those that keep a polygon in a circle of that radius within finest_mm of it: the middles of its sides are at
-// radius * cos(half a side's angle) from the centre.
+// Returns the sides that keep a polygon in a circle of that radius within finest_mm of it: the middles of its
+// sides are at radius * cos(half a side's angle) from the centre.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));

@@ -11,7 +11,8 @@
 
 namespace relievo {
 
-// Returns per point its corners of triangles inside: 3 t + i for corner i of triangle t, in ascending order.
+// Returns for each point the corners of triangles inside that lie at it: 3 t + i for corner i of triangle t,
+// ascending.
 inline Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& triangles,
                                     const Boundary& boundary) {
   return grouped<Index>(points, [&](auto&& add) {

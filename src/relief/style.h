@@ -52,7 +52,8 @@ struct RaisedHeights {
   }
 };
 
-// Slopes near the steepest would make a change of normals a change of slopes that is many times as large.
+// The least divisor of gains: near the steepest slopes, a small change of normals would change slopes many
+// times as much.
 inline constexpr float least_gain_divisor = .25F;
 
 // A style is used in this order: slope() for every point, with w_k of weighted(); the system of heights;

@@ -20,8 +20,7 @@ struct BoundedGrid {
 
 // Returns the smoothest heights with low <= z <= high at all known places, 0 at unknown ones: the sum of
 // their squared second differences (along rows, along columns, and twice the mixed one), over joined places, is
-// nearly minimal. Solves
-// from coarse to fine grids in linear time: 2 s for a million places on two cores.
+// nearly minimal. Solves from coarse to fine grids in linear time: 2 s for a million places on two cores.
 std::vector<float> smoothest(const BoundedGrid& grid);
 
 }  // namespace relievo

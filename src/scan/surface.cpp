@@ -144,7 +144,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Stages 5 and 6, but for what put_points_on_outlines() would only replace: the boundary has `is_inside` alone.
+// Does stages 5 and 6, of the boundary `is_inside` alone: put_points_on_outlines() replaces the rest.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);

@@ -26,7 +26,8 @@ class PointItem {
 
 using LazColour = std::array<std::uint16_t, 3>;
 
-// A colour, as the difference to that of the point before. Layers have colours of the same form.
+// Decodes colours, each stored as its difference to the colour of the point before. Layers store colours in
+// the same form.
 class ColourModels {
  public:
   ColourModels() : bytes_(6, SymbolModel(256)) {}

@@ -272,7 +272,7 @@ class Sampler {
     });
   }
 
-  // For places farther from the silhouette than a square of the grid is wide.
+  // Returns whether a place is in the relief. It must be more than a square of the grid from the silhouette.
   bool is_relief_around(const Vec2& place) const {
     const Vec2 pixel = grid_.pixel(place);
     const int x = std::clamp(static_cast<int>(pixel.x()), 0, grid_.input.width - 1),

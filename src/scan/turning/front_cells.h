@@ -37,15 +37,16 @@ struct FrontCells {
   bool is_covered(int x, int y) const { return normal.contains(x, y) && normal.at(x, y).z() > 0; }
 };
 
-// Draws what a view shows of the points. About `wanted` cells are covered, fewer where points lie so far apart that smaller
-// cells show nothing more. Normals of unknown sign are turned towards the viewer. The same bits for any number of threads.
+// Draws the points as a view shows them. About `wanted` cells are covered, fewer where points lie so far
+// apart that smaller cells show nothing more. Normals of unknown sign are turned towards the viewer. The
+// result has the same bits for any number of threads.
 FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted,
                       NormalSigns signs = NormalSigns::outward);
 
-// Clears what is connected to fewer than `least` covered cells.
+// Clears connected pieces of fewer than `least` covered cells.
 void clear_small_pieces(FrontCells& front, std::size_t least);
 
-// Covers holes of at most `most` cells by what is around them.
+// Fills holes of at most `most` cells from the cells around them.
 void fill_small_holes(FrontCells& front, std::size_t most);
 
 // Sets `is_edge`.

@@ -28,8 +28,8 @@ struct TurnedSurface {
   FrontCells front;  // of all points of the scan
 };
 
-// Returns a surface of about `points` points in that view: one in a few cells, and more along silhouettes and depth
-// jumps. Errors: kind geometry if the view shows no area; kind cancelled.
+// Returns a surface of about `points` points in that view: one for every few cells, more along silhouettes
+// and depth jumps. Errors: kind geometry if the view shows no area; kind cancelled.
 Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
                                      Progress* progress = nullptr);
 
