@@ -73,8 +73,9 @@ View on_side(View view, const ViewGuess& side);
 // Returns the view, turned to the best side if that is still to be chosen (View::is_best).
 View chosen_view(const Scene& scene, const View& view);
 
-// Returns how many visible points to take where nobody says: 300,000, but fewer of meshes alone that have few triangles
-// and so no finer detail: 15 for each triangle, and at least 100,000, so that outlines stay smooth.
+// Returns the default number of visible points: 300,000. Meshes alone have no finer detail than their
+// triangles: for them it is 15 per triangle if that is less, but at least 100,000, so that outlines stay
+// smooth.
 double usual_points(const Scene& scene);
 
 // Returns the points of all models as they stand, in the scene's frame; without a number of points, usual_points().
