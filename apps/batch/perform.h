@@ -26,11 +26,12 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 // Returns the path of an output, relative to the folder of the outputs.
 std::string output_name(const Job& job, const OutputKind& kind);
 
-// Runs `relievo ARGUMENTS` in this process. `may_succeed` says of an error that it may not come again.
+// The error of a call. If `may_succeed` is true, another call may not have it.
 struct MakeError {
   std::string line;
   bool may_succeed = false;
 };
+// Runs `relievo ARGUMENTS` in this process.
 using MakeCall = std::function<std::optional<MakeError>(const std::vector<std::string>& arguments)>;
 
 struct Workshop {

@@ -47,7 +47,7 @@ nlohmann::json to_json(const OptionValues& options);
 std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 
 // Returns the values of an object as to_json() makes it, without those that are the default. Errors: kind input for names
-// that are not in the table and values of another type, calling the object `name`.
+// that are not in the table and values of another type; messages call the object `name`.
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
 // The same, read by parse_options(), with the height map whose path "base-image" is. Errors: also those of parse_options(),

@@ -104,7 +104,7 @@ Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, 
   return engine;
 }
 
-// Tells the document of a scan, and all that is kept of it. A scan that is gone may be among those that were dropped.
+// Answers with the document of a scan and its kept state. A scan that is gone may be among the dropped ones.
 Result<Answer> Actions::document(const Json& json) {
   RELIEVO_TRY(ScanSource input, input_in(json));
   const Lock lock(storing_);

@@ -1,7 +1,7 @@
 // Reads and writes one connection, with limits of time. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
-// Before the server's header, which defines a macro _res that Eigen cannot live with.
+// This header comes first, because the server's header defines a macro _res that breaks Eigen.
 #include "relievo/core/types.h"
 
 #include <httplib.h>

@@ -7,7 +7,7 @@
 
 namespace relievo::app::studio {
 
-// Both in [0, 1], at sqrt(|k|) = i / (size - 1).
+// Samples in [0, 1] at sqrt(|k|) = i / (size - 1).
 struct CurveSamples {
   static constexpr std::size_t size = 81;
 

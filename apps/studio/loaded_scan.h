@@ -18,20 +18,20 @@ class LoadedScan {
 
   const ScanSource& input() const { return input_; }
 
-  // Returns the points that views are ranked by: all models as they stand seen from the front, without outliers; of
-  // meshes their corners. Null if no scan was read.
+  // Returns the points that views are ranked by: all models as they stand seen from the front, without
+  // outliers; meshes give their corners. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
 
-  // Returns points of all sides, for turning and for the choice of a view: those of cloud(), of a mesh evenly scattered
-  // ones.
+  // Returns points of all sides, for turning and for the choice of a view: for a single mesh they are
+  // scattered evenly over it, otherwise they are those of cloud().
   Result<std::shared_ptr<const Cloud>> all_sides() const;
 
   // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns what there is to be said of its files, in a line each: what their readers left out, after the file's name in
+  // Returns the remarks on its files, a line for each: what their readers left out, after the file's name in
   // a scene, and that points are taken from meshes.
   std::vector<std::string> remarks() const;
 

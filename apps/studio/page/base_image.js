@@ -8,7 +8,7 @@ const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
 const isImage = (base) => base === "image" || base.startsWith("image:");
 
-// Returns the changes besides the option's own that a base brings: one that is no image has none.
+// Returns what else changes with the base: one without an image loses its height map.
 export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
 
 export class BaseImage {

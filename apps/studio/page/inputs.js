@@ -65,7 +65,7 @@ export function whenFinished(act) {
 // Takes what is typed as Enter does.
 export const confirmTyping = () => unfinished?.dispatchEvent(new Event("change", {bubbles: true}));
 
-// These run before the field's own functions, which may then show the document's value in it.
+// These listeners run before the field's own, which may then show the document's value in the field.
 addEventListener("input", ({target}) => (unfinished = target), true);
 for (const end of ["change", "focusout"]) addEventListener(end, finish, true);
 addEventListener("keydown", ({key}) => key === "Escape" && finish(), true);

@@ -49,7 +49,7 @@ function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, 
     make("rect", {class: "ground", x: x - width / 2, y: y - height / 2, width, height, rx: 5}), label];
 }
 
-// Returns where the dimension of a piece stands that ends at a pixel. It stays in a picture that shows the end.
+// Returns where a dimension is drawn beside the end of a piece, in pixels. It stays in a picture that shows the end.
 const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
 
 // Returns where the label of a dimension stands, so that it covers nothing of the figure: outside of the line, or where

@@ -87,7 +87,7 @@ function labelOf(name) {
     control?.closest("label")?.firstElementChild.textContent ?? name;
 }
 
-// Returns the message of an error in the words of the page, about an option under the name of its field.
+// Returns the message of an error in the words of the page: it names an option as the label of its field does.
 export function inWords({input, message}) {
   const label = optionOf(input) && labelOf(input);
   const text = message.replace(ADVICE, OTHER), [found] = (EXPECTED[input] && text.match(/, found '.*$/)) ?? [];

@@ -4,8 +4,8 @@ const SLACK = 8; // degrees by which fingers turn that only scale
 
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
 
-// Calls begin() when the second finger is down, move(from, to, ratio, turn) with the middles between them in pixels of
-// the element, by how much they went apart, and by how many degrees to the left they turned, and end() when one is up.
+// Calls begin() when the second finger is down, end() when one is up, and between them move(from, to, ratio, turn): the
+// middles before and after in pixels of the element, the ratio of their distances, and the turn in degrees to the left.
 function takePinches(element, {begin, move, end}) {
   const fingers = new Map();
   let last = null; // while there are two
