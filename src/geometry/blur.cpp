@@ -31,7 +31,7 @@ struct Strip {
 void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
   line.resize(strip.n);
   for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
-  std::array<double, lanes> sum{};  // double: what enters must leave without a trace
+  std::array<double, lanes> sum{};  // double, so that values which leave the box leave no trace
   const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
   const auto add = [&](std::ptrdiff_t i, double sign) {
     const Lanes& lane = line[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];

@@ -19,7 +19,7 @@ struct Framed {
   // Largest value of each run of `block` in each row.
   int runs;
   std::vector<float> highest;
-  // And of each square of such runs.
+  // Largest value of each square of such runs.
   std::vector<float> highest_of_square;
 
   Framed(const Image<float>& image, int frame_width)
@@ -56,7 +56,7 @@ struct Framed {
       }
   }
 
-  // At least the largest value from row y - away to y + away, x - away to x + block - 1 + away.
+  // Returns an upper bound of rows y - away to y + away, columns x - away to x + block - 1 + away.
   float highest_around(int x, int y, int away) const {
     float most = least;
     for (int row = (y - away) / block; row <= (y + away) / block; ++row)
@@ -67,7 +67,7 @@ struct Framed {
 
   const float* at(int x, int y) const { return values.data() + std::ptrdiff_t{y} * stride + x; }
 
-  // At least the largest value of row y from x to x + count - 1.
+  // Returns an upper bound of row y from x to x + count - 1.
   float highest_of(int x, int count, int y) const {
     const float* const row = highest.data() + std::ptrdiff_t{y} * runs;
     return *std::max_element(row + x / block, row + (x + count - 1) / block + 1);
@@ -97,8 +97,7 @@ struct WindowRow {
   int x, y, away, width;
 };
 
-// Returns how far to the sides the row holds anything that exceeds `lowest` under the shape; -1 if it does not at
-// all.
+// Returns how far to the sides values of the row, minus the shape, may exceed `lowest`; -1 if none does.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -109,7 +108,7 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// Returns how many rows away from the block anything exceeds `lowest` under the shape; -1 if nothing does.
+// Returns how many rows away from the block values, minus the shape, may exceed `lowest`; -1 if none does.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;

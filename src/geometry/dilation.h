@@ -11,7 +11,8 @@ namespace relievo {
 // Heights of a shape, symmetric in x and y, over offsets of whole samples.
 class Profile {
  public:
-  // height(x, y) for 0 <= x, y <= reach; infinite where the shape is not. Must not fall with x or y.
+  // Calls height(x, y) for 0 <= x, y <= reach; it is infinite outside the shape, and does not fall with x or
+  // y.
   template <typename F>
   Profile(int reach, F&& height) : reach_(reach) {
     for (int y = 0; y <= reach; ++y)
@@ -27,8 +28,8 @@ class Profile {
 };
 
 // Returns, for every sample p, the largest value(q) - profile(p - q); NaN counts as -infinity. The result has
-// `border` more samples on each side than the image, or fewer if it is negative. Exact: what is skipped cannot
-// be the largest. Same bits for any number of threads.
+// `border` more samples on each side than the image, or fewer if it is negative. The result is exact, as
+// skipped values cannot be the largest, and has the same bits for any number of threads.
 Image<float> dilate(const Image<float>& image, const Profile& profile, int border);
 
 }  // namespace relievo

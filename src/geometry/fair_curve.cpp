@@ -222,7 +222,7 @@ Corner corner_between(const Course& course, double at, double reach, const FairC
   return {at, before.point + share * before.direction, turn};
 }
 
-// Returns the corner at a length, with turn 0 if there is none. Long sides tell its place best.
+// Returns the corner at a length, with turn 0 if there is none. Long sides determine its place best.
 Corner corner_at(const Course& course, double at, const FairCurveOptions& options) {
   for (const double windows : {4.0, 2.3, 1.3}) {
     const Corner corner = corner_between(course, at, windows * options.window, options);

@@ -11,9 +11,9 @@
 
 namespace relievo {
 
-// Given points, and a lattice of square cells that surrounds them by at least one cell. Values at its nodes
-// are interpolated bilinearly within a cell. Nodes are numbered row by row; a cell has the number of its
-// first node.
+// A lattice of square cells over given points, wider than these by at least one cell on each side. Values at
+// its nodes are interpolated bilinearly within a cell. Nodes are numbered row by row; a cell has the number
+// of its first node.
 class Lattice {
  public:
   // One value per corner of a cell: the first node, and its neighbours in x, in y and in both.
@@ -82,7 +82,7 @@ class Lattice {
   template <typename Real>
   void compare(std::span<const Real> values, std::span<const float> nodes, std::span<Extent> cells) const;
 
-  // Calls f(cell, corner) for the cells around a node; `corner` is which corner of the cell the node is.
+  // Calls f(cell, corner) for the cells around a node; the node is corner number `corner` of the cell.
   // Cells outside the lattice are left out or contain no points.
   template <typename F>
   void each_cell(std::size_t node, F&& f) const {

@@ -17,13 +17,13 @@ int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
 
-// First pixel whose centre is at or after `steps`.
+// Returns the first pixel whose centre is at or after `steps`.
 int first_centre(int steps) {
   const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel: shift before dividing
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
-// The first centre at or after `steps`, of 0 to `most`.
+// Returns the first centre at or after `steps`, limited to [0, most].
 std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
@@ -50,8 +50,8 @@ struct Columns {
   int begin, end;
 };
 
-// Columns of the row in work where no edge is negative. The quotients cannot be rounded across an integer:
-// they are at least 2^-31 away from one, or equal to it, and below 2^15.
+// Returns the columns of the row in work where no edge is negative. The quotients cannot be rounded across an
+// integer: they are at least 2^-31 away from one, or equal to it, and below 2^15.
 Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
   for (const EdgeFunction& edge : edges) {
@@ -100,8 +100,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Whether no centre lies between the triangle's corners. Most triangles of a fine scan end here, so that few bytes of each
-// are read.
+// Returns whether no centre lies between the triangle's corners. Most triangles of a fine scan end here, so
+// that few bytes of each are read.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -114,14 +114,15 @@ bool Rasterizer::is_facing(const Triangle& triangle) const {
   return cross < 0;  // y points down: what is counter-clockwise to the viewer is negative here
 }
 
-// Rows with centres between the triangle's corners. A centre at its lowest corner belongs to another triangle.
+// Returns the rows with centres between the triangle's corners. A centre at its lowest corner belongs to
+// another triangle.
 Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   const auto [top, bottom] =
       std::minmax({cells_[triangle[0]].row, cells_[triangle[1]].row, cells_[triangle[2]].row});
   return {top, bottom};
 }
 
-// Those of some triangles that face the viewer and may cover a centre, with their bands.
+// Returns those of the triangles [begin, end) that face the viewer and may cover a centre, with their bands.
 std::vector<Rasterizer::InBands> Rasterizer::covering(std::size_t begin, std::size_t end) const {
   std::vector<InBands> found;
   for (std::size_t t = begin; t < end; ++t) {

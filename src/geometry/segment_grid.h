@@ -34,11 +34,11 @@ class SegmentGrid {
   // segments of a curve meet, the side is that of the segment whose line is farther away.
   NearestSegment nearest(const Vec2& place, double radius, Index except = no_index) const;
 
-  // Returns the nearest segment within the radius that does not lead against a direction of unit length: by at most 107
-  // degrees from it.
+  // Returns the nearest segment within the radius whose direction is at most 107 degrees from the given one,
+  // which has unit length.
   NearestSegment nearest_along(const Vec2& place, double radius, const Vec2& direction) const;
 
-  // Returns true if a segment has points on both sides of the line from a to b, and the line on both of its own.
+  // Returns true if a segment and the line from a to b cross: each has its ends on both sides of the other.
   bool is_crossed(const Vec2& a, const Vec2& b) const;
 
  private:

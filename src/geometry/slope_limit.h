@@ -16,7 +16,7 @@ struct PlaneMesh {
   std::span<const std::uint8_t> is_fixed;  // per point: its height must not change
 };
 
-// Tells whether heights are rounded to floats, as files store them.
+// States whether heights are rounded to floats, as files store them.
 enum class Rounding { none, single_precision };
 
 // Returns the slope (dz/dx, dz/dy) of a triangle; it is not finite if the triangle has no area.

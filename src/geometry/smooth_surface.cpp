@@ -11,7 +11,8 @@
 namespace relievo {
 namespace {
 
-// A slope may differ from the mean of the triangles around its point by this factor more than these do.
+// A slope may be farther from the mean of the triangles around its point than these are, by this factor; the
+// second is for points at an edge of the surface.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -105,8 +106,9 @@ struct SmoothSurface::Fan {
   bool is_closed = false;  // they enclose the point
 };
 
-// The slope lies among those of the triangles, or a little beyond: a slope that the other side of a bend has would swing to
-// and fro beside it. Where the triangles do not enclose the point, it may lie as far beyond as the point does.
+// Returns a slope among those of the triangles, or a little beyond: slopes from the other side of a bend
+// would make the surface swing to and fro beside it. Where the triangles do not enclose the point, a slope
+// may lie as far beyond as the point does.
 Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   const double off = (slope - fan.mean).norm();
   if (!(off > 0)) return slope;

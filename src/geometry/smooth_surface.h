@@ -16,7 +16,7 @@ namespace relievo {
 // among those of the triangles that it touches, or a little beyond.
 class SmoothSurface {
  public:
-  // A place in a triangle and what the surface is there.
+  // The height and slope of the surface at a place.
   struct Sample {
     double height = 0;
     Vec2 slope = Vec2::Zero();
