@@ -29,16 +29,16 @@ inline float edge_weight(float sum) {
   return std::clamp(sum, least_edge_weight, largest_edge_weight);
 }
 
-// Returns by how much edge_weight() reduces a triangle of which `stiffest` is the largest half weight, in [0, 1]:
-// an edge is the sum of two halves, so that a triangle has half of the bound.
+// Returns the factor, in [0, 1], by which edge_weight() reduces a triangle with the largest half weight
+// `stiffest`: an edge is the sum of two halves, so that a triangle has half of the bound.
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
 }
 
-// Returns the share of its weight that an edge near a depth jump has: the mean of `weights`, one per point, of its ends,
-// see jump_weights(). Walls at jumps are narrower than the sampling distance, and would tie both sides together more
-// than edges between scattered points do; edges across them count a tenth.
+// Returns the share of its weight that an edge near a depth jump has: the mean of its ends' `weights`, one
+// per point, see jump_weights(). Walls at jumps are narrower than the sampling distance, and would tie both
+// sides together more than edges between scattered points do; edges across them count a tenth.
 inline float jump_share(const Boundary& boundary, std::span<const float> weights, Index a, Index b) {
   const float share = (weights[a] + weights[b]) / 2;
   return boundary.is_across_wall(a, b) ? .1F * share : share;

@@ -104,7 +104,7 @@ struct FrameMaker::Packed {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of that shape but for what its style does last; frame.height is already the final one.
+  // Makes the relief of that shape without the last step of its style; frame.height is final already.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = model.with_membrane(shape);
     if (const HeightSystem* system = model.system())
@@ -121,7 +121,8 @@ struct FrameMaker::Packed {
     });
   }
 
-  // Finds u from where the last frame's was; one or two solves as a rule. See ReliefModel::make_at_height().
+  // Searches u from the last frame's on, in one or two solves as a rule. See
+  // ReliefModel::make_at_height().
   void raise_to(double height, Shape shape, Frame& frame) {
     const HeightSearch search(height, frame.options.height_tolerance);
     const auto height_at = [&](double log_u) {

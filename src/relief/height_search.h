@@ -92,11 +92,11 @@ class HeightSearch {
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // A tenth more than the secant asks for: ending a little too high saves a relief.
+    // Steps go a tenth further than the secant asks for: ending a little too high saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
     // Walls that the limit cuts let heights grow more slowly than u, but they always grow.
     constexpr double least_elasticity = .05, most_elasticity = 2;
-    // So near to the end the relief at the end is tried instead: if it is too low, the search is over.
+    // This near to the end, the relief at the end is tried instead: if it is too low, the search is over.
     constexpr double near_last = .3;
     const auto excess_at = [&](double x) { return excess_of(height_at(x)) - tolerance_; };
     double excess = excess_at(low), low_excess = excess, high = last, high_excess = 0, elasticity = 1;

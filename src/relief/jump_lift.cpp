@@ -34,8 +34,9 @@ struct HalfEdge {
   float weight;
 };
 
-// Returns the edges of a triangle. Weights are those of (9), with which a field is as smooth as its triangles are uneven.
-// Triangles of walls are too thin for them: edges across a wall have the weight that equilateral triangles give.
+// Returns the edges of a triangle. Weights are those of (9): with equal weights a field would repeat how
+// uneven the triangles are. Triangles of walls are too thin for them: edges across a wall have the weight
+// that equilateral triangles give.
 std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corners) {
   std::array<HalfEdge, 3> edges;
   const auto plane = [&](std::size_t i) { return Vec2(surface.points[corners[i % 3]].head<2>()); };
@@ -126,8 +127,8 @@ std::vector<Vec2> inverted_places(const Surface& surface, std::span<const Field>
   return inverted;
 }
 
-// Tells which points are near one of some places. Neighbours are asked for one after the other, so that the distance of
-// one mostly decides for the next.
+// Finds whether points are near one of some places. Neighbouring points are asked for in turn, so that the
+// distance of one mostly decides for the next.
 class NearPlaces {
  public:
   NearPlaces(const KdTree<Vec2>& tree, double distance) : tree_(tree), distance_(distance) {}

@@ -1,5 +1,6 @@
-// Keeps what is in front in front at depth jumps. Equation (9) sees slopes alone, and the misfit that it leaves at a
-// jump can put the front edge below the surface behind it, which looks like a crack. docs/decisions/jump-lift.md
+// Keeps the front side of depth jumps in front. Equation (9) sees slopes alone, and the misfit that it leaves
+// at a jump can put the front edge below the surface behind it, which looks like a crack.
+// docs/decisions/jump-lift.md
 #pragma once
 
 #include <Eigen/Core>
@@ -36,8 +37,8 @@ class JumpLift {
   // Finds fields with which hardly any jump is inverted. Silhouettes do not move.
   static JumpLift find(const JumpLiftInput& input);
 
-  // Adds the field for a layered shape, which has its membrane, to the heights that (9) gives it: one height for each
-  // point of the surface. Changes nothing where the height correction does not act, as level parts stay level there.
+  // Adds the field for a layered shape, whose membrane is set, to its heights from (9), one for each point of
+  // the surface. Changes nothing where the height correction does not act, as level parts stay level there.
   template <typename Real>
   void add_to(std::span<Real> z, const Shape& shape) const {
     const Eigen::Array4f shares = shares_at(shape);

@@ -172,8 +172,8 @@ class ReliefModel::Maker {
                                           boundary_rho(model.surface(), shape.boundary_width))),
         input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {}
 
-  // Returns the relief of that shape but for what its style does last; the height is already the final one. Its
-  // steps are for the height asked for; without one, for that of its slopes.
+  // Returns the relief of that shape without the last step of its style; its height is final already. Steps
+  // at depth jumps take their share of the height asked for, or without one of that of the slopes.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, model_.with_membrane(asked)};
     relief.heights = model_.state_->solve(relief.shape, input_);

@@ -1,4 +1,4 @@
-// The two styles of reliefs: all in which they differ stands here.
+// The two styles of reliefs. Everything in which they differ is in this file.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayer
   return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
 }
 
-// Returns what stands for rho in equation (7), which has 2 rho, for a boundary that is `width` rho wide.
+// Returns the rho to use in equation (7) for a boundary `width` rho wide; in (7) itself it is 2 rho wide.
 inline double boundary_rho(const Surface& surface, double width) {
   return surface.rho * width / 2;
 }
@@ -169,7 +169,7 @@ void write_slopes(const SlopeInput& input, const Style& style, const Weight& wei
 
 class WeightTable;
 
-// The same bits as write_slopes() for the layered style in single precision, of eight points at a time.
+// Writes the same bits as write_slopes() for the layered style in single precision, eight points at a time.
 void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
                            std::span<Vec2f> slopes);
 

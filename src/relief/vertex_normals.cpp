@@ -24,8 +24,8 @@ class NormalRows {
   NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
-  // Adds the row of a point to `entries`: the derivatives of the sum of the triangles' cross products there by heights,
-  // over z of that sum, which does not depend on heights.
+  // Adds the row of a point to `entries`: the derivatives, by heights, of the sum of its triangles' cross
+  // products, divided by z of that sum, which does not depend on heights.
   void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
     terms_.clear();
     double z = 0;

@@ -206,7 +206,7 @@ class Multifrontal::Subtree {
     pop();
   }
 
-  // For a supernode whose parent belongs to another task: adds its block to that of the whole task.
+  // Adds the block of a supernode whose parent belongs to another task to the block of the whole task.
   void add_to_boundary() {
     child_slots_.clear();
     for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());

@@ -129,7 +129,7 @@ class Fundamental {
       for (std::size_t r = result_.begin[s]; r < result_.begin[s + 1]; ++r) add_row(result_.rows[r], j);
   }
 
-  // The open supernode ends before column `end`.
+  // Ends the open supernode before column `end`.
   void close(Index end) {
     const auto from = result_.rows.begin() + static_cast<std::ptrdiff_t>(result_.begin.back());
     result_.rows.erase(std::remove_if(from, result_.rows.end(), [&](Index r) { return r < end; }),

@@ -16,14 +16,14 @@
 namespace relievo {
 namespace {
 
-// The width of a cell as a share of the longer side, a quarter of the bending length, which resolves it; and
-// the least width in sampling distances, where points are too sparse for that.
+// The width of a cell: a quarter of the bending length, so that cells resolve it, as a share of the longer
+// side; and the least width where points are too sparse for that, in sampling distances.
 constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of that elsewhere: next to none, but the system stays regular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// Nodes are free from the first coverage on, and have a lower limit from the second on: nearer to the silhouette the
-// ties there keep the field up. Limits of nodes there jump from one to the next, as heights rise steeply between them.
+// Nodes are free from the first coverage on, and have a lower limit from the second on. Nearer to the
+// silhouette the ties keep the field up; there heights rise steeply, and limits would jump from node to node.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
 // The tension outside, as a share of that inside: the field goes on evenly there.
 constexpr float least_tension = .1F;

@@ -25,11 +25,11 @@ struct HeightLimits {
 // A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Of all such fields it is
 // close to the one with the least energy, which docs/method.md gives under "The height correction".
 //
-// b lives on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits leave
-// room for what the heights do between nodes. Along the silhouette b is tied to 0 on the curve itself, and at least
-// about 0; the lattice goes on beyond it, so that b does not depend on where the silhouette passes between the
-// nodes. Const calls may run concurrently, each with a workspace of its own; results are the same bits for any
-// number of threads.
+// b lives on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits
+// leave room for the heights between nodes. Along the silhouette b is tied to 0 on the curve itself, and at
+// least about 0; the lattice goes on beyond it, so that b does not depend on where the silhouette passes
+// between the nodes. Const calls may run concurrently, each with a workspace of its own; results are the same
+// bits for any number of threads.
 class HeightCorrection {
  public:
   // In shares of the longer side. docs/decisions/height-correction.md says what other lengths do.

@@ -94,8 +94,8 @@ class TuningSearch {
     return metrics.estimate(z);
   }
 
-  // Sets what estimates have to reach so that the estimate of these parameters has the same deficit as their
-  // full relief, which it returns.
+  // Sets the scores that estimates must reach, so that the estimate of these parameters has the same deficit
+  // as their full relief. Returns the violation of that relief.
   Violation calibrate(const MembraneParams& params, std::vector<double> heights) {
     const Scores deficit = comparison_.deficit(std::move(heights), at_u(params)), scores = estimate(params);
     required_ = {scores.detail + deficit.detail + margin.detail, scores.order + deficit.order + margin.order};
