@@ -20,7 +20,7 @@ class ExactOutlines {
   // Returns whether a line in the view plane crosses a depth jump.
   bool is_across_jump(const Vec2& a, const Vec2& b) const { return jumps_.is_crossed(a, b); }
 
-  // Marks triangles as outside that span a gap between samples whose middle lies beyond the silhouette.
+  // Marks as outside the triangles over gaps between samples that have their middle beyond the silhouette.
   void open_gaps(Surface& surface) const;
 
   // Returns the curve along an outline that was found: `places` are near it, in its order, with the surface on their

@@ -20,8 +20,8 @@ double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).norm() * (c - b).norm() * (a - c).norm() / std::max(2 * twice_area, 1e-300);
 }
 
-// Returns whether a depth jump lies between two points and the surface behind ends before it, as its normal leans
-// towards the one in front.
+// Returns whether a depth jump lies between two points and the surface behind ends there: its normal leans
+// towards the point in front.
 bool ends_at_jump(const Surface& surface, Index front, Index back) {
   if (!is_occlusion(surface, front, back)) return false;
   if (surface.points[front].z() < surface.points[back].z()) std::swap(front, back);

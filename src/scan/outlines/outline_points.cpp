@@ -187,8 +187,8 @@ class NewSurface {
       if (!is_on(a) && !is_on(b) && !is_on(c) && longest < 3 * surface.rho) return;
       const Vec2 centre = (plane[a] + plane[b] + plane[c]) / 3;
       const NearestSegment near = silhouettes_.nearest(centre, std::max(3 * surface.rho, longest));
-      // A triangle between points of one silhouette alone, where that is nearly straight, is ground: empty circles as
-      // large as its own are not inside.
+      // A triangle with all corners on one silhouette, where that is nearly straight, is outside: its empty
+      // circle is too large to be inside.
       const bool is_sliver = is_on(a) && is_on(b) && is_on(c) && near.distance < sliver_width * surface.rho;
       boundary.is_inside[t] = near.segment == no_index || (near.is_left && !is_sliver);
     });

@@ -19,11 +19,11 @@ constexpr double least_piece = 20, hole_area = 4;
 constexpr double point_spacing = .75, fair_window = 3;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
-// Nodes whose place normals do not tell count less than others.
+// The weight of nodes with places that the normals do not determine. No node counts less.
 constexpr double uncertain = .03;
 // The error, in rho, of a place that is half trusted.
 constexpr double trusted_error = .25;
-// Normals that lean less say too little of where the surface ends.
+// Normals that lean less do not show where the surface ends.
 constexpr double least_lean = .75;
 
 double area_of(const Surface& surface, const Triangle& t) {
@@ -61,14 +61,14 @@ class Pieces {
   std::vector<std::uint8_t> is_open_;
 };
 
-// Tells where the surface ends beyond a point, by the normals around it.
+// Finds where the surface ends beyond a point, by the normals around it.
 class EdgeFinder {
  public:
   EdgeFinder(const Surface& surface, const PlanePoints& plane)
       : surface_(surface), plane_(plane.places), tree_(plane.tree) {}
 
   // Returns the place where the normals around a point, continued linearly, are perpendicular to the view; the
-  // point's own, with little weight, if they do not tell or the place is farther than `farthest`.
+  // point's own, with little weight, if they do not show it or the place is farther than `farthest`.
   CurveNode at(Index i, double farthest) const {
     const CurveNode unknown{plane_[i], uncertain};
     std::vector<KdTree<Vec2>::Match> matches;
@@ -216,7 +216,7 @@ class JumpLines {
 
   double depth(Index point) const { return surface_.points[point].z(); }
 
-  // Exact outlines tell of lower jumps than points do: the edge of a fold, whose normals explain its depth.
+  // Exact outlines show lower jumps than points do, such as the edge of a fold: normals explain its depth.
   bool is_across(Index a, Index b) const {
     const Vec3 &p = surface_.points[a], &q = surface_.points[b];
     if (is_occlusion(surface_, a, b)) return true;

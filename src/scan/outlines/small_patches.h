@@ -1,4 +1,4 @@
-// Leaves out what is seen through slits. Tested by tests/scan/small_patches_test.cpp.
+// Leaves out surfaces that are seen only through slits. Tested by tests/scan/small_patches_test.cpp.
 #pragma once
 
 #include "relievo/scan/surface.h"
@@ -7,9 +7,9 @@
 namespace relievo {
 
 // Removes the points of small patches: sets of points that depth jumps, or gaps of 3 rho, separate from all others,
-// and that lie behind what surrounds them. Such a patch is too small for rows of points beside its outlines, and
-// what it belongs to does not show: it is a rag. Returns whether points were removed; the triangulation and the
-// boundary then have to be found anew.
+// and that lie behind what surrounds them. Such a patch is too small for rows of points beside its outlines,
+// and the surface that it belongs to is not seen. Returns whether points were removed; the triangulation and
+// the boundary then have to be found anew.
 bool drop_small_patches(Surface& surface, PointMeasures& measures);
 
 }  // namespace relievo
