@@ -31,7 +31,7 @@ enum class NormalSigns { outward, inward, unknown };
 std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
                                                 NormalSigns signs = NormalSigns::outward);
 
-// Returns whether normals point into a model that is seen so from the six sides along its axes, see normals.h.
+// Returns whether the normals of a model point into it, given its six sides along the axes, see normals.h.
 bool normals_point_inward(std::span<const CoarseVisibility> sides);
 
 }  // namespace relievo

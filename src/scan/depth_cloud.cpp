@@ -1,4 +1,4 @@
-// From a depth image to points. Tested by tests/scan/depth_image_test.cpp.
+// Converts a depth image into points. Tested by tests/scan/depth_image_test.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +31,8 @@ std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
   return is_hole;
 }
 
-// Gives each place of a hole a height: of the nearest known places in the four directions along its row and
-// column, that of the one farthest back, as a hole beside an outline belongs to the surface behind it.
+// Gives each place of a hole the lowest height of the nearest known places in the four directions along its
+// row and column, as a hole beside an outline belongs to the surface behind it.
 void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::vector<float>& z) {
   const std::vector<float> known = z;
   parallel_for(

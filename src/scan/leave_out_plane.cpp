@@ -15,8 +15,8 @@ struct LeftPiece {
   std::size_t high = 0;
 };
 
-// Leaves out what is left of a plane: pieces that stay low over it, for their size, as a depth camera bends tables, and
-// boards have ridges; and debris, which is small beside the largest piece and hung on what is gone.
+// Leaves out the remains of a plane: pieces that stay low over it for their size, as a depth camera bends
+// tables, and boards have ridges; and debris, pieces that are small beside the largest one.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
   constexpr double low = 4;             // in tolerances

@@ -18,7 +18,7 @@ class LinearField {
     Value value = Value::Zero();  // at the place
     Eigen::Matrix<double, 2, Values> gradient = Eigen::Matrix<double, 2, Values>::Zero();
     bool is_sloped = false;  // false if the points lie too near a line: then the value is their mean
-    double misfit = 0;       // root of the mean square of what a sloped fit leaves of the values
+    double misfit = 0;       // root mean square of the residuals of a sloped fit
     double count = 0;        // of points, those near the place fully
   };
 

@@ -18,8 +18,8 @@ class MeasuredCloud {
   static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
                                                               Progress* progress = nullptr);
 
-  // Returns whether the view may show these measures: whether it would measure the same. A crop depends on the direction
-  // of the view, and so do the exact outlines of a mesh.
+  // Returns whether the view may show these measures, because measuring for it would give the same. A crop
+  // depends on the direction of the view, and so do the exact outlines of a mesh.
   bool serves(const View& view) const;
 
   // Returns the view that they were measured for.

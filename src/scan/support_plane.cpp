@@ -151,7 +151,7 @@ Plane fitted(const Sample& sample, const std::vector<std::size_t>& on) {
   return {n, n.dot(mean)};
 }
 
-// The corners of a convex polygon, counter-clockwise.
+// Returns the corners of the convex hull of points, counter-clockwise.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   std::ranges::sort(points, {}, [](const Vec2& p) { return std::pair(p.x(), p.y()); });
   std::vector<Vec2> hull;
@@ -171,7 +171,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-// Returns about the area that points in a plane cover: that of the cells of a grid in which there are any.
+// Returns the approximate area that points in a plane cover: that of the cells of a grid with points in them.
 double covered_area(const std::vector<Vec2>& points) {
   constexpr int side = 64;
   const Box box = Box::of(points);
@@ -187,7 +187,7 @@ double covered_area(const std::vector<Vec2>& points) {
   return cell * cell * static_cast<double>(std::ranges::count(is_covered, 1));
 }
 
-// Returns whether what is before the plane stands over it, and rises as a figure does.
+// Returns whether the points before the plane stand over it, and rise as a figure does.
 bool has_figure_over(const Plane& plane, const Sample& sample, const std::vector<std::size_t>& on,
                      double tolerance) {
   const Vec3 t1 = plane.normal.unitOrthogonal(), t2 = plane.normal.cross(t1);

@@ -130,7 +130,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   if (surface.plane && !surface.view.has_plane)
     leave_out_plane(*surface.plane, spacing, cloud, {visible, hole_fill});
   surface.visible_points = visible.size();
-  // Flat, as nothing is known of the front there.
+  // Hole fill points get level normals, as nothing is known of the front there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 
   RELIEVO_CHECK(begin_stage(progress, "curvature", .4));

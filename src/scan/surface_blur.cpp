@@ -18,7 +18,7 @@ constexpr std::size_t grain = 512;  // columns that one task averages
 SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(points.size()) {
   const Box box = Box::of(points);
   double side = sigma / sigma_in_cells;
-  // Numbers may be beyond those of a size, which has 32 bits in WebAssembly.
+  // The counts may exceed std::size_t, which has 32 bits in WebAssembly.
   const auto count = [&](int axis) { return std::floor(box.size()[axis] / side) + 4; };
   while (count(0) * count(1) * count(2) > most_cells) side *= 1.1;
   width_ = static_cast<std::size_t>(count(0));
@@ -32,7 +32,7 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   columns_ = columns_around_points(width_ * static_cast<std::size_t>(count(1)));
 }
 
-// Returns so many columns, with the cells from which values at the points are averaged, and an empty one behind them.
+// Returns `count` columns with the cells from which values at the points are averaged, then an empty one.
 std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points(std::size_t count) const {
   std::vector<Column> filled(count), around(count + 1);
   for (const Place& place : places_)

@@ -51,7 +51,8 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns the first of the two opposite sides from one of which all was scanned; 6 if the cloud has several layers.
+// Returns the first of two opposite sides if one of them shows all that was scanned; 6 if the cloud has
+// several layers.
 std::size_t scanned_axis(const std::vector<CoarseVisibility>& seen) {
   const auto share = [&](std::size_t i) { return std::min(seen[i].one_layer, seen[i + 1].one_layer); };
   const std::array<std::size_t, 3> axes{0, 4, 2};
@@ -61,8 +62,8 @@ std::size_t scanned_axis(const std::vector<CoarseVisibility>& seen) {
   return *std::ranges::find_if(axes, [&](std::size_t axis) { return share(axis) >= most - same_share; });
 }
 
-// Returns how much of a side is the outside of its model. Estimated normals cannot tell; but what is seen from outside
-// is nearer in its middle than along its outline.
+// Returns how much of a side is the outside of its model. Estimated normals do not show it, but an outside is
+// nearer in its middle than along its outline.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   constexpr double perhaps_hollow = .5;
   if (has_signs) return seen.facing_share;

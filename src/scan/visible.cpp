@@ -22,7 +22,8 @@ constexpr std::size_t smallest_fragment = 32;
 // Neighbours further apart than this, in local spacings, are not connected. A disc of this radius holds 9 pi
 // = 28 points.
 constexpr double connection_length = 3;
-// A fragment has at most the visible points divided by this, or a cloud of few points would be nothing else.
+// A fragment has at most the visible points divided by this, or all of a cloud of few points would be
+// fragments.
 constexpr std::size_t fragment_divisor = 8;
 // Hole fill points come from well sampled surfaces only, and are this far apart, in rho.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;

@@ -13,16 +13,18 @@ namespace {
 
 constexpr std::size_t most_repeats = 64;    // of a place
 constexpr std::size_t points_judged = 400;  // that are looked at, from all over the cloud
-// The share of points scattered at random around which a gap as wide as that after repeats is found by chance.
+// The share of points scattered at random that by chance have a gap around them as wide as that after
+// repeats.
 constexpr double gap_by_chance = .002;
-// Meshes that were made by marching cubes have vertices in twos and threes that lie together by nature, nearer than a tenth
-// of the distance to others at a fifth of the places and a hundredth at a fiftieth.
+// Marching cubes put two or three vertices close together without repeating any: at a fifth of the places
+// nearer than a tenth of the distance to others, at a fiftieth nearer than a hundredth.
 constexpr std::size_t most_by_nature = 3;
 constexpr double near_share = .1, sure_share = .01;  // of that distance
 constexpr double least_sure = .05,
                  least_near = .4;  // shares of places from which on the points repeat others
-// Points are merged within three times the distance that three of four repeats keep, or a quarter of the way to other
-// places. The fourth may be a gap by chance, after points of several places.
+// Points are merged within three times the distance that three quarters of the repeats keep, but at most a
+// quarter of the way to other places. The other quarter may be gaps by chance, after points of several
+// places.
 constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
 // The distances from a point to the farthest one that repeats it, and to the nearest that does not.
@@ -31,9 +33,9 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the first wide gap after the nearest points: those farther on would be found by chance, as repeats make points
-// many and places few. Of points scattered over a surface, the m-th is nearer than a
-// share s of the distance to the next one with probability s^2m.
+// Returns the first wide gap after the nearest points: those farther on would be found by chance, as repeats
+// make points many and places few. Of points scattered over a surface, the m-th is nearer than a share s of
+// the distance to the next one with probability s^2m.
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;

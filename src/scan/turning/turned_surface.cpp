@@ -82,7 +82,7 @@ class CellMeasures {
  public:
   CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}
 
-  // Returns the mean normal of what lies about as deep.
+  // Returns the mean normal of the cells around that lie about as deep.
   Vec3f normal(int x, int y) const {
     if (!front_.is_covered(x, y)) return Vec3f::UnitZ();
     const float depth = front_.depth.at(x, y), most = 6 * static_cast<float>(step_) * front_.cell;

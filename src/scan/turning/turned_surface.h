@@ -19,7 +19,7 @@ struct TurningScan {
   Vec3 centre = Vec3::Zero();           // see Surface
   double rho = 0, diagonal = 0;
 
-  // Returns the scan without the points on the plane of a surface of the same scan, which has one, and behind it.
+  // Returns the scan without the points on and behind the plane of `surface`, a surface of it that has one.
   TurningScan without_plane(const Surface& surface) const;
 };
 
