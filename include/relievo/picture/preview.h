@@ -13,8 +13,8 @@ struct PreviewOptions {
   int longer_side_px = 1200;      // of each of the two pictures, front and oblique
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
   Material material = Material::plaster;
-  // The body before it was bent, which the front picture then shows instead: bent to the inside, its work would be hidden,
-  // and bent at all, porcelain in front of a lamp. It must outlive the call.
+  // The body before it was bent. If given, the front picture shows it instead: bending to the inside would
+  // hide the relief, and bending of any kind that of porcelain in front of a lamp. It must outlive the call.
   const Solid* flat = nullptr;
   // The body is cut open there for the oblique picture, which leaves out what is nearer to the viewer.
   double nearest_mm = std::numeric_limits<double>::infinity();

@@ -15,15 +15,15 @@ class SolidRenderer {
   // Shares the solid, which has at least one triangle.
   explicit SolidRenderer(std::shared_ptr<const Solid> solid);
 
-  // Colours what the tool leaves standing on the solid, from orange to red. Shares its reach.
+  // Also colours the material that the tool leaves on the solid, from orange to red. Shares the reach.
   SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach);
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 
-  // Overwrites the picture; leaves it without pixels for a size out of range. Zoom 1 fits the solid into the picture; the
-  // middle of its box, at the height of its ground, is what the camera turns around. Lengths in the options
-  // (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is cancelled is left
-  // unfinished.
+  // Overwrites the picture; leaves it without pixels for a size out of range. Zoom 1 fits the solid into the
+  // picture; the camera turns around the middle of its box, at the height of its ground. Lengths in the
+  // options (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is
+  // cancelled is left unfinished.
   void render(const RenderOptions& options, Picture& picture, const Progress* progress = nullptr);
 
  private:

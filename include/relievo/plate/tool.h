@@ -26,18 +26,18 @@ struct Tool {
 // see parse_length(). Errors: kind option, naming tool.
 Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// The tool as parse_tool() reads it, in millimetres.
+// Returns the text of the tool as parse_tool() reads it, in millimetres.
 std::string text_of(const Tool& tool);
 
-// Height of the tool's surface above its lowest point at that distance from its axis, in mm; infinite beyond
-// its radius.
+// Returns the height of the tool's surface above its lowest point at that distance from its axis, in mm;
+// infinite beyond its radius.
 double tool_profile(const Tool& tool, double distance_mm);
 
 // Returns the lowest surface that the tool can leave above the heights, without cutting into them at any
 // sample: their closing by its shape. Never below them. NaN means that there is nothing, nor any obstacle; it
 // stays. The tool stands over samples, and up to its radius beside the picture. A radius counts up to half
-// the longer side of the picture, a V tool's flank up to the span of the heights. Exact for the samples. Of
-// the surface between them, a ball of radius R is told where it touches to within step_mm^2 / (8 R) on gentle
+// the longer side of the picture, a V tool's flank up to the span of the heights. Exact for the samples.
+// Between them, the height at which a ball of radius R touches is found to within step_mm^2 / (8 R) on gentle
 // slopes, and to within half a step times the slope on walls. About 0.5 s for 4M samples and a radius of 15
 // of them, two cores.
 Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const Tool& tool);
@@ -51,7 +51,7 @@ struct ToolReach {
   Image<float> residual_mm;        // left above it; NaN beside it
 };
 
-// Returns what the tool reaches of a solid's front. No samples and all of it for an empty front.
+// Returns the part of a solid's front that the tool reaches. An empty front has no samples and is reached.
 ToolReach measure_reach(const Solid& solid, const Tool& tool);
 
 }  // namespace relievo

@@ -43,8 +43,8 @@ class Wrap {
   // once (a sphere: more than 340 degrees), or a cone whose tip lies on the plate.
   static Result<Wrap> around(const WrapOptions& options, std::span<const Vec2> outline);
 
-  // Returns where a point above that place of the flat plate is bent to. The axis, or the sphere's centre,
-  // runs through the origin, and the viewer stays in +Z. Orientation is kept.
+  // Returns the place to which a point above that place of the flat plate is bent. The axis, or the sphere's
+  // centre, runs through the origin, and the viewer stays in +Z. Orientation is kept.
   Vec3 at(const Vec2& place, double above_ground_mm) const;
 
   // Returns the smallest distance of the ground from the axis, in mm; relief and back must stay within it.
