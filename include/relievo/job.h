@@ -35,8 +35,8 @@ struct LiveFrame {
   bool is_new = false;  // false if the frame before it was the same
 };
 
-// Tells which frame of the options is wanted. A quick one takes one or two solves: at most 3 % of a height that is
-// asked for is left to the stretch.
+// Selects a frame of the options. A quick one takes one or two solves, and leaves at most 3 % of a height
+// that is asked for to the stretch.
 struct FrameWish {
   std::optional<double> u;  // of the compression, in place of a height, which then follows the shape
   bool is_quick = false;
@@ -45,8 +45,9 @@ struct FrameWish {
 // Checks the size of a picture and where its camera stands. Errors: kind option, naming the field.
 Result<void> check(const RenderOptions& options);
 
-// A prepared model, and all that shows it. What needs a walk over all points is computed once. If memory runs out in
-// relief(), frame() or picture(), that is an error of kind memory. Not for concurrent use.
+// A prepared model with all that its frames and pictures need. Results that take a pass over all points are
+// computed once. If memory runs out in relief(), frame() or picture(), that is an error of kind memory. Not
+// for concurrent use.
 class LiveModel {
  public:
   // Shares the model. `notes` tell how its points were sampled.

@@ -59,8 +59,8 @@ struct ReliefReport : ScanReport {
   double steepest_deg = 0;     // of the front's triangles, as files hold them
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
-  // in z the model keeps its depth and its lowest visible point lies on the ground, of a curved base on that
-  // in the middle of the plate. The rotation of a mirrored form holds the mirror, too.
+  // in z the model keeps its depth and its lowest visible point lies on the ground; with a curved base, on
+  // that in the middle of the plate. The rotation of a mirrored form holds the mirror, too.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
@@ -121,7 +121,7 @@ Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Pro
 // Does the same for a cloud.
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Returns the shape that the options ask for; where they give a height, its starting point.
+// Returns the shape that the options ask for. A search for their height starts from it.
 Shape shape_of(const ReliefOptions& options);
 
 // Returns the options with a width: the one asked for, the largest that a plate of the size asked for leaves with margin

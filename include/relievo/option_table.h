@@ -43,7 +43,7 @@ using OptionValue = std::variant<std::string, double>;
 // Values by the names of their options. An option that is missing has its default.
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-// Reads a value of an option, and tells which number applies.
+// Reads a value of an option, and returns the number that applies.
 struct OptionTargets;
 struct OptionAccess {
   // Takes a value of the right type. The input of an error may be empty, for the caller to fill in.

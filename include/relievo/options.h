@@ -63,14 +63,15 @@ struct ReliefOptions : NumericOptions {
   std::optional<Tool> tool;  // its reach is reported
   Finish finish = Finish::full;
 
-  // The values that rule where none was given: the paper's, or for other methods those that keep most of the
-  // model. The width is that for a plate without a size of its own, see with_width().
+  // The following return the value given, or else a default: the paper's, or for other methods those that
+  // keep most of the model. The width is that for a plate without a size of its own, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   Method effective_method() const;
-  // Nothing where the shape gives the height: by the paper's method, and for a lithophane. A height that was not asked for
-  // is a share of the width, or the largest that the view reaches.
+  // Returns nothing where the shape gives the height: by the paper's method, and for a lithophane. A height
+  // that was not asked for is a share of the width, or the largest that the view reaches.
   std::optional<double> effective_height_mm() const;
-  // The height that is asked for, or else that of a lithophane or a share of the width: see docs/decisions/default-height.md.
+  // Returns the height that is asked for, or else that of a lithophane or a share of the width: see
+  // docs/decisions/default-height.md.
   double usual_height_mm() const {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
   }
@@ -78,7 +79,7 @@ struct ReliefOptions : NumericOptions {
   double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // that of Shape::max_slope
   // The margin is small where a diameter is given, as on coins.
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
-  // Little for a lithophane, through whose thinnest places the light is to come.
+  // The plate of a lithophane is thin, because light has to pass through its thinnest places.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
   double effective_saturation() const;
   double effective_detail() const;

@@ -53,7 +53,7 @@ struct PlacedModel {
 };
 
 // Returns where each model stands.
-// - If any pose has a `translate`, where the poses say: files that share one frame fit together.
+// - If any pose has a `translate`, they stand where the poses say: files that share one frame fit together.
 // - One model alone stays where it is.
 // - Otherwise the models are arranged as the view shows them: side by side from left to right, on one ground line,
 //   their middles equally deep, a gap of 8 % of their height between them. The first keeps its size and, unless it
@@ -64,7 +64,7 @@ struct PlacedModel {
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
 // Returns the side of the scene that suits a relief best, see rank_views(). Several models, and a model that a pose moves,
-// stand as they are to be seen: their best side is the front. Of more than a million points a million are looked at.
+// stand as they are to be seen: their best side is the front. At most a million points are looked at.
 ViewGuess best_side(const Scene& scene);
 
 // Returns the view, turned to a side.
@@ -83,7 +83,7 @@ double usual_points(const Scene& scene);
 //   whole, without outliers.
 // - All models get about one sampling distance: that of the finest cloud, or the one at which as many points as
 //   wanted are visible, if that is wider or the scene has meshes. Finer clouds are thinned to it. Of much coarser
-//   ones only what the viewer sees is taken, with points in between.
+//   ones only visible points are taken, with points in between.
 // - Normals are estimated, or turned, for each model by itself.
 // - If any model has colours, the others are white.
 // - A single model that is not moved gives what its file has.

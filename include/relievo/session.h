@@ -33,11 +33,11 @@ struct Preparation {
   View view = {};
   Mode mode = Mode::automatic;
 
-  // Called after points() where it is set: returns the view, if that depends on what was read.
+  // If set, it is called after points(), and returns the view where that depends on the points.
   std::function<View()> chosen_view = {};
 
-  // Called for coarse reliefs where it is set: returns the points of all sides. Without it, those of points() are turned,
-  // which is right for clouds; points of a mesh are samples of one view.
+  // If set, it is called for coarse reliefs, and returns the points of all sides. Without it, those of
+  // points() are turned, which is right for clouds; points of a mesh are samples of one view.
   std::function<Points(Progress&)> all_sides = {};
 
   // If set, and there is no model yet, the session's thread makes the coarse relief of this view as soon as the points are
@@ -48,8 +48,8 @@ struct Preparation {
   // session, and a lock that it takes must not be held by whoever calls the session.
   std::function<void(const Model&)> ready = {};
 
-  // Called where it is set when status() has changed. It may call status() alone. Where there are threads, whoever watches
-  // asks from time to time instead.
+  // If set, it is called when status() has changed, and may call status() alone. Where there are threads,
+  // whoever watches asks from time to time instead.
   std::function<void()> changed = {};
 };
 

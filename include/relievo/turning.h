@@ -23,7 +23,7 @@ struct TurnedRelief {
 // Turns one scan. Const calls may run concurrently.
 class Turntable {
  public:
-  // About how many points a turned relief has inside; those along outlines, some 3,000, come on top.
+  // The approximate number of points inside a turned relief; some 3,000 along outlines come on top.
   static constexpr std::size_t points = 15'000;
 
   // Copies what it needs of the cloud.

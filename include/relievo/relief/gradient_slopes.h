@@ -1,5 +1,6 @@
-// The slopes of gradient-domain compression: a baseline, and what the height correction is tuned against. After
-// Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes, 2007.
+// The slopes of gradient-domain compression: the baseline that the height correction is tuned against. After
+// Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes,
+// 2007.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Normals split into layers by the size of what they show: the layered style compresses coarse layers more
-// than fine ones.
+// Normals split into layers by the size of the forms that they show: the layered style compresses coarse
+// layers more than fine ones.
 #pragma once
 
 #include <algorithm>

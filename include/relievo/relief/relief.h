@@ -63,10 +63,10 @@ class ReliefModel {
   // Returns the heights of depth jumps, which Shape::steps adds.
   const StepHeights& steps() const;
 
-  // Returns what keeps the front sides of depth jumps in front in layered reliefs.
+  // Returns the fields that keep the front sides of depth jumps in front in layered reliefs.
   const JumpLift& jump_lift() const;
 
-  // Returns what compresses layered heights.
+  // Returns the correction that compresses layered heights.
   const HeightCorrection& correction() const;
 
   // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none. They are tuned to

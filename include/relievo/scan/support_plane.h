@@ -31,8 +31,8 @@ struct SupportPlane {
 // Returns the plane that the visible points of a cloud stand on or before; nothing where there is none. `viewed` is in
 // view coordinates and has normals, `visible` are the numbers of its visible points, and rho is its sampling distance.
 // A table is level from the left to the right and rises away from the viewer; other planes that face the viewer are
-// backgrounds. A face of a solid is neither: all but a few of the other points have to lie before the plane, over it, and
-// rise far above it for their extent. The same bits for any number of threads.
+// backgrounds. A face of a solid is neither: all but a few of the other points have to lie before the plane,
+// over it, and rise far above it for their extent. The result has the same bits for any number of threads.
 std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<const Index> visible,
                                                double rho);
 
