@@ -23,8 +23,8 @@ export const about = await ask();
 // max of numbers, and choices of enumerations.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
-// Returns the value that rules where the option is not given; null if it has none. `by` is the method, or a form or
-// "diameter" with which another default rules.
+// Returns the default of an option; null if it has none. `by` is the method, or a form or "diameter" that has a default
+// of its own.
 export function defaultOf(name, by) {
   const option = optionOf(name), value = option.default ?? null;
   return option.default_with?.[by] ?? value?.[by] ?? value; // an object where methods differ

@@ -60,7 +60,7 @@ export class BaseImage {
     }
   }
 
-  // Returns whether an error of a picture says that the image is gone, which is then said once.
+  // Returns whether an error of a picture says that the image is gone, and then shows that once.
   isMissing({kind, input}) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     if (kind !== "input" || !path || isGone(path) || input !== path) return false;

@@ -28,7 +28,7 @@ const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 // Returns a step with a part's values in place of its own.
 const withPart = (step, part) => ({...step, ...part, options: {...step.options, ...part.options}});
 
-// Returns the values of a part that a later step has as the step `base` had them.
+// Returns a part without the values that were changed between the steps `base` and `later`.
 function unlessChanged({options = {}, ...part}, base, later) {
   const kept = (values, was, is) =>
     Object.fromEntries(Object.entries(values).filter(([name]) => isSame(was[name], is[name])));
@@ -76,8 +76,7 @@ export class Document {
     return this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
   }
 
-  // Changes the document as it was at a position that was the newest then: what was changed since comes after it, and
-  // keeps its values.
+  // Changes the document as it was at a position that was the newest then. Later changes follow and keep their values.
   changeAt(position, part) {
     const at = Math.max(0, position - this.forgotten);
     if (at >= this.at) return this.change(part);
@@ -92,7 +91,7 @@ export class Document {
     this.onChange(before);
   }
 
-  // The same as change() without a call of onChange(). Returns whether anything is new.
+  // Does the same as change() without a call of onChange(). Returns whether anything is new.
   append(part, stroke = null) {
     if (stroke !== null && stroke === this.cancelled) return false;
     const next = withPart(this.now, part);
@@ -111,7 +110,7 @@ export class Document {
     return true;
   }
 
-  // Enters what the engine found out, which is no step of its own.
+  // Enters values that the engine found, which are no step of their own.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }
@@ -174,7 +173,7 @@ export class Document {
 // A lithophane is printed and has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
-// Returns the options as the engine and `relievo make` take them: most rule by their absence, or go without saying.
+// Returns the options as the engine and `relievo make` take them: most values of a new document are left out.
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
   for (const [name, value] of Object.entries(step.options)) {
@@ -211,8 +210,8 @@ export function projectOf(step) {
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
-// Returns the step that a project file describes, as the engine has read it. `usual` are the numbers that rule where it
-// names no others; the width may depend on the plate.
+// Returns the step that a project file describes, as the engine has read it. `usual` has the defaults of numbers that
+// it does not name; the width may depend on the plate.
 export function stepOfProject({input, options: {alpha, ...options} = {}, usual = {}, studio = {}}) {
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
   const step = {...FIRST, input, options: {...FIRST.options, ...usual, method, width: null, ...options}};

@@ -43,8 +43,8 @@ export class Entries {
     }
   }
 
-  // Throws the engine's error if it cannot read the options or make a piece of them, which one height of the piece
-  // shows. A width that does not fit is put right later, and another view is still to be prepared.
+  // Throws the engine's error if it cannot read the options or make a piece of them; asking for one height of the piece
+  // shows that. A width that does not fit is put right later, and another view is still to be prepared.
   async tryOut(step, {isMade}) {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;

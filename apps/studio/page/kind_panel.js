@@ -37,7 +37,7 @@ export class KindPanel {
     $("#make-die").hidden = !isDie && (form !== "relief" || wrap !== "none");
   }
 
-  // Tells the size of the die that a picture shows.
+  // Shows the size of the die that is in a picture.
   pictured({size_mm: size, is_size_exact: isExact}) {
     const {now} = this.doc, kind = kindOf(now);
     if (now.options.form === "die" && kind !== "die" && isExact)

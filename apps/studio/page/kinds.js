@@ -77,7 +77,7 @@ function measuresOf({diameter, plate, width, height}) {
     .filter(Boolean).join(", ");
 }
 
-// Returns the options that no kind sets, and that all leave as they are: how the scan is seen and shaped.
+// OF_KINDS has the options that kinds set. kept() returns the others, which say how the scan is seen and shaped.
 const OF_KINDS = new Set(Object.values(KINDS).flatMap(({part}) => Object.keys(part)));
 const kept = (options) => Object.fromEntries(Object.entries(options).filter(([name]) => !OF_KINDS.has(name)));
 
@@ -98,7 +98,7 @@ const OUTLINES = {
 // Returns the name of a scan without its ending.
 export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
 
-// Returns the name of a step's files: that of the scan, and what is no plain plaque.
+// Returns the name of a step's files: the scan's name, and the words for its kind and form unless it is a plain plaque.
 export function fileName(step) {
   const kind = kindOf(step), {form} = step.options;
   const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];
@@ -119,7 +119,7 @@ export class KindCards {
     takeArrowKeys($("#kinds"));
   }
 
-  // Chooses a kind after the entries that are still waiting, and says so where that has no size of its plate any more.
+  // Chooses a kind after the entries that are still waiting, and says so if its plate does not keep the size.
   async choose(kind) {
     let lost = "";
     await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {

@@ -41,11 +41,11 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns whether somebody chose a width, and no new document or kind of work.
+// Returns whether a width was chosen: it is not that of a new document or of a kind of work.
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns the changes besides that of the outline: a size that the new outline cannot have is dropped, and so is the
+// Returns what else changes with the outline: a size that the new outline cannot have is dropped, and so is the
 // rim of a piece without an outline.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
@@ -54,7 +54,7 @@ function besidesOutline(value, {diameter, plate}, shownWidth) {
   return hasSize ? rim : {...rim, diameter: null, plate: "", shift: "", width: shownWidth};
 }
 
-// Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, unless a width
+// Returns what else changes with an option: a plate of a given size decides how wide the relief is, unless a width
 // was chosen.
 function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
@@ -69,7 +69,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
 
 // Controls whose labels do not name their options.
 const OTHERS = {tone: "Tone curve", view: "View"};
-// Expectations of the engine, by option, in the words of the page in place of its own.
+// The page's words for what the engine expects of an option.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
 // Only a command line can follow the engine's advice about pictures in colours.
 const ADVICE = /; the option channel takes one .*$/;
@@ -80,7 +80,7 @@ const controlOf = (name) => document.querySelector(`[data-option="${name}"]`);
 // Returns whether an option has a label, or a control somewhere else on the page. Any other gets a row with its name.
 const isLabelled = (name) => name in LABELS || name in FIELDS || controlOf(name) !== null;
 
-// Returns the name of an option on the page: where no table has it, its control tells.
+// Returns the name of an option on the page: where no table has it, that of its control.
 function labelOf(name) {
   const control = controlOf(name);
   return LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? control?.getAttribute("aria-label") ??

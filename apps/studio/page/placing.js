@@ -59,7 +59,7 @@ export class Placing {
 
   // Takes the error of the newest picture, and the numbers of the one that is shown. A figure that was moved too far
   // stays where it is shown; one that is too large for its plate becomes as large as fits, or goes to the middle where
-  // nothing fits, in the step that left it too little room. Returns whether it was that.
+  // nothing fits, in the step that left it too little room. Returns whether it was one of these.
   fit({kind, input, message}, shown) {
     if (kind !== "option" || input !== "width") return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;

@@ -5,8 +5,8 @@ import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may let a relief be higher, with the words for what limits it, the draft angle first, as without it the
-// answer takes no time.
+// Changes that may allow a higher relief, with the words for the limit that each removes. The draft angle is first, as
+// without it the answer takes no time.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
@@ -45,7 +45,7 @@ export class Reach {
       return turn === this.turn ? this.clear() : undefined; // another view is being prepared
     }
     if (turn !== this.turn) return;
-    // A picture is drawn before the engine knows how high its draft angle lets a relief be, which no steps raise.
+    // A picture may be too high, as it need not wait for the limit of the draft angle, which no steps raise.
     const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";

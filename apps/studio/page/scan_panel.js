@@ -14,7 +14,7 @@ export const numbersOf = (crop) => WHOLE.map((otherwise, i) => {
   return number ? Number(number) : otherwise;
 });
 
-// Returns a crop as text, or as it is a whole scan none.
+// Returns a crop as text; "" for the whole scan.
 export function cropText(numbers) {
   const short = numbers.map((x) => Number(x.toFixed(3))), isDeep = short[4] !== 0 || short[5] !== 1;
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();

@@ -56,7 +56,7 @@ function shapeText(option, {name, values}) {
 }
 
 export class ShapeRow {
-  // Calls take(change) with a function that makes the option's new text of its present one, and say(text) with a line
+  // Calls take(change) with a function that turns the option's present text into its new one, and say(text) with a line
   // for people.
   constructor({option, label, title, take, say}) {
     Object.assign(this, {option, label, take, say, fields: []});

@@ -87,7 +87,7 @@ export class Slider {
     this.onEnd();
   }
 
-  // Escape: the number before the typing is shown again.
+  // Shows the number before the typing again, after Escape.
   takeBack() {
     this.show(this.value);
     this.number.select();
@@ -159,7 +159,7 @@ export class Slider {
     if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
   }
 
-  // Marks the number as one that the piece has not, with a text that says why; "" if the piece has it.
+  // Marks the number as one that the piece does not have, with a text that says why; "" if the piece has it.
   complain(text) {
     this.number.title = text;
     this.number.setAttribute("aria-invalid", text !== "");
