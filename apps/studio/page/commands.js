@@ -6,8 +6,8 @@ import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 
 const TOOL_KEYS = {l: "light", r: "turn", o: "orbit", h: "pan", p: "place", s: "section", m: "measure", x: "crop"};
 
-// Takes the parts of the page, and functions of its own: isThere() returns whether a relief is there, save() saves a
-// project; openFiles(files), showStart(isShown), chooseUnit(unit), failed(error).
+// Takes the parts of the page, and as `own` its functions isThere(), which returns whether a relief is there, save(),
+// which saves a project, openFiles(files), showStart(isShown), chooseUnit(unit) and failed(error).
 export function takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, ...own}) {
   const help = $("#help-dialog"), showHelp = () => help.showModal(), choose = () => $("#file").click();
   const undo = () => entries.undo(), redo = () => entries.redo(), makeFiles = () => exporting.open();

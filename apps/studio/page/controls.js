@@ -39,7 +39,7 @@ export function check(radio, isChecked) {
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
-// Returns how many times as large type is as on screens of the usual size: drawings with texts grow as these do.
+// Returns the size of type relative to that on screens of the usual size: drawings with texts grow with it.
 export const scaleOfType = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.5;
 
 export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
@@ -79,8 +79,7 @@ export class Pause {
   }
 }
 
-// Returns a function that runs another one, which takes its time and throws nothing, and once more if it was called
-// meanwhile.
+// Returns a function that runs an asynchronous one, which throws nothing; calls meanwhile make it run once more.
 export function oneAtATime(act) {
   let isWanted = false, running = null;
   const run = async () => {

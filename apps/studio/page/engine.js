@@ -112,6 +112,6 @@ export class Engine {
   remove = (document) => this.#ask("remove", {document, tab: TAB});
   keep = (document, state, isMoving) => this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
   keepPicture = (document, picture) => this.#ask("picture", {document, picture});
-  // The page goes, and nothing is left to do if that cannot be told.
+  // Reports that the page is left. If that fails, there is nothing left to do.
   leave = () => this.#ask("leave", {tab: TAB}).catch(() => {});
 }

@@ -30,7 +30,7 @@ export class ExportDialog {
       make("span", {}, label, make("small", {}, use)), make("span", {class: "muted", id: `size-${name}`}))));
     this.dialog.oninput = () => this.show();
     $("#pixels").onchange = () => this.choosePixels();
-    // It may be open again when it is told that it was closed.
+    // The dialog may be open again when the event of its closing comes.
     this.dialog.onclose = () => this.isBusy && !this.dialog.open && this.engine.cancelPiece().catch(() => {});
     $("#export-cancel").onclick = () => this.dialog.close();
     $("#export-go").onclick = (event) => {
@@ -90,8 +90,8 @@ export class ExportDialog {
     $("#export-progress").value = making.fraction;
   }
 
-  // Does a piece of work with the progress shown, and says why it failed. Returns whether it did not, and is still
-  // wanted: whoever closes the dialog wants none of it.
+  // Does a piece of work with its progress shown, and says why it failed. Returns whether it succeeded and is still
+  // wanted, which it is not after the dialog was closed.
   async run(text, work) {
     const number = ++this.runs, isWanted = () => this.dialog.open && number === this.runs;
     this.isBusy = true;

@@ -55,8 +55,7 @@ function doPostponed() {
   act();
 }
 
-// Calls a function when nothing is being typed, in place of one that waits for that: a field that is moved loses the
-// keys.
+// Calls a function when nothing is being typed, in place of one that still waits: a moved field loses the focus.
 export function whenFinished(act) {
   postponed = act;
   doPostponed();

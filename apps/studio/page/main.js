@@ -106,7 +106,8 @@ function refuse(text) {
 function refused({label}, error) {
   refuse(error.input ? inWords(error) : `${label}: ${error.message}`);
 }
-// An entry need not change anything. The end of a slider's movement is none: its changes were told while it moved.
+// Any entry takes a refusal back, even one that changes nothing. The end of a slider's movement is no entry: its
+// changes came while it moved.
 addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
 
 // ----------------------------------------------------------------------------------------------- the document

@@ -13,7 +13,7 @@ new ResizeObserver(() => {
 
 $("#toast .close").onclick = hideToast;
 
-// A line for people, for eight seconds or until the next. Returns a function that takes it back.
+// Shows a line until the next, for eight seconds at most unless `isLasting`. Returns a function that takes it back.
 export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);
@@ -22,8 +22,8 @@ export function toast(text, isLasting = false) {
   return () => line.isConnected && hideToast();
 }
 
-// A line with a button that does something about it, for so long, and perhaps with others: [label, action] of each.
-// Returns a function that takes it back.
+// Shows a line for `ms` with a button for an action, and with `others`, [label, action] of each. Returns a function
+// that takes it back.
 export function offer(text, label, action, ms = Infinity, others = []) {
   const takeBack = toast(text, true), act = (chosen) => () => {
     takeBack(); // before the action, which may say something itself

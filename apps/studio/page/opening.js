@@ -131,7 +131,7 @@ export class OpenDocument {
     return withSide(viewOf(this.doc.now), shown);
   }
 
-  // Returns whether the model is one to show: at first only that of the view that was asked for, or none can be made.
+  // Returns whether the model may be shown. The first one needs the view that was asked for, unless that failed.
   isWanted({busy, error, shown}) {
     return this.model > 0 || (!busy && (error || isSameView(shown, this.wantedView(shown))));
   }
@@ -181,7 +181,7 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // The engine has closed the document: its former news holds no longer.
+  // The engine has closed the document: its former news is not valid any more.
   async closed() {
     this.statuses.delete(this.id);
     await this.reopen();

@@ -18,8 +18,7 @@ export class Outcome {
     await this.entries.settled();
   }
 
-  // Returns what is to be made, when it is known: a height that the view does not reach is replaced by the one that it
-  // does.
+  // Returns the order for the piece, once known. A height that the view does not reach becomes the one reached.
   async known() {
     await this.entered();
     const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), frame = this.frame();

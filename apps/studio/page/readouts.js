@@ -35,7 +35,7 @@ export function paperWords({alpha, beta, u}, gamma) {
   return `In the paper's words: ${words.join(", ")}`;
 }
 
-// Says what the tool leaves standing, which is coloured on the piece.
+// Shows what share of the front the tool reaches; the piece is coloured where it leaves material.
 export function showToolReach(tool) {
   $("#tool-reach").textContent = !tool ? "" :
     `The tool reaches ${(100 * tool.share).toFixed(1)} % of the front, and leaves up to ` +

@@ -48,7 +48,7 @@ function rulers(stage) {
       make("text", {class: "scale", x: 2 * STROKE + 4, y: at + 4 * type}, number))];
 }
 
-// Returns the marks that tell how large the piece is; none before there is one.
+// Returns the marks that show how large the piece is; none before there is one.
 export function scaleMarks(stage) {
   if (!stage.about) return [];
   return ["section", "measure", "place"].includes(stage.tool) ? rulers(stage) : scaleBar(stage);

@@ -10,7 +10,7 @@ export class ShownView {
     this.clear();
   }
 
-  // Another document is shown, of which there is no model yet.
+  // Begins another document, which has no model yet.
   clear() {
     this.view = null; // the newest one that a model was shown of when nothing else was asked for
   }
@@ -32,7 +32,7 @@ export class ShownView {
     opened.ensureView().catch(this.failed);
   }
 
-  // A model is shown, whose status may have been followed by others.
+  // Takes the status of a model that is shown now. The engine may have sent others since.
   arrived(status) {
     const newest = this.opened.status;
     if (!status.busy && !status.error) this.view ??= status.shown;
@@ -51,7 +51,7 @@ export class ShownView {
     if (this.stage.isAwaiting) this.stage.await(false);
   }
 
-  // A view was cancelled or could not be prepared: the one before stays.
+  // Returns to the view before one that was cancelled or could not be prepared.
   restore() {
     const former = this.view ?? this.opened.status.shown;
     this.stage.await(false);

@@ -58,7 +58,7 @@ export class Stage {
     this.pump();
   }
 
-  // Another scan is shown, and its pictures are still to come: no mark of the one before stays.
+  // Begins another scan, which has no pictures yet: no mark of the one before stays.
   clear() {
     Object.assign(this, {isReady: false, model: 0, about: null, line: null});
     this.measure.clear();
@@ -78,7 +78,7 @@ export class Stage {
     if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
   }
 
-  // Waits for the last picture of the document as it is, or until there is none to be had. Returns whether it is there.
+  // Waits for the last picture of the document as it is, or until there can be none. Returns whether it is there.
   async rest() {
     await new Promise((resolve) => {
       this.resting.push(resolve);
@@ -121,7 +121,7 @@ export class Stage {
     this.pump();
   }
 
-  // Whether the picture shows the piece as it will be exported, or nearly so where others would have to wait for it.
+  // Returns whether the picture shows the piece as in its file, or nearly so where others would have to wait for it.
   get isLikeFile() {
     return this.about?.is_finished || (this.about?.is_plain && !this.engine.drawsMeanwhile);
   }
@@ -163,7 +163,7 @@ export class Stage {
     if (this.tool === "measure") this.measure.pictured();
   }
 
-  // Whether the picture needs more of the engine before the next one.
+  // Returns whether the picture needs other answers of the engine before the next one.
   get waitsForPicture() {
     return this.comparing.isShown || ["section", "measure"].includes(this.tool);
   }

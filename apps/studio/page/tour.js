@@ -1,4 +1,4 @@
-// The tour: five steps that show what is where. It covers nothing but what lies beside the part that it tells of.
+// The tour: five steps that explain the parts of the page. None covers the part that it explains.
 
 import {$, make} from "./controls.js";
 import {offer, toast} from "./messages.js";

@@ -33,7 +33,7 @@ export class Turning {
     this.stage.invalidate();
   }
 
-  // A view is being prepared, or none any more: until it is there, a coarse relief stands for it.
+  // Shows a coarse relief of a view as long as that is being prepared.
   await(isAwaiting) {
     if (this.stage.drag?.tool === "turn") return;
     this.shown = isAwaiting ? directionsOf(this.stage.doc.now.options) : null;
@@ -60,7 +60,7 @@ export class Turning {
     this.end();
   }
 
-  // The view rests: the document takes it. One that it has already may have to be prepared again.
+  // Gives the document the view in which the turning ends. One that it has already may have to be prepared again.
   end() {
     const {stage} = this, {doc} = stage;
     if (!this.shown) return;
