@@ -50,7 +50,7 @@ Result<void> check(const RenderOptions& options);
 // for concurrent use.
 class LiveModel {
  public:
-  // Shares the model. `notes` tell how its points were sampled.
+  // Shares the model. `notes` say how its points were sampled.
   explicit LiveModel(TurnedRelief shown, std::vector<SampleNote> notes = {});
   LiveModel(LiveModel&&) noexcept;
   ~LiveModel();

@@ -62,9 +62,9 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 }
 
 // Returns how much the slope in the middle of an edge differs from the mean of its ends; `change` is the slope at the
-// second end less that at the first. The heights along the edge tell one component. As most surfaces bend in one
-// direction more than in the other, the slope is taken to lie on the line through those of the ends: bends across rows
-// of points then do not depend on the triangles between these.
+// second end less that at the first. The heights along the edge give one component. As most surfaces bend in
+// one direction more than in the other, the slope is taken to lie on the line through those of the ends:
+// bends across rows of points then do not depend on the triangles between these.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared

@@ -55,8 +55,7 @@ class Builder {
   void add_triangle(Index a, Index b, Index c);
   Index split(Index e, Index p);
   void flip(Index e);
-  // The triangles around the newest point have it at slot 2. Returns the next one's slot 0, given one's slot
-  // 0.
+  // Triangles around the newest point have it at slot 2. Returns the next one's slot 0 for the slot 0 of one.
   Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
 
   std::vector<Index> number_triangles() const;

@@ -24,7 +24,7 @@ class PointTable {
   // Takes the number of different points to expect; more of them make the table grow.
   explicit PointTable(std::size_t expected);
 
-  // Each coordinate changes all high bits, which tell the place in the table.
+  // Each coordinate changes all high bits, which determine the place in the table.
   static std::uint64_t hash_of(const Vec3& point) {
     constexpr std::uint64_t factor = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
     std::uint64_t hash = 0;

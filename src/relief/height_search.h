@@ -87,8 +87,8 @@ class HeightSearch {
   }
 
   // For reliefs that take long to make: climbs by secants from `low`, which is too low or just right, then
-  // narrows the bracket by false position and, every third time, by halves. What it finds is not lower than
-  // asked for and at most twice the tolerance higher. Returns false if the relief at `last` is too low.
+  // narrows the bracket by false position and, every third time, by halves. The relief found is not lower
+  // than asked for and at most twice the tolerance higher. Returns false if the relief at `last` is too low.
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;

@@ -1,5 +1,5 @@
 // The tools of the picture, with their functions for drags and arrow keys. A tool has
-//   does                    what a drag does, as the name of the picture tells it
+//   does                    what a drag does, for the label of the picture
 //   isLevel                 whether the relief is seen from the front with it
 //   isStepwise              whether a drag is taken step by step, from where the pointer was last
 //   press(stage, event)     when a drag begins

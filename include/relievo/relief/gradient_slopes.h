@@ -1,6 +1,5 @@
 // The slopes of gradient-domain compression: the baseline that the height correction is tuned against. After
-// Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes,
-// 2007.
+// Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes, 2007.
 #pragma once
 
 #include <vector>

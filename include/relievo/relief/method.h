@@ -67,7 +67,7 @@ Shape default_shape(Method method);
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
 
-// From how many points the heights of a relief are found.
+// Selects from how many points the heights of a relief are found.
 enum class Mode {
   exact,     // from all visible points
   subspace,  // from a few thousand control points: see SubspaceModel

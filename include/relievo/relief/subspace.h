@@ -23,10 +23,10 @@ struct SubspaceOptions {
 // Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
-// Control points with their factored system, and the way from their heights to those of all points: z =
-// ratio z_ref + offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of compressed and
-// reference heights, both solved on the control points; the offset is what a smooth ratio leaves of the
-// compressed ones, above all where z_ref passes 0. Multilevel B-splines carry both to all points.
+// Control points with their factored system. Heights of all points follow from theirs: z = ratio z_ref +
+// offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of compressed and reference
+// heights, both solved on the control points; the offset is the part of the compressed ones that a smooth
+// ratio leaves, above all where z_ref passes 0. Multilevel B-splines carry both to all points.
 //
 // Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 1 to
 // 4 %, low ones most: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of

@@ -21,9 +21,9 @@ struct Crop {
   bool operator==(const Crop&) const = default;
 };
 
-// A direction of view and the part of the model shown. R_view_model maps the model's frame to the
-// view's, in which x points to the right, y up and z towards the viewer, who looks along -z: p_view =
-// R_view_model p_model.
+// A direction of view and the part of the model shown. R_view_model maps the model's frame to the view's,
+// where x points to the right, y up and z towards the viewer, who looks along -z: p_view = R_view_model
+// p_model.
 struct View {
   Mat3 R_view_model = Mat3::Identity();
   Crop crop = {};
