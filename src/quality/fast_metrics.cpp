@@ -51,7 +51,7 @@ Image<float> FastMetrics::halved(const Image<float>& fine) const {
   return half;
 }
 
-// Heights are in pixels twice as wide.
+// At half the resolution pixels are twice as wide, so heights in pixels are half as large.
 Image<float> FastMetrics::draw(std::span<const double> heights) const {
   Image<float> half = halved(picture_.heights_in_pixels(heights));
   for (float& z : half.pixels) z /= 2;

@@ -54,7 +54,8 @@ class FastMetrics {
   Image<float> depth_, curvature_, exact_curvature_;  // of the model
 };
 
-// Samples two of the four pixels, on a diagonal. Heights are in pixels twice as wide.
+// Samples two of the four pixels, on a diagonal. These pixels are twice as wide, so heights in pixels are
+// half as large.
 template <typename F>
 Image<float> FastMetrics::draw_smooth(F&& height) const {
   Image<float> half = filled_image(where_.mask.width, where_.mask.height, 0.F);

@@ -42,9 +42,10 @@ class HeightSearch {
     std::optional<double> log_height = {};  // at that u; none until a height was met
   };
 
-  // For one relief, from no guess: tries u = infinity, to see whether the height can be reached, then brackets
-  // it. Returns whether the height is reached; if not, the last relief is the highest one. Where heights leap over the one
-  // asked for, or all lie above it, the last relief is higher, and the caller is to scale it down.
+  // Searches the height of a single relief, without a guess: tries u = infinity, to see whether the height
+  // can be reached, then brackets it. Returns whether the height is reached; if not, the last relief is the
+  // highest one. If the heights jump past the wanted one, or all lie above it, the last relief is too high,
+  // and the caller has to scale it down.
   template <typename F>
   bool bracket(F&& height_at) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -55,8 +56,9 @@ class HeightSearch {
     return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
-  // For a series of reliefs that change little: starts at the u that the last height and elasticity predict and takes
-  // secants, one or two calls as a rule. It brackets where six do not suffice: far jumps, and heights at or out of reach.
+  // Searches it for a series of reliefs that change little: starts at the u that the last height and
+  // elasticity predict and takes secants, one or two calls as a rule. It brackets where six do not suffice:
+  // far jumps, and heights at or out of reach.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;

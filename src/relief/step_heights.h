@@ -26,9 +26,9 @@ struct StepHeights {
   bool empty() const { return z.empty(); }
 };
 
-// Returns the heights whose differences across each depth jump are nearest to what the surface's depths have there
-// beyond their slopes, and 0 along all other edges: the least squares of (9) with these differences. `weights` are
-// those of the system.
+// Returns the least-squares solution of (9) for given height differences along the edges: across a depth
+// jump, the part of the depth difference that the slopes do not explain; along all other edges, 0. `weights`
+// are those of the system.
 StepHeights find_step_heights(const Surface& surface, std::span<const float> weights,
                               const HeightSystem& system);
 

@@ -80,7 +80,7 @@ void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& av
       grain);
 }
 
-// Sets each cell to the sum of itself, twice, and its neighbours in its column.
+// Sets each cell to twice itself plus its neighbours in its column.
 void SurfaceBlur::average_along(const Cells& cells, Cells& averages) const {
   parallel_for(
       columns_.size() - 1,

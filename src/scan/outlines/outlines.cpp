@@ -21,7 +21,7 @@ constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
 // The weight of nodes with places that the normals do not determine. No node counts less.
 constexpr double uncertain = .03;
-// The error, in rho, of a place that is half trusted.
+// An estimated place on an outline is trusted by half if its error is this, in rho.
 constexpr double trusted_error = .25;
 // Normals that lean less do not show where the surface ends.
 constexpr double least_lean = .75;

@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// A curve in the view plane. The surface whose edge it is lies on its left; on its right lie the ground or, at a
-// jump, the surface behind.
+// A curve in the view plane, the edge of the surface on its left. On its right lies the ground or, at a jump,
+// the surface behind.
 struct OutlineCurve {
   FairCurve curve;
   bool is_closed = false;

@@ -33,8 +33,8 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
     leave_same_side(p, matches);
     if (matches.size() >= 6) break;
   }
-  // A sliver between two outlines may show no point but those on them. Without its silhouette, long triangles would
-  // bridge it.
+  // In a sliver between two outlines all points may lie on these. Its silhouette then uses them: without the
+  // silhouette, long triangles would span the sliver.
   if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {
