@@ -238,7 +238,8 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   return cloud;
 }
 
-// Fills `out`. Returns false unless that takes all bytes of `in`; the library needs some to read and to write.
+// Decompresses `in` to fill `out`. Returns false unless that takes all bytes of `in`. The library accepts no
+// empty input or output.
 bool unpack_lzf(std::string_view in, std::vector<char>& out) {
   if (in.empty() || out.empty()) return in.size() == out.size();
   const auto in_size = static_cast<unsigned>(in.size()), out_size = static_cast<unsigned>(out.size());

@@ -17,10 +17,11 @@ namespace relievo::io {
 // with the outline.
 std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners);
 
-// Returns true if that is the fan from the first corner because the fan covers the polygon.
+// Returns true if triangulate() returns the fan from the first corner because the fan covers the polygon.
 bool fan_covers(std::span<const Vec3> corners);
 
-// Calls add(a, b, c) for each of those triangles. This allocates nothing for the many polygons that a fan covers.
+// Calls add(a, b, c) for each triangle of triangulate(). This allocates nothing for the many polygons that a
+// fan covers.
 template <typename Add>
 void for_each_triangle(std::span<const Vec3> corners, Add&& add) {
   if (corners.size() > 3 && !fan_covers(corners)) {

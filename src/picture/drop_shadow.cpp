@@ -14,7 +14,7 @@ constexpr int most_cells = 160;
 // Opacity of the full shadow: as grey as a table under a lamp and a bright room.
 constexpr float shadow_opacity = .4F;
 
-// Radius of the shadow's edge and how far it falls beside the body, in cells: a body as thick as a plate.
+// The radius of the shadow's edge and the shadow's distance from the body, in cells, for a plate's thickness.
 constexpr int softness = 2;
 constexpr float farthest = 2;
 

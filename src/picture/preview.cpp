@@ -65,7 +65,8 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// The front of a body in a picture of that longer side, and the oblique view of another in a picture of the same size.
+// Returns the transforms for the front of a body, in a picture with that longer side, and for the oblique
+// view of another body in a picture of the same size.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
   const Mat3 rotation = oblique_rotation();

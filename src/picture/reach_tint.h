@@ -1,4 +1,5 @@
-// Colours what a milling tool leaves standing on pictures of a solid. Tested by tests/picture/reach_tint_test.cpp.
+// Colours, in pictures of a solid, what a milling tool leaves standing. Tested by
+// tests/picture/reach_tint_test.cpp.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@ namespace relievo {
 
 class ReachTint {
  public:
-  // Colours nothing without a reach. `front` is the box of the front that was measured, in the body's coordinates.
+  // Colours nothing if `reach` is null. `front` is the measured front's box, in the body's coordinates.
   ReachTint(std::shared_ptr<const ToolReach> reach, const Box& front);
 
   // Returns the linear colour of a place on the front, in orange to red where more than the tolerance is left.

@@ -37,12 +37,12 @@ std::vector<Vec3f> stored_points(const Solid& solid) {
   return stored;
 }
 
-// The part of a line of one y that lies in a triangle, by its ends.
+// The part of a line of constant y that lies in a triangle, given by its ends.
 struct Chord {
   Vec2 left, right;  // x and z
 };
 
-// Returns the part in a triangle that reaches that y.
+// Returns the part of a line of that y in a triangle, which must reach the line.
 Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   Chord chord{Vec2::Constant(std::numeric_limits<double>::infinity()), {}};
   chord.right.x() = -chord.left.x();

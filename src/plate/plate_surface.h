@@ -21,7 +21,7 @@ struct PlateSurface {
 inline constexpr Colour plate_colour = {200, 200,
                                         200};  // of ground, walls and bottom of a coloured relief: light grey
 
-// Gives points that were added to a coloured front the plate's colour.
+// Gives the plate's colour to the points that were added to a coloured front.
 void fill_colours(Solid& solid);
 
 // Returns the base under a front, in its coordinates; without ground, the front must be the relief alone.

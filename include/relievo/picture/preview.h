@@ -16,7 +16,7 @@ struct PreviewOptions {
   // The body before it was bent. If given, the front picture shows it instead: bending to the inside would
   // hide the relief, and bending of any kind that of porcelain in front of a lamp. It must outlive the call.
   const Solid* flat = nullptr;
-  // The body is cut open there for the oblique picture, which leaves out what is nearer to the viewer.
+  // The oblique picture cuts the body open at this height in z, and leaves out what is nearer to the viewer.
   double nearest_mm = std::numeric_limits<double>::infinity();
 };
 

@@ -113,9 +113,10 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().
 Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
-// Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with
-// opposite directions, no triangle with two equal corners, no two used points with the same single-precision
-// coordinates, volume positive. A public checker, for tests and bug reports; 0.1 s for 1M triangles.
+// Checks that every edge of a solid is shared by exactly two triangles with opposite directions, that no
+// triangle has two equal corners, that no two used points have the same single-precision coordinates, and
+// that the volume is positive. Returns what is wrong, or an empty string. It is public for tests and bug
+// reports; 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.

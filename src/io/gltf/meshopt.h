@@ -20,8 +20,8 @@ struct MeshoptLayout {
   std::size_t count = 0, stride = 0;
 };
 
-// Returns the mode or filter of that name in JSON; nothing if it is unknown. Of the filters, QUATERNION is for
-// animations alone, and not known here.
+// Returns the mode or filter of that name in JSON; nothing if it is unknown. The filter QUATERNION is unknown
+// here, because only animations use it.
 std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
