@@ -34,7 +34,7 @@ struct FrameRun {
 // Makes frames as a user does who drags a slider: the detail, or with a locked height the saturation.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
-// Bytes that a model and what makes its frames hold, per visible point.
+// Returns the memory of a model and its frame maker, in bytes per visible point.
 double bytes_per_point(const ReliefModel& model);
 
 // A line of the paper's Table 1: six cores, milliseconds. The paper works on t1 to t3 of three frames at

@@ -52,7 +52,8 @@ bool is_scene_file(const std::string& path);
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
 
-// Gives a base of kind image its height map, which is null for others. Errors: kind option if they do not fit together.
+// Sets the height map of a base of kind image; for other kinds `image` must be null. Errors: kind option if
+// base and image do not fit together.
 Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base);
 
 // Returns the height map in the file of that path; null for an empty path. Errors: kind input.

@@ -146,8 +146,9 @@ struct Engine::State {
     });
   }
 
-  // Draws the model as a view shows it that is not prepared. The coarse relief is made once for a view, so that it lasts until
-  // that view is prepared, whatever changes meanwhile. Other pictures do not wait for it, and the next view cancels it.
+  // Draws the model in a view that is not prepared yet. Its coarse relief is made once per view, and lasts
+  // until that view is prepared, whatever changes meanwhile. Other pictures do not wait for it, and the next
+  // view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
     std::uint64_t model = 0;  // that was drawn when the coarse relief was begun
     for (std::optional<TurnedRelief> relief;;) {

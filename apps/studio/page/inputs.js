@@ -61,7 +61,7 @@ export function whenFinished(act) {
   doPostponed();
 }
 
-// Takes what is typed as Enter does.
+// Confirms what is being typed, as Enter does.
 export const confirmTyping = () => unfinished?.dispatchEvent(new Event("change", {bubbles: true}));
 
 // These listeners run before the field's own, which may then show the document's value in the field.

@@ -4,8 +4,8 @@ import {$, make, pair} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
-// The sides that can be cut away: the place of each in a crop's numbers, which are shares from below on the left, then
-// from the viewer on. A cut of 0 takes nothing away.
+// The sides that can be cut away, each with its index in a crop's numbers, X0,Y0,X1,Y1,NEAR,FAR. These are shares of
+// the model's box: from its left, from its bottom, and from its nearest point. A cut of 0 takes nothing away.
 const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
 const MOST_CUT = 95; // percent
 

@@ -15,7 +15,8 @@ function setLight(stage, azimuth, elevation) {
   stage.doc.change({light}, "light");
 }
 
-// Over the middle of the picture the light comes from the viewer, towards the rim it rakes.
+// Over the middle of the picture the light comes from the viewer. The nearer the pointer is to the rim, the lower is
+// the light.
 function lightFrom(stage, {x, y}) {
   const {width, height} = stage.size, radius = Math.min(width, height) / 2;
   const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;

@@ -1,5 +1,5 @@
-// The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as
-// one scene.
+// The first minute with a scan: the kinds of pieces to choose from, the tour, the findings about the scan, and several
+// files as one scene.
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
@@ -479,7 +479,7 @@ function writePoints(file, points) {
   writeFileSync(file, `${header}${lines.join("\n")}\n`);
 }
 
-// Writes a ball on a tilted table, 4 x 4 of its radius, whose points scatter.
+// Writes a ball on a tilted table. The table measures 4 x 4 radii of the ball, and its points scatter.
 function writeBallOnTable(file) {
   const random = randomNumbers(1), n = [0, 0.766, 0.643], points = [];
   for (let i = 0; i < 6000; ++i) {
