@@ -25,7 +25,7 @@ def sources_of(source: Any, normals: Any, colours: Any, faces: Any) -> list[Any]
 
 
 def _is_rows(source: Sequence[Any]) -> bool:
-    """Tells rows of numbers, which are points, from a list of inputs."""
+    """Returns whether a sequence is rows of numbers, which are points, rather than a list of inputs."""
     return len(source) > 0 and all(
         isinstance(row, (list, tuple)) and row and all(isinstance(x, (int, float)) for x in row) for row in source
     )
@@ -73,7 +73,7 @@ def numbers(name: str, given: Any) -> Any:
 
 
 def _object(source: Any) -> Any:
-    """Takes clouds and meshes of other packages, as of Open3D and trimesh."""
+    """Takes clouds and meshes of other packages, such as Open3D and trimesh."""
     points = _first(source, "vertices", "points")
     if points is None:
         raise TypeError(

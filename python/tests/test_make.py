@@ -137,7 +137,7 @@ class SameBytes(InFolder):
         flags = {flag.replace("-", "_") for flag in re.findall(r"^  (?:-[a-z],)?--([a-z-]+)", text, re.MULTILINE)}
         keywords = {*inspect.signature(relievo.make).parameters, *inspect.signature(relievo.Relief.save).parameters}
         without = flags - {re.sub("_(mm|deg|mb)$", "", keyword) for keyword in keywords}
-        # save() takes the output first, and threads are those of the whole process.
+        # The output is the first argument of save(), and set_threads() sets the threads of the whole process.
         self.assertEqual(without, {"help", "output", "threads", "quiet"})
 
 

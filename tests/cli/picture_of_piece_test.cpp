@@ -91,7 +91,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Takes from a piece what is none of its options: where it is looked at from.
+// Takes the camera out of a piece: its angles are not among the options.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);
@@ -101,7 +101,7 @@ Camera take_camera(nlohmann::json& piece) {
   return camera;
 }
 
-// Takes its base from a piece. An image cannot stand in the piece's text.
+// Takes the base out of a piece. The text of a piece cannot contain the image of a base.
 BaseOptions take_base(nlohmann::json& piece) {
   BaseOptions base = *parse_base(piece.value("base", "plane"));
   if (base.kind == BaseKind::image) base.image = hill_and_hollow();

@@ -1,5 +1,5 @@
-// Checks a solid as it stands in an STL file, and a height map against it, with nothing of the code that made them:
-// check_solid SOLID.stl [MAP.png|MAP.tif]. Prints what is wrong; the exit code is 1 then.
+// Checks a solid in an STL file, and a height map against it, without the code that made them: check_solid
+// SOLID.stl [MAP.png|MAP.tif]. Prints what is wrong, and then the exit code is 1.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -47,7 +47,7 @@ struct Studio {
   ~Studio() { std::filesystem::remove_all(folder); }
 };
 
-// The request of a page that shows the open document, with pictures and samples that take little time.
+// Changes a request so that it is about the open document, and its pictures and samples take little time.
 Json small(Json json, const std::string& document) {
   if (json.value("document", Json("")) != Json("x")) json["document"] = document;
   json["width"] = 48;

@@ -123,7 +123,7 @@ TEST(CloseByTool, ABallInAGroove) {
   const double step = .01, half = .3, radius = 1;
   const auto groove = picture(301, 41, [&](int x, int) { return std::abs(x - 150) * step <= half ? 0 : 2; });
   const Image<float> left = close_by_tool(groove, step, ball);
-  // It hangs between the edges, half + one sample apart from its axis.
+  // The ball rests on the edges of the walls, which are half + one sample away from its axis.
   const double edge = half + step;
   EXPECT_NEAR(left.pixels[20 * 301 + 150], 2 - (radius - std::sqrt(radius * radius - edge * edge)), 1e-5);
 }

@@ -37,8 +37,8 @@ TEST(SurfaceMeasures, AConeHasNoFray) {
   EXPECT_EQ(measures.fray(rising(disc(), [](double) { return .5; })).jump_deg, 0);
 }
 
-// The tilt is a sine along the rim, and triangles are a tenth of a wave. Its moving mean over 25 of them is a sine, too,
-// of 1 / (25 sin(pi / 10)) times the amplitude.
+// The tilt is a sine along the rim, and a triangle is a tenth of a wave long. The moving mean of the tilt
+// over 25 triangles is a sine, too, with 1 / (25 sin(pi / 10)) times the amplitude.
 TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   const double rims = 2 * pi / (.75 * disc().rho), amplitude = .1;
   const int waves = static_cast<int>(rims / 10);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int width = 240, height = 180;
 
-// Values of a function of the pixel.
+// Returns a depth image of the values of a function of column and row.
 template <typename F>
 DepthImage image_of(F&& value, double step) {
   DepthImage image{{width, height, 1, {}}, step, "test"};

@@ -33,7 +33,7 @@ TEST(Spacing, IsFoundAmongManyCoincidentPoints) {
   EXPECT_GT(spacing.rho, .5 * rho);
 }
 
-// The neighbours against brute force.
+// Compares the neighbours with those that brute force finds.
 TEST(Spacing, FindsTheNearestOtherPoints) {
   const Cloud cloud = test::sphere(300, 1);
   const Spacing spacing = measure_spacing(cloud);
