@@ -19,8 +19,8 @@ Image8 read_png(std::span<const std::byte> bytes);
 // reduced to fit by averaging, and in the middle.
 Image8 tile_of_preview(const Image8& preview, int side);
 
-// Returns a sheet of the tiles, at most tiles_per_sheet, row by row, about as wide as it is high. Empty tiles, of what
-// could not be made, are crossed out.
+// Returns a sheet of the tiles, at most tiles_per_sheet, row by row, about as wide as it is high. Empty
+// tiles, for reliefs that could not be made, are crossed out.
 Image8 contact_sheet(const std::vector<Image8>& tiles, int side);
 
 }  // namespace relievo::app::batch

@@ -32,7 +32,7 @@ double number_or(const Options& options, const std::string& name, double otherwi
   return value;
 }
 
-// Returns the memory for reading one file and for what is made of its points.
+// Returns the memory that it takes to read one file and to use its points.
 double need_of_file_mb(const std::string& path, double wanted_points, double stream_above_mb) {
   std::error_code failed;
   const std::uintmax_t bytes = fs::file_size(path, failed);
@@ -63,7 +63,7 @@ double left_in_control_group_mb() {
   double left = std::numeric_limits<double>::infinity();
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with("0::")) continue;
-    // A limit of a group holds for those within it, too.
+    // The limit of a group applies to the groups within it, too.
     for (fs::path group = line.substr(3);; group = group.parent_path()) {
       const std::string folder = "/sys/fs/cgroup" + group.string();
       const double most = number_in(folder + "/memory.max"), taken = number_in(folder + "/memory.current");

@@ -9,8 +9,8 @@ namespace relievo::app::batch {
 // figures are those of docs/batch.md. It opens each file and reads 64 kB of it.
 double memory_need_mb(const Job& job);
 
-// Returns the memory that this process may still take, in megabytes: what the machine has available, or what the
-// control groups leave, as of a container or of Slurm.
+// Returns the memory that this process may still take, in megabytes: the machine's available memory or, if
+// that is less, what control groups leave, such as those of a container or of Slurm.
 double available_memory_mb();
 
 }  // namespace relievo::app::batch

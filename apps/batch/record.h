@@ -27,7 +27,7 @@ struct Record {
 // Returns the object that stands in a line of the journal.
 nlohmann::json to_json(const Record& record);
 
-// Returns the record of a line; nothing for other text, such as a line of which only a part was written.
+// Returns the record of a line; nothing for other text, such as a line that was written only in part.
 std::optional<Record> record_from_line(std::string_view line);
 
 using Records = std::map<std::string, Record>;  // by name, the last one of each

@@ -9,8 +9,8 @@
 
 namespace relievo::app::cli {
 
-// On a terminal a bar with the time that is left, else a line for each twentieth of the jobs. Failures are lines of their
-// own in both.
+// Shows a bar with the time that is left on a terminal, else a line for each twentieth of the jobs. In both,
+// each failure has a line.
 class BatchProgress {
  public:
   BatchProgress(std::size_t jobs, bool is_quiet);

@@ -28,7 +28,7 @@ struct CompareArguments {
   bool is_json = false, is_quiet = false;
 };
 
-// Width of the reliefs that are drawn and of those that messages speak of, and longer side of a picture: sharp at
+// The width of the reliefs, in pictures and in messages, and the longer side of a picture, which is sharp at
 // twice the size that the page shows.
 constexpr double width_mm = 100;
 constexpr int longer_side_px = 512;

@@ -52,7 +52,7 @@ std::string bash_names(const CommandInfo& command, const FlagInfo& flag) {
   return flag.short_name.empty() ? name : cat(name, "|", command.name, ":", flag.short_name);
 }
 
-// The branches for what follows a flag with a value.
+// Returns the branches that complete the value after a flag.
 std::string bash_values(const CommandInfo& command) {
   std::string text, numbers;
   for (const FlagInfo& flag : command.flags) {

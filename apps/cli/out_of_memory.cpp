@@ -21,7 +21,7 @@ iovec part(const char* text) {
   return {const_cast<char*>(text), std::strlen(text)};
 }
 
-// Nothing here may allocate. Of several threads that fail at once, the first alone speaks.
+// Nothing here may allocate. If several threads fail at once, only the first one prints the line.
 void end_process() {
   static std::atomic_flag is_ending;
   while (is_ending.test_and_set()) ::pause();
@@ -33,7 +33,7 @@ void end_process() {
   std::to_chars(megabytes, megabytes + sizeof megabytes - 1, kilobytes / 1000 + 1);
   const std::array line = {part("relievo: expected more free memory than the "), part(megabytes),
                            part(" MB that are in use; fewer points and a coarser resolution need less\n")};
-  // At once, as other processes of a batch may print at the same time.
+  // One call writes the whole line, as other processes of a batch may print at the same time.
   (void)!::writev(STDERR_FILENO, line.data(), line.size());
   ::_exit(1);
 }

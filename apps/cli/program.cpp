@@ -55,7 +55,7 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   return nearest;
 }
 
-// Returns the part of a message that tells which name the user typed and which known name is nearest to it.
+// Returns the part of a message that states the name that the user typed and the known name nearest to it.
 std::string found_name(const CLI::App& app, const std::string& typed) {
   const std::string nearest = nearest_name(app, typed);
   return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));

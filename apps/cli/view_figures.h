@@ -1,4 +1,4 @@
-// Measured times of what a user waits for who opens a scan and turns it.
+// Measures how long a user waits who opens a scan and turns it.
 #pragma once
 
 #include <memory>

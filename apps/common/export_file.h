@@ -59,7 +59,7 @@ struct HeightMapOrder {
 // and what is bent to the inside unrolled and cut open.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
-// Returns the height map as a file, with its scale. What was bent around a wrap is shown as the flat plate, for
+// Returns the height map as a file, with its scale. A plate that was bent around a wrap is shown flat, for
 // machines that turn the stock.
 std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 

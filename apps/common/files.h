@@ -20,7 +20,7 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
 // Returns whether something has that path; a file, a folder or a device.
 bool is_there(const std::string& path);
 
-// Errors: kind input for what is there but no file: a folder, a device or a pipe.
+// Errors: kind input if something else than a file is there: a folder, a device or a pipe.
 Result<void> check_file(const std::string& path);
 
 // Returns the size of a file; nothing if there is none of that path, or it is a folder or a device.

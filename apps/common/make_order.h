@@ -55,7 +55,7 @@ struct LoadedOrder : CheckedOrder {
 // Errors: kind option if there is no input; those of load_project_scan(), read_scene() and `read`.
 Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 
-// Holds what a relief's report tells of its inputs, without the scans themselves.
+// The facts that a relief's report states about its inputs, without the scans themselves.
 struct InputFacts {
   std::string name;
   std::vector<std::string> paths, remarks;  // paths: of files that must not be overwritten

@@ -5,7 +5,8 @@
 namespace relievo::app {
 
 // From now on an allocation by operator new that fails is tried again after the reserve was freed, and throws
-// std::bad_alloc if it fails again. Does nothing if the process has a handler of its own, as one that Python runs in may.
+// std::bad_alloc if it fails again. Does nothing if the process already has a handler, as a process of Python
+// may.
 void keep_memory_in_reserve();
 
 // Takes a new reserve if the last one was freed and there is memory for it again. May be called from any thread.

@@ -40,7 +40,7 @@ class PreparedModel {
 
   InputFacts facts_;
   std::optional<StoredProject> project_;
-  Mutex mutex_;  // guards the frames and pictures of what follows
+  Mutex mutex_;  // guards the model's frames and pictures
   LiveModel live_;
 };
 

@@ -45,10 +45,9 @@ std::vector<std::string> remarks_of(const Scene& scene);
 // Returns whether the path is that of a scene file, which ends in .json.
 bool is_scene_file(const std::string& path);
 
-// Reads the files of those paths, one or several models, or one scene file (.json): of depth images and very
-// large files what is `wanted`. Errors: those of read_file(),
-// read_cloud(), stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene
-// file among others.
+// Reads the files of those paths: one or several models, or one scene file (.json). Depth images and very
+// large files are reduced to what is `wanted`. Errors: those of read_file(), read_cloud(), stream_front(),
+// parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file among others.
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
 

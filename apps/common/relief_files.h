@@ -22,7 +22,7 @@ struct ReliefFiles {
 };
 
 // Checks, before the work begins, that each output has a place of its own that can be written to. Errors: those of
-// check_output(); kind option for a picture of a tool that there is not.
+// check_output(); kind option for a picture of the tool if there is no tool.
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
 
 // Returns all files but the report, not yet written. `draft_deg` is what the relief was made with. Errors: those of
