@@ -61,7 +61,7 @@ Connection ending(int socket) {
 
 enum class Arrival { partial, whole, over };
 
-// Takes in what has arrived on a connection that can be read.
+// Receives the bytes that have arrived on a readable connection.
 Arrival receive(Connection& connection) {
   std::array<char, 1U << 14> bytes;
   const ssize_t got = ::recv(connection.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
@@ -105,7 +105,8 @@ struct Connections::State {
 
   ~State() { ::close(wake); }
 
-  // Starts another thread if all are busy. Where the system gives none, those that there are go on. The caller holds `mutex`.
+  // Starts another thread if all are busy. If the system gives none, the existing threads go on. The caller
+  // holds `mutex`.
   void add_thread_if_needed() {
     if (is_stopping || ready.size() <= idle || threads.size() > most_answering) return;
     try {
@@ -172,8 +173,9 @@ struct Connections::State {
     }
   }
 
-  // Takes in what arrived, and closes what is over or too late. The caller holds `mutex`. Both lists have the same order, but
-  // meanwhile connections may have gone from the front of `waiting` and come to its end.
+  // Receives what has arrived, and closes connections that are over or too late. The caller holds `mutex`.
+  // Both lists have the same order, but meanwhile connections may have gone from the front of `waiting` and
+  // come to its end.
   void look_at(const std::vector<pollfd>& watched) {
     const Clock::time_point now = Clock::now();
     auto found = watched.begin();
@@ -186,8 +188,8 @@ struct Connections::State {
     }
   }
 
-  // Takes in what arrived, and hands the connection over once its head is whole. Returns false if it is over or too late, or
-  // if there is no memory for it. The caller holds `mutex`.
+  // Receives what has arrived, and hands the connection over once its head is whole. Returns false if it is
+  // over or too late, or if there is no memory for it. The caller holds `mutex`.
   bool take_in(std::list<Connection>::iterator at, Clock::time_point now) {
     try {
       const Arrival arrival = receive(*at);

@@ -78,8 +78,8 @@ struct PieceHeight {
 // Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `outliers` is
-  // the number of those that were left out of the scan, and `remarks` is what else is to be said of it.
+  // Shares the model. A model of a few points comes with the detail that they leave out, others come alone.
+  // `outliers` is the number of outliers that were left out of the scan, and `remarks` are its other remarks.
   Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }

@@ -136,7 +136,7 @@ struct Engine::State {
     return shared.with([](const Shared& s) { return NumberedModel(s.shown); });
   }
 
-  // Returns the scan that was read last. If no relief came of it, that becomes the one that is shown.
+  // Returns the scan that was read last. If no relief could be made of it, the shown scan takes its place.
   LoadedScan scan_in_use() {
     const SessionStatus status = session.status();
     const bool has_failed = !status.is_preparing && status.error;
@@ -167,8 +167,8 @@ struct Engine::State {
     }
   }
 
-  // With `drawing_mutex` locked: returns what draws the model that is shown; null before the first. While
-  // another view is prepared it is frozen: the preparation needs the processor.
+  // With `drawing_mutex` locked: returns the drawing of the shown model; null before the first model. The
+  // drawing is frozen while another view is prepared: the preparation needs the processor.
   Drawing* current_drawing() {
     const bool is_preparing = session.status().is_preparing;
     const ShownModel shown = shared.with([](const Shared& s) { return s.shown; });

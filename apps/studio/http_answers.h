@@ -20,7 +20,7 @@ void refuse(httplib::Response& response, int status, const std::string& text);
 // Answers after an exception: JSON of a wrong type where a text or number belongs, and files too large to be made.
 void answer(httplib::Response& response, const std::exception_ptr& exception);
 
-// Returns whether a body may come; otherwise refuses it by what its head says of it, before any of it is read.
+// Returns whether the head of a request allows its body; otherwise refuses it before any of it is read.
 bool is_welcome(const httplib::Request& request, httplib::Response& response, std::size_t most_bytes);
 
 // Reads a body piece by piece; returns whether all of it came and was taken, and otherwise refuses it.

@@ -16,8 +16,8 @@ namespace relievo::app::studio {
 // Every method may be called from any thread.
 class OpenDocuments {
  public:
-  // So many documents may be open that no tab shows, and so many in all. Beyond, the one that was used least recently is
-  // closed: a tab that shows it opens it anew.
+  // The largest number of open documents that no tab shows, and of all open documents. Beyond these, the
+  // least recently used document is closed; a tab that shows it opens it anew.
   static constexpr std::size_t most_hidden = 1, most_open = 6;
 
   struct Entry {

@@ -1,4 +1,4 @@
-// The actions that concern the engine of a document, and what the page is told at its start.
+// The actions that concern the engine of a document, and the facts that the page gets at its start.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -89,7 +89,7 @@ Result<Answer> reach(Engine& engine, const Json& json) {
   return answer_of(Json{{"height_mm", height_mm}});
 }
 
-// Makes the piece as export writes it, and tells how large it is.
+// Makes the piece as export writes it, and answers with its size.
 Result<Answer> piece(Engine& engine, const Json& json) {
   const Json texts = json.value("options", Json());
   RELIEVO_TRY(const ReliefOptions options, options_from_json(texts, "options"));

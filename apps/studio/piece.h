@@ -24,7 +24,7 @@ struct PieceOrder {
   std::string key;
 };
 
-// A solid with what draws it.
+// A solid with its renderer.
 struct DrawnPiece {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ToolReach> reach;  // of the options' tool; null without one
@@ -32,7 +32,8 @@ struct DrawnPiece {
   std::optional<double> height_mm;  // see relief_height_mm(); nothing of a piece that is not finished
 };
 
-// Returns the height of the relief in a piece: exactly the one that was asked for, unless only what a tool reaches was.
+// Returns the height of the relief in a piece: exactly the height that was asked for, unless the piece is
+// only what a tool reaches.
 double relief_height_mm(const MadeRelief& made, const ReliefOptions& options);
 
 // Not for concurrent use.

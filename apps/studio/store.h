@@ -54,8 +54,8 @@ class Store {
   // Returns a document as keep_document() stored it; an empty text before. Errors: kind output if it cannot be read.
   virtual Result<std::string> document(const std::string& id) const = 0;
 
-  // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors: kind input if
-  // the name is none, kind output.
+  // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors:
+  // kind input if `id` is no document's name, kind output.
   virtual Result<void> keep_document(const std::string& id, std::string_view state, bool is_moving) = 0;
 
   // Keeps the document's picture, an address that begins with "data:". Errors: as above.
@@ -70,10 +70,11 @@ class Store {
   // Returns what all documents take. They are kept until they are removed.
   virtual KeptAmount amount() const = 0;
 
-  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if the name is none, kind output.
+  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if `id` is no
+  // document's name, kind output.
   virtual Result<void> remove(const std::string& id) = 0;
 
-  // Begins a dropped scan. Of the name, folders are ignored. May be called from any thread.
+  // Begins a dropped scan. Folders in the name are ignored. May be called from any thread.
   virtual std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const = 0;
 
   // Keeps a dropped scan that is complete and finished, and returns it as an input. Errors: kind output.

@@ -21,8 +21,9 @@ struct StudioAddress {
 // Says which crash a file survives: that of the program, or that of the machine as well.
 enum class Durability { program, machine };
 
-// Files in one folder, each replaced as a whole. What it removes are documents, when it is asked to, and scans that it has
-// kept and no document needs. Errors are in words for users, without paths. Not for concurrent use.
+// Files in one folder, each replaced as a whole. Removes documents only when asked to, and only those scans
+// that it has kept and no document needs. Errors are in words for users, without paths. Not for concurrent
+// use.
 class DiskStore final : public Store {
  public:
   explicit DiskStore(StateFolder folder);

@@ -11,8 +11,8 @@ export let engine;
 export const OPTIONS = {width: 60, height: 2, view: "front"};
 export const FRAME = {options: OPTIONS, width: 200, height: 150};
 
-// Gives the suite an engine and a scan, of so many points of a sample. `begin` does what else comes before the tests:
-// if it is not given, the scan is opened.
+// Gives the suite an engine and a scan: a sample with that many points. `begin` prepares everything else for the tests;
+// by default it opens the scan.
 export function withEngine(sample, points, begin = () => engine.open({path: scan})) {
   before(async () => {
     writeSample(sample, points, scan);

@@ -41,7 +41,7 @@ export const test = (name, act) => plainTest(name, {skip}, async (context) => {
   }
 });
 
-// Gives the suite a page that shows a scan, of so many points of a sample, with all panels open.
+// Gives the suite a page that shows a scan, a sample with that many points, with all panels open.
 export function withPage(sample, points, begin = () => {}) {
   withBrowser(async () => {
     writeSample(sample, points, scan);
@@ -108,7 +108,7 @@ export async function chooseView(side, of = page) {
   await of.locator("#view-name").getByText(side, {exact: true}).waitFor();
 }
 
-// Opens another scan or a project by the dialog of the browser. Firefox's driver tells of the first such dialog only.
+// Opens another scan or a project by the dialog of the browser. Firefox's driver reports only the first such dialog.
 export async function openFile(file, of = page) {
   if (found.name === "firefox") return of.locator("#file").setInputFiles(file);
   const chooser = of.waitForEvent("filechooser");

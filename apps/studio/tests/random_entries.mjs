@@ -25,7 +25,7 @@ const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0
   "rim-height": [0.3, 2]};
 const REFUSED = {plate: "abc", diameter: "0", rim: "-1", height: "high", shift: "9", thickness: "-1"};
 const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
-// What an entry may change besides its own field.
+// The fields that an entry may change besides its own.
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
 
 export class RandomEntries {
@@ -41,7 +41,7 @@ export class RandomEntries {
     return list[Math.floor(this.random() * list.length)];
   }
 
-  // Does a random number of things, then looks whether all that was typed is there, and was made.
+  // Makes a random number of entries, then checks that all that was typed is shown and was made.
   async run() {
     const {page} = this, first = await this.snapshot();
     for (let n = Math.floor(this.between(3, 8)); n > 0; --n) await this.act();
@@ -120,7 +120,7 @@ export class RandomEntries {
     this.typed = {};
   }
 
-  // Presses a button until it is disabled, or so many times. Returns how many times that was.
+  // Presses a button until it is disabled, at most that many times. Returns how often it was pressed.
   async pressAll(name, most = Infinity) {
     const pressed = button(name, this.page);
     let steps = 0;
@@ -135,7 +135,7 @@ export class RandomEntries {
     await this.page.locator("#export-size").getByText(/triangles$/).waitFor();
   }
 
-  // Opens the export, compares what it tells, and gives it up.
+  // Opens the export dialog, compares its numbers, and cancels it.
   async look() {
     await this.open();
     await this.compare();
@@ -158,7 +158,7 @@ export class RandomEntries {
     return {size, height: Number(text.match(/(?:height|relief) ([\d.]+)/)[1])};
   }
 
-  // Compares what the dialog, the status line and the fields tell. Returns what the dialog tells.
+  // Compares the numbers in the dialog, the status line and the fields. Returns those of the dialog.
   async compare() {
     const dialog = this.numbers(await this.page.locator("#export-size").innerText());
     const status = this.numbers(await this.page.locator("#numbers").innerText());
@@ -205,7 +205,8 @@ export async function showSmallScan() {
   await enter(page.locator("#resolution"), "1");
   for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
   await untilReady(page);
-  // What comes before is no part of a sequence: the page goes on with it when it is opened anew.
+  // The steps up to here are no part of a sequence. They are kept as a single step, with which the page goes on when it
+  // is opened anew.
   const begun = await eventually(async () => {
     const step = await engine.newestStep(scan);
     assert.equal(step.options.width, 30);

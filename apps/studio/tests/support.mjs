@@ -152,7 +152,7 @@ export function run(...args) {
   assert.equal(made.status, 0, String(made.stderr));
 }
 
-// Writes a sample of so many points into a file.
+// Writes a sample with that many points into a file.
 export const writeSample = (sample, points, file) => run("sample", sample, "-o", file, "--points", points);
 
 // Writes two scans into a folder under names that are not those of samples. Returns their places.
@@ -210,8 +210,8 @@ export async function showScan(browser, {state, scan, screen = {width: 1280, hei
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button")].every((card) =>
   card.dataset.drawn === "exact");
 
-// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits
-// until the field takes keys: those that a disabled field gets would go to the field before.
+// Replaces the text of a field key by key, as browsers distinguish typed text from text that a script sets. Waits until
+// the field takes keys: while it is disabled, they would go to the field before.
 export async function type(field, text) {
   await field.page().bringToFront(); // Firefox sends keys to no other page
   await eventually(async () => {
@@ -225,8 +225,8 @@ export async function type(field, text) {
   await (text === "" ? keyboard.press("Delete") : keyboard.type(text));
 }
 
-// Clicks twice. Firefox's driver makes two single clicks of it, since it counts clicks in one chain of actions alone,
-// so that the event which the browser makes of them is sent by hand there.
+// Clicks twice. Firefox's driver counts clicks only within one chain of actions, so it makes two single clicks; there
+// the event of a double click is sent by hand.
 export async function doubleClick(locator) {
   await locator.dblclick();
   if (locator.page().context().browser().browserType().name() === "firefox") await locator.dispatchEvent("dblclick");
@@ -256,8 +256,8 @@ function without(missing) {
   return {skip};
 }
 
-// Gives all pages of a browser their patience, and an engine that is as slow as the environment asks for: a test that
-// does not wait for what it tells of fails then, as it would on a busy machine.
+// Gives all pages of a browser the tests' patience, and an engine that is as slow as the environment asks for: with it,
+// a test that does not wait for what it checks fails, as it would on a busy machine.
 function patient(browser) {
   const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
   const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed
@@ -271,7 +271,7 @@ function patient(browser) {
 }
 
 // Returns {launch, skip} of the browser that the environment names, Chromium otherwise; `skip` is false, or says what
-// is missing. Firefox is driven by WebDriver BiDi, which the channel stands for.
+// is missing. The channel makes Playwright drive Firefox by WebDriver BiDi.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
   const isFirefox = name === "firefox";
   const executablePath = (isFirefox ? FIREFOX : CHROMIUM).find((candidate) => candidate && existsSync(candidate));
@@ -290,8 +290,8 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
   }
 }
 
-// Returns {name, bytes} of the files that a page saves after `trigger`, sorted by name. Firefox's driver tells nothing
-// of downloads, which are looked for in their folder.
+// Returns {name, bytes} of the files that a page saves after `trigger`, sorted by name. Firefox's driver does not
+// report downloads, so they are looked for in their folder.
 export async function savedFiles({folder}, page, count, trigger) {
   if (folder) {
     await trigger();
