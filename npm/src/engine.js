@@ -20,7 +20,7 @@ export class Engine {
   #log = "";
   progress = null; // (stage, fraction) => false to cancel
 
-  // `module` is a compiled one; `statuses` takes a text where the module tells of statuses.
+  // `module` is compiled WebAssembly; `statuses` is called with the text of each report of statuses.
   static async create(module, statuses) {
     const engine = new Engine();
     const memory = () => engine.#exports.memory.buffer;

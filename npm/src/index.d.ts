@@ -30,7 +30,7 @@ export interface DepthArrays {
 export type Source = Bytes | ReadableFile | CloudArrays | DepthArrays | { [name: string]: Bytes | ReadableFile };
 
 export interface InputOptions {
-  /** The name of the file, whose ending tells text formats apart. */
+  /** The name of the file. Its ending decides between text formats. */
   name?: string;
   /** The camera of a depth image, as numbers. */
   camera?: string;

@@ -141,7 +141,7 @@ export class Session {
     this.triangleCount = json.triangles;
   }
 
-  // Prepares a scan. Of the options those of the view, and those of reading, belong here.
+  // Prepares a scan. The options of the view, and those of reading, belong here.
   static async open(source, options = {}) {
     const { engine, request } = await engineWith(source, options);
     return new Session(engine, watchedCall(engine, "open", request, options).json);

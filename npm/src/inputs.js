@@ -11,7 +11,7 @@ const OF_THE_CALL = new Set(["progress", "signal", "camera", "baseImage", "strea
 const isBytes = (source) => source instanceof ArrayBuffer || ArrayBuffer.isView(source);
 const isReadable = (source) => typeof source?.read === "function";
 
-// A name is what tells formats apart whose bytes do not.
+// Returns a name for a file, as readers recognise some formats only by the name.
 function guessName(bytes) {
   const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(8, bytes.byteLength)));
   const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"],
@@ -42,7 +42,7 @@ export function modelsOf(files) {
   return names.filter((name) => !beside.has(ending(name)));
 }
 
-// Returns the request for options as users give them. Throws for names that are none.
+// Returns the request for options as users give them. Throws for unknown names.
 export function requestOf(options = {}) {
   const request = { options: {} };
   for (const [keyword, value] of Object.entries(options)) {

@@ -1,4 +1,4 @@
-// What is wrong is said: in which file or option, where, and what was expected.
+// Errors say what is wrong: in which file or option, where, and what was expected.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { relievo } from "./support.mjs";

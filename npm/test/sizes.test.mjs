@@ -1,4 +1,4 @@
-// Budgets: what a page loads and what npm installs.
+// Limits the size of the files that a page loads and that npm installs.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";

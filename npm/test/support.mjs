@@ -1,4 +1,4 @@
-// What the tests share: the package as it was built, and the native program to compare with.
+// The tests share the package as it was built, and the native program to compare it with.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";

@@ -108,7 +108,7 @@ Result<CallAnswer> make_sample_file(const Json& json) {
 
 // --------------------------------------------------------------------------------------------------- results
 
-// Returns one file of a relief: {"relief", "path", "kind"}, kind one of those of ReliefFiles.
+// Returns one file of a relief: {"relief", "path", "kind"}, where `kind` is one of the kinds of ReliefFiles.
 Result<CallAnswer> file(const Json& json) {
   RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
   ReliefFiles files;

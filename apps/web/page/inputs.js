@@ -26,8 +26,8 @@ export const scansOf = (state) => [scanOf(inputOf(state)),
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // where another file is the model
 
-// Returns of several files the one that is opened: the only one, the scene, or the model that the others belong to.
-// Models side by side get a scene of their own.
+// Returns the file to open among those given: the only one, the scene, or the model that the others belong to. For
+// several models, returns a new scene that has them side by side.
 export function mainOf(files) {
   const scene = files.find((file) => endingOf(file) === "json");
   if (files.length === 1 || scene) return scene ?? files[0];
@@ -37,7 +37,7 @@ export function mainOf(files) {
   return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
 }
 
-// Returns files, [[path, file], ...], with their bytes in place of what the browser reads them from.
+// Returns files, [[path, file], ...], with their bytes in place of the browser's objects.
 export function bytesOf(files) {
   return Promise.all(files.map(async ([path, file]) =>
     [path, file instanceof Blob ? new Uint8Array(await file.arrayBuffer()) : file]));

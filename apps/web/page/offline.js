@@ -4,7 +4,7 @@ const NAME = "relievo";
 addEventListener("install", (event) => event.waitUntil(skipWaiting()));
 addEventListener("activate", (event) => event.waitUntil(clients.claim()));
 
-// The newest page where the network answers, else the one that was kept.
+// Answers with the newest page if the network responds, otherwise with the page that was kept.
 addEventListener("fetch", (event) => {
   const isPage = event.request.mode === "navigate" || event.request.url.endsWith(".webmanifest");
   if (event.request.method === "GET" && isPage) event.respondWith(newest(event.request));

@@ -16,7 +16,7 @@ const ended = (transaction) => new Promise((resolve, reject) => {
 
 const hasNoRoom = (error) => error?.name === "QuotaExceededError";
 
-// What went wrong, for people.
+// Returns what went wrong, in words for users.
 function reason(error) {
   if (hasNoRoom(error)) return "the browser has no room left for this page";
   return `the browser does not allow it (${error?.name ?? error})`;
@@ -48,7 +48,7 @@ export class BrowserStore {
     return inMemory ?? (this.#base && done(this.#base.transaction(name).objectStore(name).get(key)));
   }
 
-  // Changes an entry: `next` takes the one that is there and returns the one to keep; what it throws is thrown.
+  // Changes an entry: `next` takes the present value and returns the new one; errors that it throws are passed on.
   async #change(name, key, next) {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);

@@ -8,7 +8,7 @@ const BEGINS_WORK = new Set(["open", "view"]);
 let engine, timer;
 let isDue = false; // work that was asked for and has not begun
 
-// Prepares what was asked for. Messages that wait come first, so that the newest view is the one that is prepared.
+// Prepares the view that was asked for. Waiting messages are handled first, so that it is the newest view.
 function work() {
   isDue = false;
   try {

@@ -15,7 +15,7 @@ const native = process.env.RELIEVO;
 const browsers = {chromium: await findBrowser("chromium"), firefox: await findBrowser("firefox")};
 let scans; // a folder of them
 
-// Returns a scan of so many rows, each of as many points.
+// Returns a scan of that many rows, each with as many points.
 function waves(rows) {
   const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${rows * rows}\n` +
     "property float x\nproperty float y\nproperty float z\nend_header\n";

@@ -27,7 +27,7 @@ function serverPolicy() {
     "img-src data: blob:; worker-src 'self' blob:; manifest-src 'self'; connect-src 'self'";
 }
 
-// A static server of the page's folder, with that policy.
+// Starts a static server of the page's folder, with the policy of serverPolicy(). Returns the page's address.
 export async function serve(t) {
   const server = http.createServer((request, response) => {
     const wanted = path.join(pageFolder, path.basename(new URL(request.url, "http://localhost").pathname));
