@@ -101,7 +101,7 @@ void check_whole(const NamedArray& given) {
     raise_input(given.name, "dtype", cat("expected whole numbers, found ", dtype_text(given.array)));
 }
 
-// Returns the number of a point, of which there are `size`.
+// Returns the number of one of `size` points.
 Index index_of(const NamedArray& given, py::ssize_t row, std::int64_t value, std::size_t size) {
   if (value < 0 || value >= static_cast<std::int64_t>(size))
     raise_row(given, row, cat("expected numbers of points from 0 to ", size - 1, ", found ", value));

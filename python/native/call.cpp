@@ -27,7 +27,7 @@ struct Event {
   double fraction = 0;
 };
 
-// The messages of the thread that works to the one that waits.
+// Carries messages from the working thread to the waiting one.
 class Messages {
  public:
   void post(Event event) {

@@ -13,7 +13,8 @@ namespace relievo::python {
 
 namespace py = pybind11;
 
-// Convert paths and texts about them: bytes that are no UTF-8 stand as surrogates in Python, as its os module has it.
+// Convert paths and texts about them: bytes that are not UTF-8 become surrogates in Python, as in its os
+// module.
 std::string path_of(py::handle path);
 py::str text_of(std::string_view text);
 

@@ -33,7 +33,7 @@ SharedRelief make(const py::list& sources, const py::dict& keywords, const py::o
   return watched_value(callback, [&](Progress& progress) { return app::make(order, progress); });
 }
 
-// Raises an error unless a picture may have so many pixels on its longer side.
+// Raises an error unless a picture may have that many pixels on its longer side.
 void check_size(const char* keyword, int px, int most_px) {
   constexpr int least_px = 16;
   if (px < least_px || px > most_px)

@@ -50,7 +50,7 @@ def threads() -> int:
 
 
 def set_threads(number: int) -> None:
-    """Sets that number for this process, at most 256; 0 stands for the number of processors. Waits for running calls."""
+    """Sets the number of threads of this process, at most 256; 0 means one per processor. Waits for running calls."""
     _native.set_threads(number)
 
 

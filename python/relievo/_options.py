@@ -27,7 +27,7 @@ INPUT = [*of_stage("input"), "camera", "base_image", "scan", "stream_above_mb"]
 
 _TEXTS = {row["keyword"] for row in TABLE if "min" not in row}
 
-# What a session prepares once, and what its frames can change.
+# The keywords that a session prepares once, and those that its frames can change.
 PREPARED = {*of_stage("view", "model"), *INPUT} - {"base_image"}
 OF_MAKE = [row["keyword"] for row in TABLE if row["stage"] != "input"] + INPUT
 OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]

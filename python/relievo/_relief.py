@@ -122,8 +122,9 @@ def make(
     """Returns the relief of a scan.
 
     source is a path of any file that `relievo make` reads, the bytes of one, an (N, 3) array of points, a 2-D depth image,
-    or an object with points, or with vertices and faces, as of Open3D and trimesh. A list of them makes one relief of
-    several models, side by side. Points may have normals and colours, (N, 3), and faces, (M, 3), which make them a mesh.
+    or an object with points, or with vertices and faces, like those of Open3D and trimesh. A list of them makes one
+    relief of several models, side by side. Points may have normals and colours, (N, 3), and faces, (M, 3), which make
+    them a mesh.
 
     progress is called with the name of each stage and the fraction done, at last with "done" and 1. An exception that it
     raises, and Ctrl-C, end the work and are passed on. Several threads may call this at the same time.

@@ -31,7 +31,8 @@ Watch = typing.Callable[[Record, int, int], None]
 
 # A scan whose program was ended by the system, or that found a disk full, is tried so often in all.
 TRIES = 3
-# Dask gets up to so many scans as one task, as each task costs it, and a start of the program, several milliseconds.
+# Dask gets up to this many scans as one task, because each task, and each start of the program, costs several
+# milliseconds.
 MOST_IN_TASK = 8
 # The name under which a worker states its memory in megabytes: dask worker --resources "relievo_mb=16000".
 RESOURCE = "relievo_mb"
@@ -167,7 +168,7 @@ def _work(
             job = json.loads(line)
             record = records.get(job["name"])
             tries[line] += 1
-            # It is tried alone then, so that a scan that ends its worker takes no other scan with it.
+            # The scan is then tried alone: if it ends its worker, it takes no other scan with it.
             if tries[line] < TRIES and (record is None or (record.get("may_succeed") and record["hash"])):
                 again = submit([line])
                 tasks[again] = [line]

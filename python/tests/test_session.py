@@ -94,7 +94,7 @@ class Frames(unittest.TestCase):
                 session.frame(**sweep[i % 10]).heights[0]
 
         run(500)
-        # Of 10,000 frames, a hundred bytes that stayed of each would be .2 MB in each part.
+        # If each of the 10,000 frames left a hundred bytes, each part would grow by .2 MB.
         self.assertLess(least_growth_mb(5, lambda: run(FRAMES // 5)), 0.15)
 
     def test_and_reliefs_leak_nothing(self):

@@ -1,4 +1,4 @@
-"""The types that are promised are those of the package, and its docstrings those of the library."""
+"""The declared types are those of the package, and its docstrings are the comments of the library."""
 
 import inspect
 import os
