@@ -41,7 +41,7 @@ class NeededChunks {
     return 0;
   }
 
-  // Moves to the next chunk that is no ancillary one: these have a small letter at the beginning of their names.
+  // Moves to the next critical chunk: the names of ancillary ones begin with a small letter.
   void find_needed() {
     constexpr std::size_t head = 8, around_data = 12;
     while (bytes_.size() - at_ >= head) {

@@ -13,7 +13,7 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::uint32_t gdal_no_data = 42113;  // the tag of the value that stands for none, as text
+constexpr std::uint32_t gdal_no_data = 42113;  // tag of the value for missing depths, as text
 
 struct Layout {
   std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;
@@ -178,7 +178,7 @@ std::unexpected<Error> no_directory(const Source& source, const TiffBytes& file)
                                   ", the size of the file, found ", first, "; the file is cut, get it anew"));
 }
 
-// Returns the value that stands for none, if the file states one as GDAL does.
+// Returns the value that marks missing depths, if the file states one as GDAL does.
 std::optional<float> no_data(TIFF* tiff) {
   std::uint32_t size = 0;
   const char* text = nullptr;
@@ -191,7 +191,7 @@ std::optional<float> no_data(TIFF* tiff) {
 // Terrain models have the lowest number of single precision where nothing is known, not always with a tag that says so.
 constexpr float lowest_height = -1e38F;
 
-// Makes bright what is white, and NaN what stands for no value.
+// Inverts the values if the file stores white as 0, and makes missing ones NaN.
 void interpret(const Layout& layout, std::optional<float> missing, DepthImage& image) {
   const bool is_inverted = layout.colours == PHOTOMETRIC_MINISWHITE &&
                            layout.samples.kind == SampleKind::whole && layout.bits <= 32;

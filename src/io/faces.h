@@ -11,10 +11,10 @@ namespace relievo::io {
 
 enum class FaceKind { polygon, strip, fan };
 
-// Appends the triangles of a face, whose corners are numbers of points. Of a polygon, triangles that cover it,
-// as triangulate() says; of a strip, its triangles, every second one reversed, with a restart after each -1; of
-// a fan, all triangles at its first corner. Triangles with two equal corners are left out. Returns false, and
-// appends nothing, if a corner is not the number of a point.
+// Appends the triangles of a face, whose corners are numbers of points. For a polygon, these are triangles
+// that cover it, see triangulate(); for a strip, its triangles, every second one reversed, with a restart
+// after each -1; for a fan, all triangles at its first corner. Triangles with two equal corners are left out.
+// Returns false, and appends nothing, if a corner is not the number of a point.
 bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<const Vec3> points,
               std::vector<Triangle>& triangles);
 

@@ -59,8 +59,8 @@ Result<RawCloud> read_stl(const Source& source);
 Result<RawCloud> read_obj(const Source& source);
 Result<RawCloud> read_text(const Source& source);
 
-// Return where the points are in a file of which `head` holds the beginning. Errors: those of the format's
-// header, and kind input for a file of the format that cannot be read row by row.
+// Return where the points are in a file that begins with `head`. Errors: those of the format's header, and
+// kind input for a file of the format that cannot be read row by row.
 Result<StreamRecords> find_ply_rows(const Source& head);
 Result<StreamRecords> find_pcd_rows(const Source& head);
 Result<StreamRecords> find_las_rows(const Source& head);

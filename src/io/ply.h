@@ -42,7 +42,7 @@ struct PlyContent {
 };
 
 // Return the vertices and faces. Errors: kind input, with the place, for a body that ends early, a word that
-// is no number, and a face with a vertex that does not exist. Whatever follows the faces is ignored.
+// is no number, and a face with a vertex that does not exist. Bytes after the faces are ignored.
 Result<PlyContent> read_ascii_body(const PlyBody& body);
 Result<PlyContent> read_binary_body(const PlyBody& body);
 

@@ -32,7 +32,7 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
 // Depth cameras write 0, 0, 0 where they have not measured anything. Fewer such points may be a corner of the model.
 constexpr std::size_t most_at_origin = 16;
 
-// Returns the number of points at 0, 0, 0 that are no places; none if there are no others, or in a mesh.
+// Returns the number of points at 0, 0, 0 that were not measured; 0 in a mesh, or if most points are there.
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
@@ -43,8 +43,9 @@ std::size_t count_unmeasured(const CloudFile& file) {
   return zeros < finite ? zeros : 0;
 }
 
-// Removes points that are not finite or not measured. Of points without a normal, these points are removed if they are
-// the minority, else all normals: losing a few points is better than losing all normals, and the reverse.
+// Removes points that are not finite or not measured. If some points have no normal, they are removed if they
+// are the minority, else all normals are: losing a few points is better than losing all normals, but losing
+// most points is worse.
 void drop_unusable(CloudFile& file) {
   Cloud& cloud = file.cloud;
   file.unmeasured_points = count_unmeasured(file);

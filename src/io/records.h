@@ -1,4 +1,4 @@
-// Points in rows of equal size, as in binary PLY, PCD and LAS, of which any block can be decoded by itself.
+// Points in rows of equal size, as in binary PLY, PCD and LAS. Any block of rows can be decoded by itself.
 #pragma once
 
 #include <array>

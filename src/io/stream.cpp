@@ -125,8 +125,8 @@ class ViewGrid {
   double extent() const { return std::max(box_.size().x(), box_.size().y()); }
 
   // Chooses the squares' size so that about `wanted` of them contain points: the sample shows which share of
-  // the box the points fill. Returns false for a cloud without extent, and for one whose extent has no square
-  // that a float holds.
+  // the box the points fill. Returns false for a cloud without extent, and for an extent too large or small
+  // for single precision.
   bool lay_grid(const Cloud& sample, double wanted) {
     const Vec3 size = box_.size();
     const double longer = extent();

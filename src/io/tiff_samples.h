@@ -23,7 +23,7 @@ std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned 
 // Returns what a picture has instead, for messages: "4-bit whole numbers".
 std::string describe_samples(unsigned sample_format, unsigned bits);
 
-// A row as libtiff returns it, of which every `step`-th sample is read, from the sample `first` on.
+// A row as libtiff returns it. Every `step`-th sample is read, from the sample `first` on.
 struct SampleRow {
   const unsigned char* bytes = nullptr;
   std::size_t first = 0, step = 1;

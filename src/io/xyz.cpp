@@ -10,7 +10,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns colours as bytes. The largest value tells their range: up to 1, 255 or 65535. Returns none if it is larger.
+// Returns colours as bytes. The largest value shows their range: up to 1, 255 or 65535. Returns no colours if
+// it is larger.
 std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
   float largest = 0;
   for (const Vec3f& value : values) largest = std::max(largest, value.maxCoeff());

@@ -1,4 +1,4 @@
-// Which columns of a text cloud are coordinates, normals and colours.
+// Finds the columns of a text cloud that are coordinates, normals and colours.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
 constexpr std::array<std::string_view, 9> colour_names = {"r",    "g",  "b",  "red", "green",
                                                           "blue", "rf", "gf", "bf"};
 
-// Classes of points in LAS go up to 31. Whole numbers that are no larger are rather these, or numbers of echoes.
+// Classes of points in LAS go up to 31. Whole numbers up to this are taken for classes or numbers of echoes.
 constexpr double largest_class = 31;
 
 std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
@@ -55,8 +55,8 @@ std::string_view line_around(std::string_view data, std::size_t byte) {
   return data.substr(first + begin, byte + end - first - begin);
 }
 
-// Returns rows from all over the file as numbers, without rows that have another number of columns. What is no number is
-// NaN.
+// Returns rows from all over the file as numbers, without rows that have another number of columns. Words
+// that are no numbers become NaN.
 std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
   const std::size_t samples = 256;
   std::vector<Row> rows;
@@ -141,7 +141,8 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   const std::span wanted(layout.wanted);
   layout.has_normals =
       find_triple(rows, are_unit_vectors, candidates, wanted.subspan(XyzLayout::first_normal, 3));
-  // A normal's columns hold no colour. Below a number of points (PTS) the fourth column is the intensity.
+  // The columns of a normal are not a colour. Below a number of points (PTS) the fourth column is the
+  // intensity.
   const std::size_t normal = layout.has_normals ? layout.wanted[XyzLayout::first_normal] : layout.columns + 3;
   const bool has_intensity = layout.promised_points && layout.columns > first + 6;
   std::erase_if(candidates, [&](std::size_t column) {

@@ -63,7 +63,8 @@ bool are_numbers(std::string_view text) {
   return true;
 }
 
-// Returns where the quoted text ends with which a line begins, 0 if it begins with none. Two quotation marks stand for one.
+// Returns the end of the quoted text at the beginning of a line, 0 if there is none. Two quotation marks
+// stand for one.
 std::size_t end_of_quoted(std::string_view line) {
   std::size_t at = 0;
   while (at < line.size() && is_blank(line[at])) ++at;

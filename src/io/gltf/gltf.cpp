@@ -274,7 +274,7 @@ class GltfReader {
     return order;
   }
 
-  // Returns the vectors of an attribute, which have so many numbers each; colours may have another for transparency.
+  // Returns an attribute's vectors of `wanted` numbers; colours may have another for transparency.
   Result<AccessorValues> attribute(const Json& attributes, const char* name, std::size_t wanted,
                                    const std::string& place) {
     const auto number = number_in(attributes, name, no_index);

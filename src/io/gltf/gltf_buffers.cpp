@@ -12,7 +12,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns the bytes; nothing for text that is not base64, of which `wrong` is then the first character that is none.
+// Returns the bytes; nothing for text that is not base64: then `wrong` is the index of its first bad
+// character.
 std::optional<std::vector<std::byte>> decode_base64(std::string_view text, std::size_t& wrong) {
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3);

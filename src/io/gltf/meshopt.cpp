@@ -58,7 +58,7 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   return from.is_at_end() ? std::optional(in_bytes(indices, layout.stride)) : std::nullopt;
 }
 
-// Unfolds unit vectors from the octahedron, in place. The third number says what stands for 1, the fourth stays.
+// Unfolds unit vectors from the octahedron, in place. The third number means 1; the fourth stays.
 template <typename Integer>
 bool unfold_octahedron(Bytes& bytes) {
   constexpr float most = std::numeric_limits<Integer>::max();

@@ -25,8 +25,9 @@ struct MeshoptLayout {
 std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
-// Returns the count * stride bytes of a view. Nothing if the compressed bytes do not have that many elements, or if the
-// layout is none that the extensions allow. The memory it takes is at most 1,024 times that of the compressed bytes.
+// Returns the count * stride bytes of a view. Nothing if the compressed bytes do not have that many elements,
+// or if the extensions do not allow the layout. The memory it takes is at most 1,024 times that of the
+// compressed bytes.
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout);
 

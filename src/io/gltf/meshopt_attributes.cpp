@@ -95,7 +95,7 @@ void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last
 // the mode of each channel.
 class Attributes {
  public:
-  // Returns nothing if the header or the modes are none that the specification has, or if the tail is cut.
+  // Returns nothing if the specification lacks the header or the modes, or if the tail is cut.
   static std::optional<Attributes> open(std::string_view stream, std::size_t stride) {
     if (stream.empty() || stride == 0 || stride % channel_size != 0 || stride > most_stride)
       return std::nullopt;

@@ -20,7 +20,7 @@ class MeshoptBytes {
     return 0;
   }
 
-  // Returns a number of which each byte has seven bits, the lowest first (LEB128).
+  // Returns a number that is stored with seven bits in each byte, the lowest first (LEB128).
   std::uint32_t next_number() {
     std::uint32_t number = 0;
     for (unsigned shift = 0; shift < 35; shift += 7) {

@@ -45,7 +45,7 @@ class ArithmeticDecoder {
   std::uint32_t bit(BitModel& model);
   std::uint32_t bits(unsigned count);  // 1 to 32 bits that have no model
 
-  // Returns true if more was decoded than the bytes contain. Zeros are taken for what is missing.
+  // Returns true if more was decoded than the bytes contain. Missing bytes are read as zeros.
   bool is_beyond_end() const { return at_ > bytes_.size() + 4; }
 
  private:

@@ -1,4 +1,4 @@
-// Integers of LAZ files, of which the difference to a prediction is stored.
+// Decodes integers of LAZ files, which are stored as differences from a prediction.
 #pragma once
 
 #include <cstdint>

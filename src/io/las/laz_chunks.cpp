@@ -36,7 +36,7 @@ class LayoutReader {
     return little<T>(source_.bytes.data() + byte);
   }
 
-  // Finds the record with what is to be known for decompression.
+  // Finds the record that describes the compression.
   Result<void> find_record() {
     std::uint64_t next = header_.header_size;
     const std::uint64_t end = std::min<std::uint64_t>(header_.records.offset, source_.bytes.size());

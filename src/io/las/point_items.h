@@ -12,7 +12,7 @@
 
 namespace relievo::io {
 
-// A part of each point. Those that are of no use are decoded, too, because the others stand behind them.
+// Decodes one part of each point. Unused parts are decoded, too, because the others follow them.
 class PointItem {
  public:
   PointItem() = default;

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Float keeps seven digits: enough unless most of them tell where the cloud is rather than its shape.
+// Float keeps seven digits: enough unless most of them state the cloud's position rather than its shape.
 bool needs_double(const Cloud& cloud) {
   const Box box = bounds(cloud);
   if (box.is_empty()) return false;
