@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// Edges of a plate are sharper than this, and facets of what is round in it are flatter.
+// The surface turns by more than this at a plate's edges, and by less between facets of its round parts.
 constexpr double sharpest_deg = 20;
 
 // Solids are rounded to single precision, so heights that are meant to be the ground's differ a little.

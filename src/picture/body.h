@@ -21,7 +21,7 @@ enum class Part : std::uint8_t {
   wall     // sides and bottom, by normals of their own corners, without cast shadows
 };
 
-// The part of each triangle, and normals of those that are not shaded by their points'.
+// The part of each triangle, and the normals of triangles that are not shaded with those of their points.
 struct PlateParts {
   std::vector<Part> parts;                           // per triangle
   std::vector<Index> corners_at;                     // per triangle: its place below, or no_index

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Soft shadows need few pixels: a coarser grid's longer side has at most so many.
+// Soft shadows need few pixels: the longer side of their coarser grid has at most this many.
 constexpr int most_cells = 160;
 
 // Opacity of the full shadow: as grey as a table under a lamp and a bright room.
@@ -32,7 +32,7 @@ class DropShadow {
     blur(shade_, softness);
   }
 
-  // Opacity of the shadow at a pixel, between cells interpolated.
+  // Returns the opacity of the shadow at a pixel, interpolated between cells.
   float at(int x, int y) const {
     const float share = 1 / static_cast<float>(1 << shift_);
     const float u = clamped(static_cast<float>(x) * share - away_.x(), shade_.width),

@@ -1,4 +1,4 @@
-// The soft shadow of a body on what lies behind it.
+// Draws the soft shadow of a body on the ground behind it.
 #pragma once
 
 #include "relievo/core/image.h"

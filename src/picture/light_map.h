@@ -17,7 +17,7 @@ class LightMap {
   // `to_lamp` has length 1. A field without pixels gives a map of ones.
   LightMap(const HeightField& field, const Vec3f& to_lamp);
 
-  // At a point of the front, between pixels interpolated.
+  // Returns the light at a point of the front, interpolated between pixels.
   Light at(const Vec3f& point) const;
 
  private:

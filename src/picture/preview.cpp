@@ -22,7 +22,7 @@ constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;  // of both pictur
 // and darker below, as a wall that is lit from above.
 constexpr float brightest_wall = .90F, darkest_wall = .70F;
 
-// From above right, where the upper left lamp leaves the most to be seen of slopes and of the plate's edge.
+// The oblique view is from above right: there the upper left lamp shows slopes and the plate's edge best.
 constexpr double oblique_yaw_deg = -35, oblique_pitch_deg = 20;
 
 Mat3 oblique_rotation() {

@@ -58,7 +58,7 @@ constexpr float viewer_distance = 3.6F;
 struct Metal {
   Vec3f bare, worn;       // colour where nothing covers it, and of edges that hands have polished
   Vec3f patina;           // in hollows
-  float diffuse, mirror;  // strengths of what is scattered and of what is mirrored
+  float diffuse, mirror;  // strengths of scattered and of mirrored light
   float mottle;           // variation of the patina
 };
 
@@ -187,7 +187,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       room_(material == Material::plaster ? Room() : Room(to_lamp)) {}
 
-// The light that a place gets, by where it faces and by what hides lamp and sky from it.
+// Returns the light of a place, from the direction that it faces and the shadows of lamp and sky on it.
 Light Shader::facing(const Lit& lit) const {
   return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
           (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};

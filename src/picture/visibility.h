@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// A place on a triangle: its corners' weights in 65535ths, of which the third has the rest.
+// A place on a triangle, by its corners' weights in 65535ths; the third corner has the rest.
 struct VisiblePoint {
   Triangle corners = {no_index, no_index,
                       no_index};  // kept here: to look them up costs live pictures a third
@@ -29,14 +29,14 @@ struct VisiblePoint {
 
 using VisibilityBuffer = Image<VisiblePoint>;
 
-// The body's triangles in the picture's pixels. Of height fields seen from above heights are left out.
+// The body's triangles in the picture's pixels. For height fields seen from above, heights are left out.
 RasterInput raster_input(const DrawnBody& body, const ScreenTransform& transform);
 
 // The place at (x, y) in the picture of one of the body's triangles.
 VisiblePoint visible_point(const DrawnBody& body, const RasterInput& input, Index triangle,
                            const Vec3f& place);
 
-// Overwrites the buffer with what is seen at the centres of the picture's pixels.
+// Overwrites the buffer with the places that are visible at the centres of the picture's pixels.
 void draw_visibility(const DrawnBody& body, const RasterInput& input, VisibilityBuffer& buffer);
 
 // Height above the ground at that point, in mm.

@@ -29,7 +29,7 @@ class FastMetrics {
  public:
   explicit FastMetrics(const Surface& surface);
 
-  // Returns the number of pixels that are measured: those of which ReliefMetrics measures all four.
+  // Returns the number of pixels that are measured: those whose four pixels ReliefMetrics measures.
   std::size_t pixels() const { return where_.pixels.size(); }
 
   // Draws heights, one per point, in pixels.

@@ -24,7 +24,7 @@ Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) 
   return Vec2(p * v.y() - q * u.y(), q * u.x() - p * v.x()) / twice_area;
 }
 
-// The squares of what is left of the angles along chains when their moving means are taken off.
+// Adds up the squares of the differences between angles along chains and their moving means.
 struct Residuals {
   double sum = 0;
   std::size_t count = 0;

@@ -183,8 +183,8 @@ double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& c
     return block.lines;
   };
   const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
-  // The lines are spread over three times the cross-section of all cells; the number of lines per point that
-  // was kept tells the area.
+  // The lines are spread over three times the cross-section of all cells; the number of lines per kept point
+  // gives the area.
   const double share =
       3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
   return std::sqrt(share);
