@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// Shares of a tolerance: what a curved base may take, and what turning the edges of thin triangles may.
+// Shares of a tolerance: that of curved bases, and that of flips of thin triangles' edges.
 constexpr double bending_share = .25, turning_share = .01;
-constexpr double least_error_mm = 1e-4;  // files hold no less; a limit of triangles alone stops there
+constexpr double least_error_mm = 1e-4;  // files store no less; used if only triangles are limited
 constexpr double rim_bevel = .3;         // of the rim's height: 17 degrees from upright, so dies come off
 
 // The share of the steepest slope that simpler fronts keep. It is more than the 0.999 that limit_draft() keeps, so that

@@ -23,7 +23,7 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   return {lowest, highest};
 }
 
-// Draft angles hold for the triangles between the points, and the heights of lithophanes are no surface's.
+// The triangles between the points keep a draft angle, and the heights of a lithophane are not a surface's.
 bool is_sampled(const ReliefOptions& options) {
   return !options.draft_deg && options.form != Form::lithophane;
 }

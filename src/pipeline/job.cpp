@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// From here on weights are 1 to the last bit.
+// From this u on, weights are 1 to the last bit.
 constexpr double uncompressed_u = 1e12;
 
 // Stretching by less than this is not seen while things move.

@@ -89,7 +89,7 @@ MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }
 
-// From a model to its body, by options that have passed check().
+// Makes the body of a model, with options that have passed check().
 Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
   const Surface& surface = model.surface();
   RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));

@@ -23,7 +23,7 @@ Result<void> read_value(const OptionRow& option, const OptionValue& given, Optio
   return option.access.read(value, to);
 }
 
-// Reads the values of the table's options that read a depth image, or of those that do not.
+// Reads the values of the options of the relief, or of the other options, which read a depth image.
 Result<OptionTargets> read_values(const OptionValues& values, bool is_of_relief) {
   OptionTargets to;
   for (const OptionRow& option : option_table()) {

@@ -190,7 +190,7 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   return all;
 }
 
-// The cloud without its outliers, which is not copied if there are none.
+// Returns the cloud without its outliers. It is not copied if there are none.
 ViewSample without_outliers(std::shared_ptr<const Cloud> cloud) {
   const std::vector<Index> far = outliers(*cloud);
   if (far.empty()) return {std::move(cloud), 0, {}};

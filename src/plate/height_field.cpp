@@ -28,8 +28,8 @@ RasterInput front_input(const Solid& solid, const HeightField& field) {
   return input;
 }
 
-// The front's corners as files hold them. The floats are stored first, because g++ 12 drops the rounding of double(float(x))
-// when it vectorises.
+// Returns the front's corners as files store them. The floats are stored first, because g++ 12 drops the
+// rounding of double(float(x)) when it vectorises.
 std::vector<Vec3f> stored_points(const Solid& solid) {
   std::vector<Vec3f> stored;
   stored.reserve(solid.points.size());

@@ -31,9 +31,10 @@ HeightField flat_height_field(const Box& box, int longer_side_px);
 // Returns the heights of a solid's front, quickly; without pixels as flat_height_field().
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
-// Returns the heights of a solid's front as files hold its corners: each pixel has that of the triangle in which its centre
-// lies, also of one on whose edge it lies, of several the highest. draw_height_field() rounds corners to 1/256 pixel, which
-// at walls is up to their height. Without pixels as flat_height_field(); `is_beside` is empty.
+// Returns the heights of a solid's front, with its corners as files store them. Each pixel has the height of
+// the triangle that contains its centre, or has it on an edge; the highest of several. draw_height_field()
+// rounds corners to 1/256 pixel, which can change a height at a wall by as much as the wall is high. Without
+// pixels as flat_height_field(); `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, int longer_side_px);
 
 }  // namespace relievo

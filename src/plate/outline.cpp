@@ -14,8 +14,8 @@ namespace {
 
 using Points = std::span<const Vec2>;
 
-// Between a curve and the middles of its polygon's sides, whose corners lie on it. Turning and polishing show more; of
-// curves of more than 10 m files hold no less than this share of their radius.
+// The distance of a curve, with the polygon's corners on it, from the middles of the polygon's sides. Turning
+// and polishing leave more; for curves of more than 10 m, files store no less than this share of the radius.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
 // The distance of a line from the centre, as a function of the outline's size.
@@ -25,8 +25,8 @@ struct Distance {
   double at(double size) const { return offset + size * growth; }
 };
 
-// One edge of a convex outline, of which `size` scales all: a line, and the tangent of the curve, parallel to it, which is
-// the same where the outline is straight.
+// One edge of a convex outline, which `size` scales as a whole: a line, and the curve's tangent parallel to
+// it. Both are the same where the outline is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
@@ -153,7 +153,7 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-// Returns the box around points, or the one that the size asked for leaves within its margin.
+// Returns the box around points or, if a size is given, the box that its margin leaves.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);

@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// The diagonals of rectangles in a Delaunay triangulation are arbitrary, and those across a ridge are teeth. Of each
-// rectangle whose corners have slopes that are numbers, takes the diagonal along which the slope changes less. Changes
-// the triangles alone: neighbours are no longer right.
+// The diagonals of rectangles in a Delaunay triangulation are arbitrary, and across a ridge they look like
+// teeth. Gives each rectangle the diagonal along which the slope changes less, unless the slope of a corner
+// is NaN. Changes only the triangles: the neighbours become invalid.
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

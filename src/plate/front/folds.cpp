@@ -17,8 +17,8 @@ namespace {
 constexpr int most_steps = 6;  // units in the last place by which a point is moved
 constexpr int most_passes = 8;
 
-// The places of points as files hold them. The floats are stored first, because g++ 12 drops the rounding of
-// double(float(x)) when it vectorises.
+// Returns the places of points as files store them. The floats are stored first, because g++ 12 drops the
+// rounding of double(float(x)) when it vectorises.
 std::vector<Vec2> stored_places(const Solid& solid) {
   std::vector<Vec2f> stored;
   stored.reserve(solid.points.size());

@@ -8,8 +8,9 @@
 
 namespace relievo {
 
-// Returns the triangles of the front that are not counter-clockwise, seen from above, with coordinates as files hold them.
-// If there are none, and its outline does not cut itself, neither does a front that files hold.
+// Returns the triangles of the front that are not counter-clockwise, seen from above, with coordinates as
+// files store them. If there are none, and the outline does not cut itself, the stored front does not cut
+// itself.
 std::vector<Index> find_folds(const Solid& solid);
 
 // Moves points of the front, together with those below them, by a few units in the last place until find_folds() finds

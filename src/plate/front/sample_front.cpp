@@ -162,7 +162,8 @@ class Sampler {
     }
   }
 
-  // Points of a scan may nearly coincide as seen. Those of creases stay all, of others one in each place.
+  // Points of a scan may nearly coincide in the view. Keeps all points of creases, and one of others per
+  // place.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };

@@ -9,7 +9,7 @@ namespace {
 // A turn is even if it changes from one cell to the next by at most this share of itself. Where it does not, as on
 // rough surfaces, facets do not show.
 constexpr float most_change = .25F;
-// So many facet angles make a crease, which finer facets would not round.
+// A turn of this many facet angles is a crease, which finer facets would not round.
 constexpr float crease = 3;
 
 // Returns the sine of the angle between the normals of two slopes.

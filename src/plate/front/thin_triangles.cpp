@@ -42,7 +42,8 @@ class Flipper {
 
  private:
   Vec2 at(Index i) const { return front_.points[i].head<2>(); }
-  // Returns the place as files hold it. g++ 12 would drop the rounding of double(float(x)) without `volatile`.
+  // Returns the place as files store it. Without `volatile`, g++ 12 would drop the rounding of
+  // double(float(x)).
   Vec2 stored(Index i) const {
     const volatile auto x = static_cast<float>(at(i).x()), y = static_cast<float>(at(i).y());
     return {static_cast<double>(x), static_cast<double>(y)};
