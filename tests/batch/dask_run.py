@@ -39,7 +39,7 @@ def journal(output):
 
 
 def wait_for(count, output, process, log):
-    """Waits until the journal has so many records."""
+    """Waits until the journal has that many records."""
     while len(journal(output)) < count:
         if process.poll() is not None:
             sys.exit(f"the run ended before it could be killed, with {process.returncode}: {content(log).decode()}")

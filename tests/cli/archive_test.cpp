@@ -15,7 +15,7 @@ Result<CloudFile> read(const std::string& archive) {
   return read_cloud_at(std::as_bytes(std::span(archive)), "a.zip");
 }
 
-// A triangle, of which the coordinates are in another file.
+// A triangle with its coordinates in another file.
 const std::string gltf =
     R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],

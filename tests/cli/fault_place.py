@@ -98,7 +98,7 @@ class Place:
         self.workshop, self.folder = workshop, workshop.folder / str(number)
         self.out, self.state = self.folder / "out", self.folder / "state"
         self.mounted = []
-        # On some file systems all files have names, on others not: both are tried in turn.
+        # Some file systems have no files without names, others do: both are tried in turn.
         self.environment = {"NO_TMPFILE": "1"} if str(number)[-1] in "13579" else {}
 
     def __enter__(self):
@@ -159,7 +159,7 @@ class Place:
         self.mounted.append(path)
 
     def fill_disk(self, path, free):
-        """Leaves so many bytes."""
+        """Fills the disk until that many bytes are free."""
         room = os.statvfs(path)
         with open(path / "filling", "wb") as file:
             file.write(bytes(max(0, room.f_bavail * room.f_frsize - free)))

@@ -87,7 +87,7 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// As a process leaves it that is killed in the moment in which a file takes the place of another.
+// Makes the folder as a process leaves it that is killed at the moment when a file replaces another.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   const auto leave = [&](const char* name) {

@@ -1,5 +1,5 @@
-// What the studio shows is what its files contain: its picture of a piece against a picture of the exported STL, of which
-// nothing is known but its triangles.
+// The studio shows what its files contain: compares its picture of a piece with a picture of the exported STL
+// that is drawn from nothing but the triangles.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -190,7 +190,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   SolidRenderer(solid).render(request.render, file);
   EXPECT_GT(similarity(shown->picture.image, file.image), .98);
 
-  // A picture of anything else is told apart: one that is 2 % smaller.
+  // The comparison detects another picture: one that is 2 % smaller.
   request.render.camera.zoom = .98;
   SolidRenderer(solid).render(request.render, file);
   EXPECT_LT(similarity(shown->picture.image, file.image), .98);

@@ -1,5 +1,6 @@
 // Fuzz target of the studio's web server: an input is what one connection sends, where byte 1 stands for the token and byte
-// 2 for the host. No scan is open: request_fuzz.cpp has what requests do with one. Whatever is answered begins as HTTP does.
+// 2 for the host. No scan is open: request_fuzz.cpp tests requests to an open one. Every answer must begin as
+// HTTP does.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -47,7 +48,8 @@ struct Studio {
     return text;
   }
 
-  // Sends the text on a connection of its own, and returns the begin of what comes back until it is closed.
+  // Sends the text on a connection of its own, and returns the beginning of the answer, until the connection
+  // is closed.
   std::string answer_to(const std::string& text) const {
     const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in to{};

@@ -1,5 +1,5 @@
 // Fuzz target of options and projects: a line "name=text" sets an option as it is typed, and all of the bytes are read as
-// a project. What is accepted is within its range; what is refused names an option.
+// a project. An accepted value is within its range; a refusal names an option.
 #include <cstdlib>
 #include <string>
 

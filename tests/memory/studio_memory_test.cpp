@@ -129,7 +129,7 @@ class Studio {
   std::string document_;
 };
 
-// The numbers of the allocations that fail in turn, of so many.
+// Returns the numbers of the allocations that fail in turn, out of `all`.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");
   const long most = asked ? std::atol(asked) : usual;
