@@ -80,13 +80,13 @@ TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
   }
 }
 
-// Returns the number of the file's points, of which those without coordinates or normals are left out.
+// Returns the number of points in the file, including those left out for lack of coordinates or normals.
 std::size_t all_points(const CloudFile& file) {
   return file.cloud.size() + file.dropped_points + file.unmeasured_points +
          (file.cloud.has_normals() ? file.dropped_normals : 0);
 }
 
-// Returns the number after the first line that begins so; nothing if there is none.
+// Returns the number in the first line with that beginning; nothing if there is no such line.
 std::optional<std::size_t> number_after(const std::string& text, const std::string& beginning) {
   const std::size_t found = text.find("\n" + beginning);
   if (found == std::string::npos) return std::nullopt;
@@ -362,7 +362,7 @@ TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
     const auto image = depths_at(depth / cat("flower-minisblack-", bits < 10 ? "0" : "", bits, ".tif"));
     if (!image) continue;  // not every size is in the corpus
     ASSERT_EQ(image->values.size(), finest->values.size());
-    // Those above 16 bits were made of 8 bits.
+    // Numbers above 16 bits were made from 8 bits.
     const double most = std::exp2(bits) - 1, coarsest = bits > 16 ? 1 / 255. : 1 / most;
     for (std::size_t i = 0; i < image->values.size(); ++i)
       ASSERT_NEAR(static_cast<double>(image->values[i]) / most,

@@ -219,8 +219,8 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
   EXPECT_EQ(message({64, 6}), numbers + "64-bit complex numbers");
 }
 
-// A picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16, of which those at its sides are cut. The number in
-// column x and row y is 100 y + x; beyond the sides stands 7.
+// A picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16. Tiles at its sides are cut. The number
+// in column x and row y is 100 y + x; beyond the sides stands 7.
 std::string tiled_tiff(std::uint32_t tile_width) {
   constexpr std::uint32_t columns = 40, rows = 24, side = 16, tiles = 6, tile_bytes = 2 * side * side;
   const std::uint32_t data = 8 + 2 + 11 * 12 + 4;

@@ -13,7 +13,7 @@ E57TestScan scan_of(const std::vector<double>& x, const std::vector<double>& y, 
   return {{e57_doubles("cartesianX", x), e57_doubles("cartesianY", y), e57_doubles("cartesianZ", z)}, xml};
 }
 
-// Returns the message about a file of which `what` is replaced in the contents of the pages.
+// Returns the error message for a file in which `what` is replaced within the contents of the pages.
 std::string message_with(const std::string& what, const std::string& by) {
   const std::string contents = e57_contents({scan_of({1}, {2}, {3})});
   return message_of(e57_pages(replaced(contents, what, by)), "a.e57");

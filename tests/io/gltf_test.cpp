@@ -54,7 +54,7 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
   }
 }
 
-// The data of a URI are in base64, or are bytes of which any may be an escape.
+// The data of a URI are in base64, or are bytes, each of which may be escaped.
 TEST(Gltf, ReadsDataOfUrisInBothForms) {
   std::string escaped;
   for (const char byte : gltf_buffer()) {

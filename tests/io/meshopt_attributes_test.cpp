@@ -78,7 +78,7 @@ TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
   EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 16, .stride = 4})), expected);
 }
 
-// Returns random elements of which each byte differs from that before by less than `range`.
+// Returns random elements. Each byte differs by less than `range` from the same byte of the element before.
 std::string random_elements(std::mt19937& random, std::size_t bytes, std::size_t stride, unsigned range) {
   std::string elements;
   for (std::size_t i = 0; i < bytes; ++i)
@@ -127,7 +127,7 @@ TEST(MeshoptAttributes, RefusesModesThatAreNone) {
     EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1) + mode, layout));
 }
 
-// A block of version 1 whose differences are 0 takes a byte for four of its own.
+// In version 1 a block of differences that are 0 takes one byte for four bytes of an element.
 TEST(MeshoptAttributes, TakesNoMoreMemoryThanItsBytesStandFor) {
   const std::string stream = "\xA1" + std::string(1000, '\xAA') + std::string(24, '\0');
   EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 256'000, .stride = 4})), std::string(1'024'000, '\0'));

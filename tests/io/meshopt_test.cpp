@@ -202,7 +202,7 @@ TEST(Meshopt, MixesColours) {
   EXPECT_FALSE(filtered(MeshoptFilter::colour, std::string(4, '\0'), 4));
 }
 
-// Whatever the bytes are, as many come out as the layout says, or none.
+// Any bytes are decoded to as many bytes as the layout states, or to none.
 TEST(Meshopt, SurvivesAnyBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {

@@ -184,7 +184,7 @@ TEST(Preview, NothingToDrawGivesNoPixels) {
   EXPECT_EQ(render_preview(hemisphere_plate(), {.longer_side_px = 1}).pixels.size(), 2U * 3);
 }
 
-// A lamp straight in front, straight behind, or none: nothing tells left from right or up from down.
+// A lamp straight in front, straight behind, or none: no side is lit more than the opposite one.
 TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
   const Solid solid = hemisphere_plate();
   for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 0)}) {

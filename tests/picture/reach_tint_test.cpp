@@ -1,4 +1,4 @@
-// What a tool leaves standing is coloured where it stands, and nothing else.
+// Material that a tool leaves standing is coloured, and nothing else.
 #include "picture/reach_tint.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace relievo {
 namespace {
 
-// A front of 20 mm x 10 mm, in samples of 1 mm, of which the right half is left standing, more towards the top.
+// Returns a front of 20 mm x 10 mm in samples of 1 mm. Its right half is left standing, more towards the top.
 std::shared_ptr<const ToolReach> reach() {
   ToolReach reach;
   reach.mm_per_sample = 1;

@@ -90,8 +90,9 @@ TEST(Data, TablesAreLeftOut) {
   }
 }
 
-// The fronts that the scans' own list tells: +Z with Y upwards, but for the two that have Z upwards and face -Y. The
-// bimba without normals is told from between +X and +Z, 45 degrees beside the front that is found.
+// The list that comes with the scans states their fronts: +Z with Y upwards, but for the two that have Z
+// upwards and face -Y. For the bimba without normals it states a front between +X and +Z, 45 degrees beside
+// the one that is found.
 TEST_P(RealScan, IsShownFromItsToldFront) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");

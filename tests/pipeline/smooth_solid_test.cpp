@@ -58,7 +58,7 @@ MadeRelief made_of(const Cloud& cloud) {
   return make_relief(cloud, options).value();
 }
 
-// A scan of so many points, and how much the facets of its solid may turn.
+// A scan with that many points, and how much the facets of its solid may turn.
 struct ScanSize {
   std::size_t points;
   double most_deg, rare_deg;  // what 99 % and 99.9 % do not exceed

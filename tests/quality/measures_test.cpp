@@ -128,7 +128,7 @@ TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   EXPECT_EQ(m.jump_step, 0);
 }
 
-// On a grid of points finer than the distance that is kept: no triangle of the step reaches what is measured.
+// The grid of points is finer than the safe distance, so no triangle of the step reaches measured pixels.
 TEST(Measures, AStepAtTheSilhouetteIsNoDetail) {
   Cloud grid;
   test::Random random(8);

@@ -50,7 +50,7 @@ TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   EXPECT_NEAR(fray, rest * amplitude / std::sqrt(2) * 180 / pi, .2);
 }
 
-// A slow course is no fray.
+// A slow change of the tilt is no fray.
 TEST(SurfaceMeasures, FrayLeavesOutTheSmoothCourse) {
   const SurfaceMeasures measures(disc());
   EXPECT_LT(measures.fray(rising(disc(), [](double angle) { return .5 + .1 * std::sin(3 * angle); }))

@@ -132,7 +132,8 @@ std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane
   return shares;
 }
 
-// The same from a cloud: each point stands for its area, and that for |nz| of it in the view plane.
+// Returns the same shares from a cloud: all points have equal areas, and a point's area in the view plane is
+// |nz| of it.
 std::vector<double> shares_by_points(const Cloud& cloud, const Plane& plane) {
   std::vector<double> shares(plane.cells(), 0);
   for (std::size_t i = 0; i < cloud.size(); ++i) {

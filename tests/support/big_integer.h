@@ -8,7 +8,7 @@
 
 namespace relievo {
 
-// Two's complement, 2048 bits: holds products of four numbers that scaled() accepts.
+// A number of 2048 bits in two's complement, enough for products of four numbers that scaled() accepts.
 class BigInteger {
  public:
   BigInteger() = default;

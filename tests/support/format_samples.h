@@ -18,7 +18,7 @@ std::string raw(T value) {
   return bytes;
 }
 
-// `text` with the number's bytes in place of those at `at`.
+// Returns `text` with the number's bytes in place of the bytes at `at`.
 template <typename T>
 std::string patched(std::string text, std::size_t at, T value) {
   for (const char byte : raw(value)) text.at(at++) = byte;

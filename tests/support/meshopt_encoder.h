@@ -59,7 +59,7 @@ inline Group packed_group(const std::string& stored, const Widths& widths) {
   return best;
 }
 
-// Returns differences of one byte of each element, of which the last group may be cut, in groups.
+// Returns the differences of one byte of each element, packed in groups; the last group may be shorter.
 inline std::string packed_column(const std::string& differences, const Widths& widths) {
   const std::size_t groups = (differences.size() + 15) / 16;
   std::string codes((groups + 3) / 4, '\0'), bytes;

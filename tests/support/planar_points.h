@@ -34,7 +34,8 @@ inline std::vector<Vec2> circle_points(int n) {
   return points;
 }
 
-// Returns points of which half are distributed evenly; the others are drawn towards the origin by up to 15 powers of ten.
+// Returns points. Half of them are distributed evenly; the others are drawn towards the origin by up to 15
+// powers of ten.
 inline std::vector<Vec2> clustered_points(std::size_t n) {
   std::vector<Vec2> points = random_points(n, 2);
   for (std::size_t i = 0; i < n / 2; ++i) points[i] *= std::pow(10.0, -static_cast<double>(i % 16));

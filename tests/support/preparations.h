@@ -10,7 +10,7 @@
 
 namespace relievo::test {
 
-// Returns one of a torus of so many points.
+// Returns a preparation of a torus with that many points.
 inline Preparation preparation_of(std::size_t points = 5000) {
   return {.points = [points](Progress&) -> Preparation::Points {
     return std::make_shared<const Cloud>(test::torus(points, 1, .4));
@@ -32,7 +32,7 @@ struct Stuck {
   }
 };
 
-// A preparation that is held when its points have been measured.
+// A preparation that pauses when its points have been measured.
 struct HeldAtPoints {
   const Session& session;
   std::binary_semaphore has_measured{0}, may_go_on{0};

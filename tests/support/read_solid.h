@@ -110,7 +110,7 @@ inline ReadSolid solid_in_obj(const std::string& file) {
   return solid;
 }
 
-// Width and height that a PNG file states.
+// Returns the width and height that a PNG file states.
 inline std::pair<std::uint32_t, std::uint32_t> size_of_png(std::string_view file) {
   EXPECT_EQ(file.substr(1, 3), "PNG");
   const auto number = [&](std::size_t at) {

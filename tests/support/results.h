@@ -34,7 +34,7 @@ std::string message_of(const Result<T>& result) {
   return result ? "no error" : result.error().message();
 }
 
-// A progress that has been cancelled before anything begins.
+// A progress that is cancelled from the start.
 struct Cancelled : Progress {
   Cancelled() { cancel(); }
 };

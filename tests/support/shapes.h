@@ -113,7 +113,7 @@ inline Cloud reversed(Cloud cloud) {
   return cloud;
 }
 
-// Returns the points for whose places that holds.
+// Returns the points for whose places is_kept() is true.
 template <typename IsKept>
 Cloud where(const Cloud& cloud, IsKept is_kept) {
   Cloud kept;
