@@ -17,7 +17,7 @@ struct WrittenNumber {
   double value;
 };
 
-// Returns a number of any size as it is written with so many digits; with 17 each double is written as itself.
+// Returns a number of any size, written with that many digits; 17 digits write each double exactly.
 WrittenNumber random_number(std::mt19937_64& random, int digits) {
   double value = 0;
   do value = std::bit_cast<double>(random());

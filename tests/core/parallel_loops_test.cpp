@@ -1,4 +1,5 @@
-// Loops of several threads at a time. What names std::thread is left out of the tests for WebAssembly, which has none.
+// Loops that several threads call at the same time. The tests for WebAssembly leave this file out, as it uses
+// std::thread.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -33,7 +33,8 @@ TEST(Inset, LeavesOutSidesThatVanish) {
   EXPECT_EQ(inset(cut, 30.0 * (2 - std::sqrt(2.0))).size(), 4U);
 }
 
-// But for a micrometre: a polygon that is drawn into an arc lies inside of it, and so do the sides that are left of it.
+// The corners become sharp up to a micrometre: the polygon of an arc lies inside the arc, and so do its inset
+// sides.
 TEST(Inset, RoundCornersOfThatRadiusBecomeSharp) {
   const std::vector<Vec2> corners = {{0, 0}, {60, 40}};
   const std::vector<Vec2> rounded = outline_around(corners, {Outline::round, 5, 5});

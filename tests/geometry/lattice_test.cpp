@@ -14,7 +14,7 @@ namespace {
 
 constexpr double cell = .1;
 
-// Points of a square of side 2, of which every third does not count.
+// Points of a square of side 2. Every third point does not count.
 struct Scattered {
   std::vector<Vec3> points = test::sheet(3000, 1, 0).points;
   std::vector<Index> counted = two_of_three(points.size());
@@ -49,7 +49,7 @@ std::vector<double> some_values(std::size_t n) {
   return values;
 }
 
-// B-splines are exact for what is linear: places in cells are those in the plane, but for scale and origin.
+// B-splines are exact for linear functions: places in cells are those in the plane, but for scale and origin.
 TEST(Lattice, IsLinearBetweenItsNodes) {
   const Scattered s;
   const Vec2 first = s.place(0);
@@ -73,7 +73,7 @@ TEST(Lattice, IsSmoothBetweenItsNodes) {
   }
 }
 
-// By the definition, over all points and nodes.
+// The expected values follow the definition, over all points and nodes.
 TEST(Lattice, GathersMeansBySquaredWeights) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());
@@ -176,7 +176,8 @@ TEST(Lattice, FindsTheNodesInATriangle) {
   }
 }
 
-// Cubic B-splines are a partition of one, and exact for what is linear: amount and centre of what is spread stay.
+// Cubic B-splines are a partition of unity, and exact for linear functions: spreading keeps amounts and their
+// centre.
 TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
   const Scattered s;
   for (const Vec2& place : {Vec2(3, 4), Vec2(5.25, 2.9), Vec2(7.999, 8.5)}) {

@@ -20,7 +20,7 @@ struct Needles {
   std::vector<Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
 };
 
-// By the book, from the corners' normal.
+// Computes the slope by its definition, from the normal of the corners.
 double steepness_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   return std::hypot(p.y() * q.z() - p.z() * q.y(), p.z() * q.x() - p.x() * q.z()) /
@@ -95,7 +95,8 @@ TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   }
 }
 
-// On an edge of 20 to 200 steps of single precision, 10 to 100 times as long; of slopes up to `most`.
+// Returns needles on an edge of 20 to 200 steps of single precision, 10 to 100 times as long as it, with
+// slopes up to `most`.
 Needles random_needles(test::Random& random, double most) {
   const double edge = std::exp(random.uniform(std::log(4e-5), std::log(4e-4))),
                turn = random.uniform(0, 2 * std::numbers::pi);

@@ -136,7 +136,7 @@ TEST(Forms, AHighlightDarkensNothingElseOfALithophane) {
   EXPECT_NEAR(middle(255), middle(60), .05);
 }
 
-// The ball has three shades, of which two are darker than a tenth.
+// The ball has three shades; two of them are darker than a tenth.
 TEST(Forms, ALithophaneShowsWhatIsDarkerThanATenth) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) {
     return p.y() > .3 ? 255 : p.y() > -.3 ? 60 : 30;

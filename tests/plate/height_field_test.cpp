@@ -70,7 +70,7 @@ TEST(HeightField, IsTheTrianglesHeightOnBases) {
   }
 }
 
-// Walls are steeper than a rasteriser of fixed fractions of a pixel can tell.
+// Walls are too steep for a rasteriser with fixed fractions of a pixel.
 TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   const auto wall = [](double x, double) { return x < 10 ? 3. : 0.; };
   HeightFieldMesh front = grid_front({20, 20, 20, 20}, wall);

@@ -76,8 +76,8 @@ TEST(OutlineAround, ACircleIsInTheMiddleBetweenLeftAndRight) {
   EXPECT_NEAR(size_of(circle).x() / 2, std::hypot(10, 16) + 2, .01);
 }
 
-// Returns how far the polygon's corners, and the middles of its sides, are at most from a curve, of which `off` tells how
-// far a point is outside it.
+// Returns the largest distance of the polygon's corners, and of the middles of its sides, from a curve; `off`
+// returns how far a point is outside the curve.
 template <typename Off>
 double worst_of(const std::vector<Vec2>& polygon, Off off) {
   double worst = 0;

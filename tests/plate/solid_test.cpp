@@ -328,7 +328,7 @@ TEST(InUnit, ScalesAndSeparates) {
   EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
 }
 
-// Two points of a needle, which a file in millimetres tells apart, and one in inches does not always.
+// Two points of a needle. They differ in a file in millimetres, but not always in one in inches.
 TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {

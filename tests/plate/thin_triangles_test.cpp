@@ -66,8 +66,8 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// Points of a silhouette that are almost on one line leave a slit between it and thin triangles beyond it. The outer of
-// these holds two sides together, and so does the inner, until both are gone.
+// Points of a silhouette that are almost on one line leave a slit between it and thin triangles beyond it.
+// The outer triangle connects two sides, and then the inner one does, until both are removed.
 TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
                                  {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};

@@ -28,8 +28,8 @@ Image<float> picture(int width, int height, const auto& z) {
   return image;
 }
 
-// By the definition: the tool is lowered over every sample, within its radius beside the picture too; each
-// sample keeps the lowest that any position leaves above it.
+// Closes the heights by the definition: the tool is lowered over every sample, and beside the picture within
+// its radius; each sample gets the lowest height that any position leaves above it.
 Image<float> closed_by_brute_force(const Image<float>& z, double step, const Tool& tool) {
   const int border = std::max(z.width, z.height);
   Image<float> left = z;
@@ -118,7 +118,7 @@ TEST(CloseByTool, IsTheDefinition) {
     }
 }
 
-// A ball in a groove between two walls touches both: what it leaves at the bottom is known.
+// A ball in a groove touches both walls, so the height that it leaves at the bottom is known.
 TEST(CloseByTool, ABallInAGroove) {
   const double step = .01, half = .3, radius = 1;
   const auto groove = picture(301, 41, [&](int x, int) { return std::abs(x - 150) * step <= half ? 0 : 2; });
@@ -128,7 +128,7 @@ TEST(CloseByTool, ABallInAGroove) {
   EXPECT_NEAR(left.pixels[20 * 301 + 150], 2 - (radius - std::sqrt(radius * radius - edge * edge)), 1e-5);
 }
 
-// At the foot of a wall a ball leaves its own shape.
+// A ball leaves material of its own shape at the foot of a wall.
 TEST(CloseByTool, ABallAtAWall) {
   const double step = .02;
   const auto wall = picture(200, 21, [&](int x, int) { return x < 100 ? 0 : 3; });

@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-// With what it views.
+// A comparison, with the objects that it views.
 struct Figure {
   explicit Figure(const Cloud& cloud) : surface(find_surface(cloud, {}).value()) {}
 

@@ -44,7 +44,7 @@ struct Slope {
   double area;
 };
 
-// By the book, from the three corners' normal.
+// Computes the slope by its definition, from the normal of the three corners.
 Slope slope_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   const Vec3 normal = p.cross(q);

@@ -54,7 +54,7 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   }
 }
 
-// Heights in shares of L_d by saturations, as a slider goes through them. Heights out of reach are told.
+// Combines heights, as shares of L_d, with saturations, as sliders do. Frames report heights out of reach.
 TEST_P(FrameOfModel, KeepsALockedHeight) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);

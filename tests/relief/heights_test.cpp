@@ -42,7 +42,7 @@ struct DiscCase {
   HeightSystem system(const std::vector<float>& weights = {}) const {
     return HeightSystem::build(points, mesh, boundary, weights).value();
   }
-  // From .1 to 1.
+  // Returns weights from .1 to 1.
   std::vector<float> uneven() const {
     test::Random random(7);
     std::vector<float> weights;

@@ -32,7 +32,7 @@ struct Points {
   }
 };
 
-// Compares both sets of instructions with what is written point by point.
+// Compares the slopes of both sets of instructions with slopes that are computed point by point.
 void expect_slopes_of_single_points(const Shape& shape) {
   const Points points(10003);
   const LayeredStyle style(shape);

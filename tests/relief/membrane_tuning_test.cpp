@@ -63,7 +63,7 @@ TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
             metrics.measure(gradient_relief(mask, height).heights).order);
 }
 
-// With a share that is a fifth less, detail or order is lost.
+// A height share that is a fifth less loses detail or order.
 TEST(MembraneTuning, CompressesAsStronglyAsPossible) {
   const ReliefMetrics metrics(model().surface());
   for (const double share : {.0125, .025}) {

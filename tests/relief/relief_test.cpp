@@ -165,7 +165,7 @@ TEST(Relief, DoesNotChangeWithTheOrderOfThePoints) {
   EXPECT_EQ(model.make(shape).heights, reversed.make(shape).heights);
 }
 
-// A step that binary fractions hold exactly, so that rounding cannot change which points are visible.
+// The step is an exact binary fraction, so that rounding cannot change which points are visible.
 TEST(Relief, DoesNotChangeWithTheOrigin) {
   Cloud cloud = bumps_behind_a_ring();
   for (Vec3& p : cloud.points) p = (p * 0x1p20).array().round() * 0x1p-20;

@@ -38,7 +38,7 @@ Shape plain(double steps = 0) {
 }
 
 // Returns the largest error of the heights, without points nearer than 2.5 sampling distances to the edges of the
-// terraces: the points tell the places of these edges no better.
+// terraces: the points do not locate these edges any better.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {

@@ -174,7 +174,7 @@ TEST(Subspace, CanBeCancelled) {
                ErrorKind::cancelled);
 }
 
-// Returns a mesh of so many control points over a torus.
+// Returns a mesh of that many control points over a torus.
 std::pair<ControlPoints, ControlMesh> control_mesh(const Surface& surface, std::size_t count) {
   const ControlPoints control =
       grow_control_points(in_plane(surface.points), surface.boundary.distance, {count});

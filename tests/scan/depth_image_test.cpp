@@ -166,7 +166,7 @@ TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
 }
 
 TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
-  // A ball before a wall, told in three ways.
+  // A ball in front of a wall, stored in three ways.
   const auto depth = [](int c, int r) {
     const double x = (c - 120) / 60.0, y = (r - 90) / 60.0, d = 1 - x * x - y * y;
     return 4 - (d > 0 ? .5 * std::sqrt(d) : 0);

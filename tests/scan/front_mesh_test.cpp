@@ -41,7 +41,7 @@ TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
   }
 }
 
-// Slopes of 45 degrees, of which the one right of a gap lies deeper.
+// Returns two slopes of 45 degrees; the one to the right of a gap lies deeper.
 Cloud broken_slope(double half_gap, double depth) {
   const Cloud slope = test::height_field(
       10000, 1, [](double x, double) { return x; }, [](double, double) { return Vec2(1, 0); });

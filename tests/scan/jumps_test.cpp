@@ -58,7 +58,7 @@ TEST(Jumps, CountLessTheNearer) {
   EXPECT_GT(below, 100);
 }
 
-// By less than 2 % of the side, .04.
+// Jumps count in full if they are lower than 2 % of the side, which is .04.
 TEST(Jumps, ThatAreLowCountInFull) {
   const Surface low = sheets(.036), high = sheets(.044);
   for (const Surface* surface : {&low, &high})

@@ -45,7 +45,7 @@ TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
   EXPECT_EQ(std::ranges::count(points, few - sphere->centre()), 4);
 }
 
-// As in UTM, whose northings are some millions of metres.
+// The coordinates are as in UTM, whose northings are some millions of metres.
 TEST(MeasuredCloud, RefusesCoordinatesThatRoundingHasSpoilt) {
   const Vec3 origin(500'000, 5'400'000, 100);
   Cloud exact = test::sphere(20'000, 2), rounded;

@@ -48,7 +48,8 @@ Deviation deviation(const SeenOutline& outline, Offset offset) {
   return result;
 }
 
-// Scans of shapes: so many points, clean or with a scanner's noise along the normals, in rho, and without normals.
+// The kinds of scans of a shape: by the number of points, clean or with a scanner's noise along the normals,
+// in rho, and without normals.
 struct ScanKind {
   std::size_t points = 0;
   double noise = 0;

@@ -157,7 +157,7 @@ TEST(ObstacleSolver, StaysWithinItsLimits) {
     }
 }
 
-// Limits cost energy; of what keeps to them it is better than the free sheet cut off.
+// Limits cost energy, but the solution has less energy than the free sheet cut off at the limits.
 TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   constexpr Springs springs{.02F};
   const Stiffness stiffness = even(4);
@@ -172,7 +172,7 @@ TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   EXPECT_LT(held, energy(a, f, cut) - .05 * std::abs(least));
 }
 
-// Pushed from both sides, a node stays where its limits meet.
+// A node whose limits meet is pushed from both sides and stays there.
 TEST(ObstacleSolver, TakesLimitsThatMeet) {
   Problem problem(even(4), {.02F}, .05F, .05F);
   const std::vector<float>& b = problem.solved();
