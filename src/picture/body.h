@@ -1,4 +1,4 @@
-// A body as triangles, as the renderer takes it: a finished solid, or a frame on its plate.
+// The triangles of a body, as the renderer takes them: a finished solid, or a frame on its plate.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum class Part : std::uint8_t {
 // The part of each triangle, and the normals of triangles that are not shaded with those of their points.
 struct PlateParts {
   std::vector<Part> parts;                           // per triangle
-  std::vector<Index> corners_at;                     // per triangle: its place below, or no_index
+  std::vector<Index> corners_at;                     // per triangle: its index below, or no_index
   std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
   std::size_t front_triangles = 0;                   // which come first
   bool has_curved_ground = false;  // that of a base or of a body around which the plate is bent

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// More from the viewer's side than for reliefs: a whole body turns much of itself away from the light.
+// The lamp is nearer to the viewer than for reliefs, because much of a whole body faces away from the light.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
 // Radius of a point's disc in sampling distances: random points leave hardly a gap.
@@ -50,7 +50,7 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Two passes, as surface splatting has it: the front first, then the mean normal of all that lies on it.
+// Draws in two passes, as in surface splatting: first the front, then the mean normal of the dots on it.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {

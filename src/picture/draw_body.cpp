@@ -17,8 +17,8 @@ namespace {
 constexpr int fine_samples = 3;
 constexpr int most_samples = fine_samples * fine_samples;
 
-// Longer side of the map of light. Shadows are soft, so that it may be coarser than the picture; live pictures
-// take what can be walked in a few milliseconds.
+// Longer side of the map of light. Shadows are soft, so that it may be coarser than the picture; live
+// pictures take one whose shadows need only a few milliseconds.
 constexpr int fine_light_px = 640, least_light_px = 120, most_quick_light_px = 280;
 
 int light_map_px(const ScreenTransform& transform, bool is_fine) {
@@ -59,7 +59,7 @@ class Painter {
         shader_(params.material, direction_of(params.light), to_viewer_),
         tint_(params.reach, body.front) {}
 
-  // Linear; the place is in pixels of the transform.
+  // Returns the linear colour of a place, which is in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
     Lit lit{Vec3f::UnitZ(),
             {1, 1},

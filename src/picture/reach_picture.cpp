@@ -11,7 +11,7 @@ namespace relievo {
 namespace {
 
 constexpr float background = 236, darkest = 40, brightest = 225;
-const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // of little and of much that is left
+const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // colours of small and of large residuals
 
 // One pixel's share of the samples: a square of them, averaged.
 struct Averaged {

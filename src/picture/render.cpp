@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// The longer side, in pixels, of the heights that a profile is read from: finer than a display shows it.
+// The longer side, in pixels, of the heights that a profile is read from: a display shows fewer.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {

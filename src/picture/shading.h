@@ -22,7 +22,7 @@ struct Lit {
 // Returns the direction of that vector; zero for zero.
 Vec3f direction_of(const Vec3f& light);
 
-// The light of the room around a body, by the direction that it comes from: a table, for pictures look it up per pixel.
+// The light of the room around a body, by its direction. It is a table, as each pixel looks it up.
 class Room {
  public:
   // Dark everywhere.

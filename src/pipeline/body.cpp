@@ -32,7 +32,7 @@ double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
 
-// The base that a form has: what is high is deep in a die.
+// Returns the base of a form: in a die, high places become deep ones.
 BaseOptions formed_base(const ReliefOptions& options) {
   BaseOptions base = options.base;
   base.is_mirrored = is_mirrored(options.form);
@@ -40,7 +40,7 @@ BaseOptions formed_base(const ReliefOptions& options) {
   return base;
 }
 
-// Its bevel leans as much as walls must.
+// Returns the rim of a form. By default its bevel leans at least as much as walls must.
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
@@ -59,7 +59,7 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-// A bevel of its own is asked for by the user: it must lean as walls must.
+// A bevel that the user asks for may be too steep: it must lean as walls must.
 Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
   const RimOptions rim = formed_rim(options, height_mm);

@@ -22,8 +22,8 @@ HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& h
 Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                const Progress* progress);
 
-// Returns the front as simple as the options ask for, unless make_plate() is to simplify; of outline `none` what of it is
-// relief. Errors: those of simplify().
+// Returns the front as simple as the options ask for, unless make_plate() is to simplify; with the outline
+// `none`, only its relief. Errors: those of simplify().
 Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 // Returns how far the lowest point of the front lies below the ground: 0 or more.

@@ -84,7 +84,7 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
-// The need of a body: the points of its model, and the resolution that was asked for.
+// Returns what decides the memory of a body: the number of its points, and the wanted resolution.
 MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }

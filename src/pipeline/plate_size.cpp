@@ -26,8 +26,8 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return ((box.min + box.max) / 2).head<2>();
 }
 
-// Returns the largest width of a relief that keeps margin and rim from all sides of the plate. Its hull and the plate's
-// outline have one middle, so that each side limits the scale by itself.
+// Returns the largest width of a relief that keeps margin and rim from all sides of the plate. The middles of
+// its hull and of the plate's outline coincide, so that each side limits the scale by itself.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
   const std::vector<Vec2> hull = unit_hull(surface);

@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// All that a relief was made of and by.
+// The results of all stages of a relief, and its options.
 struct ReliefFacts {
   const Surface& surface;
   const Relief& relief;

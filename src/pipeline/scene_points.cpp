@@ -169,7 +169,7 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   return mesh;
 }
 
-// Brings clouds to the common spacing: those returned; or into the mesh, where points must come in between.
+// Brings clouds to the common spacing. Returns their points; coarse clouds become triangles in parts.mesh.
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {

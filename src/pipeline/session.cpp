@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Points that were measured, and what turns them.
+// The points that were measured last, and their measurements.
 struct Measured {
   std::shared_ptr<const Cloud> of;
   std::shared_ptr<const MeasuredCloud> cloud;
@@ -125,7 +125,7 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes what turn() will be asked for next, if that is wanted, before the model: both together would take longer.
+  // Makes the relief of the next turn(), if it is wanted, before the model: both at once would take longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
@@ -157,7 +157,7 @@ struct Session::State {
     return MeasuredCloud::measure(*points, view, &progress);
   }
 
-  // Returns what turns the points that were measured last. They are measured again where they are those of one view.
+  // Returns the turntable of the points that were measured last. Points of a single view are measured again.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides] =
         shared.with([](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides); });

@@ -30,8 +30,8 @@ std::string wrong_corners(const Solid& solid) {
   return {};
 }
 
-// Directed edges, those of a vertex together at its lower end: the other end, and the direction in the lowest
-// bit.
+// Directed edges, grouped by their lower vertex. An entry is twice the other vertex, plus 1 if the edge leads
+// to the lower one.
 using EdgeTable = Groups<std::uint64_t, std::size_t>;
 
 EdgeTable edge_table(const Solid& solid) {

@@ -1,4 +1,4 @@
-// Measures of how much of its model a relief keeps, on images.
+// Measures, on images, how much of its model a relief keeps.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Measures of the surface itself, right up to silhouettes and depth jumps: what a cutter follows there.
+// Measures of the surface itself, right up to silhouettes and depth jumps, where a cutter follows it.
 #pragma once
 
 #include <span>

@@ -22,7 +22,8 @@ namespace {
 
 constexpr int band_rings = 3;  // of triangles beside creases that keep their points
 constexpr int most_divisions = 16;
-// Least distances of samples from the band's points, half of it in quarters, and between these but on creases, in steps.
+// Least distances in steps: of samples from the band's points (half of it in quarters of squares), and
+// between the band's points, but not on creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 

@@ -176,7 +176,7 @@ class Simplifier {
       RELIEVO_CHECK(begin_stage(progress, "simplify", .95));
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
-      // Where almost all points are needed, those on edges come on top: the front itself is simpler then.
+      // If almost all points are needed, points on edges are added to them: then the front itself is simpler.
       if (now.mesh().triangles.size() >= front_.triangles.size()) return SimplifiedMesh{front_, 0};
       const std::size_t before = chosen_.size();
       std::vector<Candidate> worst = find_worst(now);
@@ -269,8 +269,8 @@ class Simplifier {
     return is_limited ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
   }
 
-  // Two triangles share a place where there is this error. Returns the first whose tolerance is smaller; no_index
-  // if none is.
+  // Returns the first of the two triangles at a place whose tolerance is smaller than the error there;
+  // no_index if there is none.
   Index triangle_beyond(const std::array<Index, 2>& sides, double error) const {
     for (const Index t : sides) {
       if (t == no_index) continue;
