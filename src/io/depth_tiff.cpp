@@ -151,7 +151,8 @@ std::string in_words_of_libtiff(const TiffBytes& file) {
   return "expected the data of a TIFF picture; libtiff says: " + printable(file.message(), 120);
 }
 
-// Says why a strip or tile cannot be read: most often the file is cut, which libtiff says in riddles.
+// Says why a strip or tile cannot be read: most often the file is cut, which libtiff's own messages do not
+// say.
 std::unexpected<Error> broken_part(const Source& source, const TiffBytes& file, std::uint32_t number) {
   const std::string place = cat(TIFFIsTiled(file.handle()) ? "tile " : "strip ", number);
   const std::uint64_t first = TIFFGetStrileOffset(file.handle(), number),

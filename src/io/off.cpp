@@ -158,7 +158,7 @@ class OffReader {
     return lines_.fail(expected_corners(corners_, cloud_.points));
   }
 
-  // Returns whether words behind a face may be another one. Its colour has other numbers, as a rule.
+  // Returns whether words behind a face may be another face. A face's colour has other numbers, as a rule.
   static bool is_face(Words words) {
     const auto length = parse_integer(words.next());
     std::int64_t corners = 0;

@@ -107,7 +107,7 @@ class EarClipper {
     return is_between(at_[next_[i]]) || is_between(at_[before_[i]]);
   }
 
-  // Only the corners beside the ear can become ears by that.
+  // Cuts the ear off. This can make ears only of the corners beside it.
   void cut(Index ear) {
     const Index before = before_[ear], next = next_[ear];
     next_[before] = next;

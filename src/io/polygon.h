@@ -11,7 +11,7 @@ namespace relievo::io {
 
 // Returns triangles that cover a polygon, as numbers of its corners, in its sense of rotation. The polygon is
 // taken as flat: what lies on top of itself in the plane of its vector area counts. A fan from the first
-// corner is returned if it covers the polygon, and also where nothing does: for polygons that cross
+// corner is returned if it covers the polygon, and also if no triangles do: for polygons that cross
 // themselves, have no area or a corner that is not finite, and for those of more than 10,000 corners that are
 // not convex, which would take too long. Corners may coincide, as in polygons with holes that a seam connects
 // with the outline.

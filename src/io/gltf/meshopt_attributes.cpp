@@ -116,7 +116,7 @@ class Attributes {
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
     const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block, in bytes
-    // Before memory is taken for them. Where addresses have 32 bits, the product may have more.
+    // Checked before memory is taken. Where addresses have 32 bits, the product may have more.
     if (count / block > body_size_ / least_size || count > std::numeric_limits<std::size_t>::max() / stride_)
       return std::nullopt;
     std::vector<std::byte> decoded(count * stride_);

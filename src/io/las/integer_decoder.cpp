@@ -37,7 +37,8 @@ void RunningMedian::add(std::int32_t value) {
   std::int32_t* const v = values_;
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
-    // The other half moves over by one, and the value into its own half. Which number is replaced next stays.
+    // Shifts the other half by one and inserts the value into its own half. The same end is replaced next
+    // time.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

@@ -8,8 +8,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns that are alike share a context for their statistics. A row has the contexts for one number of returns, in the
-// order of the returns.
+// Similar returns of a pulse share a context for their statistics. A row has the contexts for one number of
+// returns, in the order of the returns.
 constexpr std::uint8_t return_contexts[8][8] = {
     {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},   {13, 1, 2, 4, 7, 11, 11, 10},
     {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},  {10, 10, 11, 12, 13, 14, 14, 13},

@@ -5,8 +5,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns that are alike share a context for their statistics. A row has the contexts for one number of returns, in the
-// order of the returns.
+// Similar returns of a pulse share a context for their statistics. A row has the contexts for one number of
+// returns, in the order of the returns.
 constexpr std::array<std::string_view, 16> layered_return_contexts = {
     "0123453445555555", "1013333333333333", "2124444444433333", "3345444444444444",
     "4344544444444444", "5344454444444444", "3344445444444444", "4344444544444444",
