@@ -13,7 +13,7 @@ struct FlagInfo {
   std::string short_name;          // "-o"; may be empty
   std::string value;               // "MM"; empty if it takes none
   std::string help;                // with range and default
-  std::vector<std::string> words;  // that may stand there, or begin what may; empty if there is no such list
+  std::vector<std::string> words;  // possible values, or their beginnings; empty if there is no such list
   bool is_argument = false, is_path = false, can_repeat = false, is_required = false;
 };
 

@@ -58,7 +58,7 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Without shadows and dark hollows, as the model's own depth would bury the ground in them.
+  // Draws without shadows and dark hollows, as the model's own depth would bury the ground in them.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {

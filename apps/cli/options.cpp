@@ -65,7 +65,7 @@ Result<void> print(const OptionsArguments& arguments, const CLI::App& program) {
 
 }  // namespace
 
-// Not in the help: for those who write documents, pages and packages.
+// The command is not in the help: it is for those who write documents, pages and packages.
 void add_options(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<OptionsArguments>();
   CLI::App& command = *program.add_subcommand("options", "Print the table of make's options")->group("");

@@ -81,7 +81,7 @@ Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
   const ArchiveEntry entry(stat.size > most_unpacked ? nullptr : zip_fopen_index(zip_.get(), index, 0));
   if (!entry) return fail(zip_get_error(zip_.get()));
   std::vector<std::byte> bytes;
-  // Pieces, as a damaged archive may promise any size; the last one is empty, and the checksum is compared there.
+  // Reads pieces, as a damaged archive may promise any size. The last, empty one compares the checksum.
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t filled = 0; bytes.size() <= stat.size;) {
     bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));

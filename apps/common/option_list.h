@@ -8,7 +8,8 @@
 
 namespace relievo::app {
 
-// Returns what rules where the option is not given, for people: "5", "0.04 with method layered, 0.02 with method paper".
+// Returns, in words for users, what applies if the option is not given: "5", "0.04 with method layered, 0.02
+// with method paper".
 std::string default_text(const OptionRow& option);
 
 // Returns the help, with the words that may stand there.

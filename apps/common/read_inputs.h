@@ -35,7 +35,7 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
-// Makes of a file's bytes what read_input() makes of the file.
+// Does with the bytes of a file what read_input() does with the file.
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);
 

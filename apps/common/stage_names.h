@@ -14,7 +14,7 @@ struct StageName {
 // Returns the names of all stages that the library and the programs report.
 std::span<const StageName> stage_names();
 
-// Returns the name of one; of others what Progress calls them.
+// Returns the name of a stage; for other stages, the name that Progress has.
 std::string_view name_of_stage(std::string_view stage);
 
 }  // namespace relievo::app

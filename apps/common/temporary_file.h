@@ -38,8 +38,8 @@ class TemporaryFile {
   TemporaryName* name_ = nullptr;  // null while it has none
 };
 
-// Removes all of this process that have names, and lets no thread make or keep one from now on. It may be called in a signal handler,
-// before the process ends.
+// Removes all temporary files of this process that have names, and from then on lets no thread make or keep
+// one. It may be called in a signal handler, before the process ends.
 void remove_temporary_files();
 
 // From now on Ctrl-C and other signals that end the program remove its temporary files first.

@@ -11,8 +11,8 @@
 
 namespace relievo::app {
 
-// A fact that a user should know, without capital and full stop. With a value of an option, if one is named, the fact would
-// be another one: `effect` says how.
+// A fact that a user should know, without capital and full stop. If an option is named, its value here would
+// change the fact: `effect` says how.
 struct Remark {
   std::string text;
   std::string_view option = {}, value = {}, effect = {};

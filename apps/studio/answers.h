@@ -24,7 +24,7 @@ Answer answer_of(const nlohmann::json& json, int status = 200);
 // disk's. What was cancelled is nobody's fault: 202, which browsers do not complain about.
 Answer answer_of(const Error& error);
 
-// The pixels are the body; what is said about them stands in the header X-Relievo.
+// The pixels are the body; the facts about them are in the header X-Relievo.
 Answer answer_of(const Picture& picture, const nlohmann::json& about);
 
 // Returns an error that the page can show.

@@ -226,8 +226,8 @@ struct Connections::State {
     }
   }
 
-  // Answers the request that has come on a connection, and returns the connection as it goes on. It ends if something fails
-  // where no answer can say so any more, as memory while the answer is sent.
+  // Answers the request that has come on a connection, and returns the connection as it goes on. It ends if
+  // something fails too late for an answer to say so, such as memory while the answer is sent.
   Connection answer_on(Connection connection) {
     refill_memory_reserve();
     try {

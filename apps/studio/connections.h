@@ -23,7 +23,7 @@ class Connections {
   // Owns the socket from now on. Waits while all connections are busy with requests.
   void take(int socket);
 
-  // Closes what waits and returns when all requests that run have been answered.
+  // Closes the waiting connections, and returns when all running requests have been answered.
   void stop();
 
  private:

@@ -183,7 +183,8 @@ struct Engine::State {
     return &*drawing;
   }
 
-  // Returns what f returns of that. Errors: kind geometry before the first model; kind memory.
+  // Calls f with the current drawing, and returns its result. Errors: kind geometry before the first model;
+  // kind memory.
   template <typename F>
   std::invoke_result_t<F, Drawing&> with_drawing(F&& f) {
     return within_memory([&]() -> std::invoke_result_t<F, Drawing&> {

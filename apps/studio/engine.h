@@ -50,7 +50,8 @@ class Engine {
   // and for good if that fails.
   void open(const ScanSource& input, const OptionValues& view);
 
-  // Does what of open() and choose_view() is needed to show the scan in that view: nothing, if it is shown already.
+  // Does the parts of open() and choose_view() that are needed to show the scan in that view: none if it is
+  // shown already.
   void show(const ScanSource& input, const OptionValues& view);
 
   // Prepares another view of the scan that was opened last or, if that failed, of the one that is shown.
@@ -62,7 +63,7 @@ class Engine {
   // Returns whether nothing runs, not even work that was cancelled.
   bool is_idle();
 
-  // Does, where there are no threads, what open(), show() and choose_view() asked for.
+  // Without threads, this does the work that open(), show() and choose_view() asked for.
   void work();
 
   EngineStatus status() const;

@@ -43,7 +43,7 @@ class OpenDocuments {
   // The tab is closed.
   void leave(const std::string& tab);
 
-  // Does, where there are no threads, what the engines were asked for, see Engine::work().
+  // Without threads, this does the work that the engines were asked for, see Engine::work().
   void work();
 
   // Returns all, the one that was used last first.

@@ -67,7 +67,7 @@ class Store {
   // Returns the documents that were opened or changed last, the newest first.
   virtual std::vector<KeptDocument> recent() const = 0;
 
-  // Returns what all documents take. They are kept until they are removed.
+  // Returns the number and size of all documents. They are kept until they are removed.
   virtual KeptAmount amount() const = 0;
 
   // Removes a document, and the scans that were dropped for it alone. Errors: kind input if `id` is no

@@ -74,7 +74,7 @@ async function measureOpening(scan) {
     row([path.basename(scan, path.extname(scan)), name, times.sort((a, b) => a - b)[2].toFixed(0), "", "", ""]);
 }
 
-// Both open a scan, and return what ends its engine.
+// Both functions open a scan, and return a function that ends its engine.
 async function openInPage(page, scan) {
   await page.goto(pathToFileURL(html).href);
   await page.locator("#file").setInputFiles(scan);

@@ -250,7 +250,7 @@ Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts
   return found;
 }
 
-// Removes those of the scans that no document needs; none of them while one document cannot be read. A file stays if its
+// Removes the scans that no document needs; removes none while a document cannot be read. A file stays if its
 // folder is not named by its content: somebody else has put it there.
 void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
   if (candidates.empty()) return;

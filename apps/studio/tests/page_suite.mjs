@@ -1,4 +1,4 @@
-// The page of a suite in a browser, and what a hand does there, found by role and label.
+// The page of a suite in a browser, and the actions of its user, who finds elements by role and label.
 import assert from "node:assert/strict";
 import {rmSync} from "node:fs";
 import path from "node:path";

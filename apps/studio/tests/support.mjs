@@ -190,8 +190,8 @@ export async function holdRequests(page, address) {
 export const untilTimersRan = (page, ms) =>
   page.evaluate((ms) => new Promise((resolve) => setTimeout(resolve, ms)), ms);
 
-// Runs in the page: from now on it does nothing that it puts off for so long or longer, so that a line for people stays
-// until something else takes it back. Infinity ends that.
+// Runs in the page: from now on, timers of at least that time do nothing, so that a message stays until something else
+// removes it. Infinity ends that.
 export const ignoreTimers = (leastMs) => {
   const all = (window.allTimers ??= window.setTimeout.bind(window));
   window.setTimeout = (act, ms, ...args) => (ms >= leastMs ? 0 : all(act, ms, ...args));
@@ -319,7 +319,7 @@ export async function savedFiles({folder}, page, count, trigger) {
   return (await Promise.all(files)).sort((a, b) => (a.name < b.name ? -1 : 1));
 }
 
-// Returns of a binary STL the number of triangles, the size of their box, and whether every edge has two.
+// Returns the number of triangles of a binary STL, the size of their box, and whether every edge has two of them.
 export function readStl(bytes) {
   const count = bytes.readUInt32LE(80), box = {min: Array(3).fill(Infinity), max: Array(3).fill(-Infinity)};
   const edges = new Map(), at = (offset) => [0, 4, 8].map((i) => bytes.readFloatLE(offset + i));

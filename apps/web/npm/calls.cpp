@@ -29,7 +29,7 @@ using Json = nlohmann::json;
 using Kept =
     std::variant<std::shared_ptr<FinishedRelief>, std::shared_ptr<PreparedModel>, std::shared_ptr<FrameInMm>>;
 
-// Holds by number what calls have made, until it is forgotten.
+// Keeps the objects that calls have made, by number, until they are forgotten.
 std::map<int, Kept>& kept() {
   static std::map<int, Kept> all;
   return all;

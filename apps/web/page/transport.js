@@ -29,7 +29,7 @@ export class Transport {
   #last = 0;
   #opened = {document: "", input: null}; // the document that was opened last
   #isOpen = new Set(); // documents, in this worker
-  #statuses = new Map(); // by document, as told last
+  #statuses = new Map(); // by document, as last reported
   #kept = new Map(); // by document, when it was kept last, and by which tab
   #onStatus = () => {};
   #say = () => {};

@@ -68,7 +68,7 @@ function memorySection(module) {
   throw new Error("the module has no memory of its own");
 }
 
-// Calls a function until it returns something, for at most so long.
+// Calls a function until it returns something, for at most that long.
 export async function eventually(look, seconds = 60) {
   for (const end = Date.now() + seconds * 1000; ;) {
     const found = await look();
