@@ -1,7 +1,7 @@
 // Writes files as wholes.
 import fs from "node:fs";
 
-// Writes a file under a name beside `name` that nothing had before, and adds that to `made`.
+// Writes a file under an unused name beside `name`, and adds that name to `made`.
 function writeBeside(name, bytes, made) {
   for (let i = 0; ; i++) {
     const temporary = `${name}.relievo-${process.pid}-${i}`;

@@ -70,7 +70,7 @@ struct CountedCall {
   ~CountedCall() { --calls_of_this_thread; }
 };
 
-// Starts and ends the library's threads, which are not there after a fork: it is made while none are.
+// Starts and ends the library's threads. They do not survive a fork, which is made while there are none.
 class Fork {
  public:
   // Waits until the library does not work. From within a callback that would be forever: the new process may then
@@ -90,7 +90,7 @@ class Fork {
     working().unlock();
   }
 
-  // The lock belongs to a thread of the parent: it begins anew, as nobody else is there.
+  // The lock belongs to a thread of the parent. It is made anew, as no other thread exists here.
   void end_in_child() {
     if (!std::exchange(is_prepared_, false)) return;
     std::construct_at(&working());

@@ -129,8 +129,8 @@ SharedSystem height_system(const py::array& points, std::optional<double> rho, c
   return value_or_raise(unlocked([&] { return build_system(at, rho, weight); }));
 }
 
-// Returns the slopes where they are, if they lie in memory as the library wants them: it only reads numbers from them,
-// whatever another thread may write there meanwhile.
+// Returns the slopes without a copy if their layout is the library's. It only reads numbers from them, so
+// other threads may write there meanwhile.
 std::optional<std::span<const Vec2>> slopes_in_place(const py::array& slopes) {
   const bool is_plain = slopes.dtype().is(py::dtype::of<double>()) && slopes.ndim() == 2 &&
                         slopes.shape(1) == 2 && (slopes.flags() & py::array::c_style) != 0;

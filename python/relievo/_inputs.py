@@ -1,4 +1,4 @@
-"""What a relief is made of, by its looks: paths, bytes, arrays, and objects that have them."""
+"""Recognises the inputs of a relief: paths, bytes, arrays, and objects that have arrays."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ from dataclasses import dataclass
 Record = dict[str, typing.Any]  # of one scan, as scans.jsonl has it
 Watch = typing.Callable[[Record, int, int], None]
 
-# A scan whose program was ended by the system, or that found a disk full, is tried so often in all.
+# A scan is tried this often in all if the system ended its program, or a disk was full.
 TRIES = 3
 # Dask gets up to this many scans as one task, because each task, and each start of the program, costs several
 # milliseconds.
@@ -95,7 +95,7 @@ def _call(command: list[str]) -> str:
 
 
 def _output_flags(flags: typing.Sequence[str]) -> list[str]:
-    """Of all flags those that say what is made of a scan; its options are in the line that lists it."""
+    """Returns the flags that decide what is made of a scan; its options are in the line that lists it."""
     kept = []
     for flag, value in zip(flags, [*flags[1:], ""]):
         if flag.startswith("--files="):

@@ -1,4 +1,4 @@
-"""What the tests share: a scan, the command line, a folder for files."""
+"""The tests share a scan, the command line, and a folder for files."""
 
 import os
 import subprocess

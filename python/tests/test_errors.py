@@ -1,4 +1,4 @@
-"""What cannot be used is refused with an exception that says what and where, and never ends the program."""
+"""Unusable inputs raise an exception that says what is wrong and where, and never end the program."""
 
 import pickle
 import unittest

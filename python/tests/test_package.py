@@ -1,4 +1,4 @@
-"""What the README says of Python works to the letter: building the wheel, installing it, and using it in an empty folder."""
+"""The README is right about Python: building the wheel, installing it, and using it in an empty folder."""
 
 import os
 import re

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs a catalogue on a local Dask cluster of two workers and kills what can be killed.
+"""Runs a catalogue on a local Dask cluster of two workers, and kills workers and the run.
 
     PYTHONPATH=PACKAGE dask_run.py PROGRAM [--good 980] [--bad 20]
 
@@ -47,7 +47,7 @@ def wait_for(count, output, process, log):
 
 
 def processes():
-    """Returns of each process its number, its parent's and its command line."""
+    """Returns the number of each process, its parent's number, and its command line."""
     found = []
     for path in glob.glob("/proc/[0-9]*/cmdline"):
         try:

@@ -53,7 +53,7 @@ TEST(Inset, EveryCornerIsAsFarInsideAsAsked) {
     const std::vector<Vec2> moved = inset(polygon, mm);
     for (const Vec2& p : moved) RC_ASSERT(std::abs(depth_in(polygon, p) - mm) < 2e-4);
     if (mm <= 0) RC_ASSERT(moved.size() == polygon.size());
-    // And nothing is missing: what lies so deep lies in it.
+    // And nothing is missing: every place that is that deep lies in the inset polygon.
     for (const Vec2& p : points) RC_ASSERT(depth_in(moved, p) >= 10 - mm - 1e-3);
   }));
 }

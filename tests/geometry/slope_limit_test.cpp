@@ -39,7 +39,7 @@ double rise_of(const Needles& needles) {
 }
 
 Needles stored(Needles needles) {
-  // In memory as floats first: g++ 12 leaves out the rounding of double(float(x)) where it does two at once.
+  // The floats are stored first: g++ 12 drops the rounding of double(float(x)) when it vectorises.
   std::vector<Vec3f> points;
   for (const Vec3& p : needles.points) points.push_back(p.cast<float>());
   for (std::size_t i = 0; i < 4; ++i) needles.points[i] = points[i].cast<double>();
@@ -68,7 +68,7 @@ Flattened flattened(const Needles& given, Rounding rounding) {
   return made;
 }
 
-// Moves of its far corner by less than half a step of single precision are what these needles wait for.
+// These needles need moves of the far corner by less than half a step of single precision.
 TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   const Needles needles = stored({{Vec3(20.0135155, 20.0189285, 3.00464439),
                                    {20.0135326, 20.0189762, 3.00460148},
@@ -81,7 +81,7 @@ TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   EXPECT_EQ(stored(made.needles).points, made.needles.points);
 }
 
-// Far corners must move by hundreds of times what makes either flat and the other steep.
+// Far corners must move hundreds of times as far as a move that makes one flat and the other steep.
 TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   const Needles needles = stored({{Vec3(20.0088615, 20.0504284, 3.0039897),
                                    {20.0088387, 20.0504589, 3.0040071},

@@ -187,8 +187,8 @@ TEST(StreamFront, ReadsLas) {
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // Without normals a square that the front happens to miss, exp(-5) at the middle, shows what is behind; the
-  // relief's own look for visible points takes it out.
+  // Without normals, a square without points of the front shows points behind it: exp(-5) of the squares in
+  // the middle. The relief's own search for visible points removes these.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 

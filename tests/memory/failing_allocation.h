@@ -1,4 +1,5 @@
-// Allocations that fail on purpose, of the whole process: of the library, of the libraries below it, and of all threads.
+// Makes allocations of the whole process fail: those of the library, of the libraries below it, and of all
+// threads.
 #pragma once
 
 #include <cstddef>

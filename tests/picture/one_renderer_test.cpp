@@ -93,7 +93,7 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
       }
 }
 
-// Its cache must not show, and sizes that no picture has give none.
+// The renderer's cache must not show, and impossible sizes give no picture.
 TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   SolidRenderer renderer(std::make_shared<const Solid>(bodies().solid));
   Picture first, other, again;
