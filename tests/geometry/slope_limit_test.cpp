@@ -46,7 +46,7 @@ Needles stored(Needles needles) {
   return needles;
 }
 
-// The needles made as flat, and how far their points were moved; infinitely if they are still too steep.
+// The flattened needles, and how far their points were moved: infinitely far if they are still too steep.
 struct Flattened {
   Needles needles;
   double largest_move = std::numeric_limits<double>::infinity();

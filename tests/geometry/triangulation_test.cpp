@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::vector<Vec2>;
 
-// The triangles in an order of their own, each from its lowest corner.
+// Returns the triangles in a sorted order, each from its lowest corner.
 std::set<Triangle> sorted_triangles(const Triangulation& triangulation) {
   std::set<Triangle> triangles;
   for (Triangle t : triangulation.triangles) {

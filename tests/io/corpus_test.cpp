@@ -172,7 +172,7 @@ TEST_F(Corpus, LuminanceIsThatOfTheChannels) {
   EXPECT_GT(judged, 0U);
 }
 
-// A glTF file beside which the validator's report lies.
+// A glTF file with the validator's report beside it.
 struct JudgedGltf {
   std::string name;
   std::size_t errors, draws, triangles;

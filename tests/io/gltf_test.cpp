@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Reads the file beside which there are the given files; `asked` gets the names that were asked for.
+// Reads the file with the given files beside it; `asked` gets the names that were asked for.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
   return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {

@@ -85,7 +85,7 @@ PlatePixels plate_in(const Picture& picture) {
   return plate;
 }
 
-// Red at a pixel.
+// Returns the red value of a pixel.
 int red(const Picture& picture, int column, int row) {
   return picture.image.at(column, row);
 }

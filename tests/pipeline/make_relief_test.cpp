@@ -222,7 +222,8 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
   }
 }
 
-// Its box moves by as much, and no part of it comes nearer to the plate's edge than the margin.
+// The relief's box moves by the whole shift, and no part of it comes nearer to the plate's edge than the
+// margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
   ReliefOptions options;

@@ -97,7 +97,7 @@ TEST(Session, CanBeCancelledWhileItPrepares) {
   EXPECT_EQ(session.model(), nullptr);
 }
 
-// Work that asks rarely must not keep the user waiting, nor may what comes of it appear later.
+// Work that rarely checks for cancelling must not keep the user waiting, nor may its result appear later.
 TEST(Session, SaysAtOnceThatItIsCancelled) {
   Session session;
   std::binary_semaphore has_begun{0}, goes_on{0};

@@ -45,7 +45,7 @@ struct Roof {
 };
 
 TEST(Diagonals, FollowARidge) {
-  // One of both directions meets the diagonals that the triangulation took.
+  // The triangulation's own diagonals cross the ridge in at least one of the two directions.
   EXPECT_GT(std::max(Roof(1).error(1), Roof(-1).error(-1)), .05);
   for (const double direction : {1., -1.}) {
     Roof roof(direction);

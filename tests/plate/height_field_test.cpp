@@ -44,7 +44,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// Bevels as flat as these, and folds, were smoothed by up to .7 mm.
+// Such flat bevels, and folds, were once smoothed by up to .7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
                                 Outline::hexagon, Outline::none})

@@ -67,7 +67,7 @@ TEST(FastMetrics, DrawsSmoothHeightsAlike) {
   const Image<float> a = fast.draw(heights),
                      b = fast.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
   ASSERT_EQ(a.size(), b.size());
-  // In pixels; but at silhouettes, where some of the four lie outside.
+  // Differences are in pixels. They may be larger at silhouettes, where some of the four pixels lie outside.
   std::size_t unlike = 0, inside = 0;
   for (std::size_t i = 0; i < a.size(); ++i) unlike += std::abs(a[i] - b[i]) > .02F, inside += a[i] != 0;
   EXPECT_LT(unlike, inside / 50);

@@ -43,7 +43,7 @@ Shape shape_for(double u, const MembraneParams& params) {
   return shape;
 }
 
-// The same as with full reliefs and the full metrics.
+// The deficit is the same as that of full reliefs with the full metrics.
 TEST(BaselineComparison, ReturnsTheDeficit) {
   const Figure figure(shell());
   const ReliefModel model = ReliefModel::prepare(figure.surface).value();

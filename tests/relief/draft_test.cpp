@@ -259,7 +259,7 @@ TEST(Draft, CanBeCancelled) {
             ErrorKind::cancelled);
 }
 
-// All that a front goes through on its way to a file.
+// Checks the draft angle after all the steps that a front takes on its way to a file.
 TEST(Draft, IsKeptInFiles) {
   const ReliefModel model = prepared(figure());
   ReliefOptions options;

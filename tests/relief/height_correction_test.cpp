@@ -85,7 +85,7 @@ TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
   EXPECT_LT(worst, .08 * most);
 }
 
-// Lifted inside, it is the further from 0 on the silhouette, the less stiffly it is tied there.
+// A correction that is lifted inside is farther from 0 on the silhouette the less stiffly it is tied there.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
   const HeightCorrection correction(surface, jump_weights(surface));

@@ -189,8 +189,8 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
 }
 
-// Memory is a measure of that: a pattern counts for the matrix alone that has made it. Points on the boundary, which have
-// no unknown, come before their neighbours, and after them.
+// The memory shows who shares a pattern: it counts only for the matrix that made it. Points on the boundary,
+// which have no unknown, come before their neighbours, and after them.
 TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
   for (const bool is_boundary_last : {false, true}) {
     DiscCase disc(500);

@@ -27,7 +27,7 @@ TEST(Relief, OfATiltedPlaneIsFlatWhereNothingIsKept) {
       3000, 1, [](double x, double) { return .5 * x; }, [](double, double) { return Vec2(.5, 0); });
   const ReliefModel model = prepared(tilted);
   EXPECT_NEAR(model.make({{0, 0}, 0}).height, 0, 1e-12);
-  // Kept in full, the least squares share out a slope that cannot hold with both ends on the base.
+  // If slopes are kept in full, the least squares spread this slope, which is impossible with both ends at 0.
   EXPECT_LT(model.make({keep_all, 0}).height, .2);
 }
 

@@ -156,7 +156,7 @@ TEST_P(Sample, HasAsManyPointsAsRaysMeetSurface) {
   }
 }
 
-// In a pixel, points that face the viewer at clearly different depths: how many such layers there are.
+// Returns, per pixel, the depths of the points that face the viewer.
 std::map<std::pair<int, int>, std::vector<double>> facing_depths(const Cloud& cloud) {
   const double pixel = 0.04;
   std::map<std::pair<int, int>, std::vector<double>> depths;

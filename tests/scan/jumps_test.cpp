@@ -87,7 +87,8 @@ TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {
   EXPECT_GT(heights({}), 1e-3);
 }
 
-// Drawn to the front in the middle and to the base around it, it leaves more of a step where it yields.
+// A membrane that is drawn to the front in the middle, and to the base around it, leaves more of a step if it
+// yields.
 TEST(Jumps, LetTheMembraneStep) {
   const Surface surface = sheets();
   const auto step = [&](std::span<const float> weights) {

@@ -61,8 +61,8 @@ TEST(MeasureNoise, IsZeroOnCleanShapes) {
 }
 
 TEST(MeasureNoise, FindsTheDeviationThatWasAdded) {
-  // In sampling distances of the noisy cloud, which lie further apart than those of the clean one, the more so the
-  // more noise there is.
+  // Noise is in sampling distances of the noisy cloud. They are longer than those of the clean cloud, and
+  // grow with the noise.
   for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)})
     for (const double noise : {.15, .3, .5}) {
       const NoisyCloud noisy = with_noise(clean, noise);

@@ -81,8 +81,8 @@ FrontCells random_front(unsigned seed) {
   return front;
 }
 
-// Returns for each cell how many cells are connected to it that are covered as it is, or not, by walking from cell to
-// cell.
+// Returns the size of each cell's piece, by walking from cell to cell. The cells of a piece are connected,
+// and all covered or all not.
 std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   const Image<Vec3f>& normal = front.normal;
   std::vector<std::size_t> sizes;

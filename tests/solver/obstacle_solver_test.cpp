@@ -179,7 +179,7 @@ TEST(ObstacleSolver, TakesLimitsThatMeet) {
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
-// Bends at a hinge: there the second difference is greater than where it is stiff.
+// The field bends at a hinge: its second difference is greater there than where it is stiff.
 TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);

@@ -1,4 +1,4 @@
-// A second opinion on solids: what admesh, a program that repairs STL files, finds to repair.
+// A second opinion on solids: admesh, a program that repairs STL files, reports what it has to repair.
 #pragma once
 
 #include <unistd.h>
@@ -41,7 +41,7 @@ inline bool has_admesh() {
   return is_there;
 }
 
-// An empty string if admesh has nothing to repair, or is not installed; else its report.
+// Returns the report of admesh; an empty string if it has nothing to repair, or is not installed.
 inline std::string complaint_of_admesh(const Solid& solid, int parts = 1) {
   if (!has_admesh()) return {};
   const auto path = std::filesystem::temp_directory_path() / ("relievo_" + std::to_string(getpid()) + ".stl");

@@ -202,7 +202,8 @@ struct FileSample {
   std::string name, bytes;
 };
 
-// One file or more of every format but PLY, which has an encoder of its own. A new format gets its row here.
+// Returns one file or more of every format but PLY, which has its own encoder. A new format gets its row
+// here.
 inline std::vector<FileSample> format_samples() {
   return {{"scan.obj", "# hand\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2//2 -1//-1\n"},
           {"scan.xyz", "1 2 3 0 0 1\n4 5 6 0 0.6 0.8\n# end\n7 8 9 1 0 0\n"},

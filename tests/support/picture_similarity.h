@@ -1,6 +1,6 @@
 // Computes how alike two pictures look: the structural similarity of Wang, Bovik, Sheikh and Simoncelli (2004) of their
-// luminance, with its usual constants, in the mean over what either of them shows in another shade than the plate around
-// it.
+// luminance, with its usual constants, as the mean over the places that either of them shows in another shade
+// than the plate around.
 #pragma once
 
 #include <array>

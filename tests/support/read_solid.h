@@ -27,7 +27,7 @@ struct ReadSolid {
     return box;
   }
 
-  // The enclosed volume, by the divergence theorem; positive if the triangles face outwards.
+  // Returns the enclosed volume, by the divergence theorem; positive if the triangles face outwards.
   double volume() const {
     double sixfold = 0;
     for (const auto& [a, b, c] : triangles)
@@ -71,7 +71,7 @@ inline ReadSolid solid_in_stl(std::string_view file) {
   return solid;
 }
 
-// The number after `label` in a header; 0 if there is none.
+// Returns the number after `label` in a header; 0 if there is none.
 inline std::size_t number_after(std::string_view text, std::string_view label) {
   const std::size_t at = text.find(label);
   return at == text.npos ? 0 : std::stoul(std::string(text.substr(at + label.size(), 20)));

@@ -1,5 +1,5 @@
-// Draws the triangles of a file without the library, so that tests compare its pictures with another opinion: which pixels
-// are covered, and how directly the lamp shines on what they show.
+// Draws the triangles of a file without the library, as a second opinion on the library's pictures: which
+// pixels are covered, and how directly the lamp shines on the surface there.
 #pragma once
 
 #include <algorithm>

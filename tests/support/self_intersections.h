@@ -76,8 +76,8 @@ inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   return least >= 0 || most <= 0;
 }
 
-// Returns whether an edge of s meets t. Edges that end in a common corner do so by right; if they go on into t, the edge
-// opposite the corner, in s or in t, meets the other triangle, too.
+// Returns whether an edge of s meets t. Edges that end in a common corner do not count: if they go on into t,
+// the edge opposite the corner, in s or in t, meets the other triangle, too.
 inline bool edge_meets(const Corners& s, const Corners& t) {
   const auto is_common = [&](const Vec3& p) { return std::ranges::find(t, p) != t.end(); };
   for (std::size_t i = 0; i < 3; ++i) {

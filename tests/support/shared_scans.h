@@ -31,7 +31,7 @@ inline std::vector<std::byte> shared_bytes(const std::filesystem::path& name) {
   return {bytes.begin(), bytes.end()};
 }
 
-// The message of a test that is skipped because `name` is missing.
+// Returns the message of a test that is skipped because `name` is missing.
 inline std::string missing_scan(const std::string& name) {
   return "not tested: " + (shared_data() / name).string() +
          " is missing. Set the environment variable RELIEVO_SHARED_DATA, or configure with "
