@@ -68,7 +68,7 @@ std::string bash_values(const CommandInfo& command) {
   return numbers.empty() ? text : cat(text, "    ", numbers, ") return ;;\n");
 }
 
-// The branch for a flag or an argument.
+// Returns the branch that completes a flag or an argument.
 std::string bash_flags(const CommandInfo& command) {
   std::string flags, argument = "paths=1";
   for (const FlagInfo& flag : command.flags) {

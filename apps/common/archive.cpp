@@ -22,7 +22,7 @@ std::unexpected<Error> broken(std::string_view name, std::string expected) {
   return input_error(std::string(name), {}, std::move(expected));
 }
 
-// Returns the message about a file of the archive that libzip does not unpack, for the reason of that code.
+// Returns the message about a file of the archive that libzip fails to unpack with that error code.
 std::string not_unpacked(const zip_stat_t& file, int code) {
   if (file.encryption_method != ZIP_EM_NONE)
     return "expected a file without a password, found an encrypted one; unpack the archive first";

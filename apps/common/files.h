@@ -29,7 +29,7 @@ std::optional<std::uint64_t> file_size(const std::string& path);
 // Returns the text as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);
 
-// Returns the bytes of a file as text, which is valid as long as they are.
+// Returns a view of the bytes as text, which is valid as long as the bytes are.
 inline std::string_view text_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

@@ -84,7 +84,7 @@ struct FinishedRelief {
 // Makes the relief; end() is left to the caller. Errors: those of make_relief(), naming the inputs.
 Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress);
 
-// Does all of the above. Errors: those of all.
+// Calls the functions above one after the other. Errors: those of all.
 Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress);
 
 // Returns how to draw a relief. Errors: kind option for a size not in [1, 5461] and for unknown materials.

@@ -1,4 +1,4 @@
-// Names for people of the stages of a long call.
+// The names of a long call's stages, in words for users.
 #pragma once
 
 #include <span>

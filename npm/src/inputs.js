@@ -57,7 +57,7 @@ export function requestOf(options = {}) {
   return request;
 }
 
-// Gives an option in an error its name here.
+// Replaces the name of an option in an error by its name in this package.
 export function withKeyword(error) {
   const keyword = error.kind === "option" ? keywordOf.get(error.input) : undefined;
   if (!keyword) return error;

@@ -1,5 +1,4 @@
-// Colours, in pictures of a solid, what a milling tool leaves standing. Tested by
-// tests/picture/reach_tint_test.cpp.
+// Colours in pictures what a milling tool leaves standing. Tested by tests/picture/reach_tint_test.cpp.
 #pragma once
 
 #include <memory>

@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// A place of a body, lit.
+// A place of a body with the light on it.
 struct Lit {
   Vec3f normal;
   Light light;                        // shares that reach the place

@@ -126,7 +126,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// The cells that points facing the viewer cover, in layers where they lie behind each other.
+// Returns the area that points facing the viewer cover; all layers of points behind each other count.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -136,7 +136,7 @@ double shown_area(const PlacedCloud& cloud) {
   return sum;
 }
 
-// The same for triangles, whichever side is their front.
+// Returns this area for triangles, whichever side is their front.
 double shown_area(const Mesh& mesh, const View& view) {
   const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;

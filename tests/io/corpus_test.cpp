@@ -325,7 +325,7 @@ TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
   EXPECT_FALSE(read_at(folder_ / "cry-inc+e57/testdata/corrupt_crc.e57"));
 }
 
-// Point formats 4 to 10, with extra bytes and wave packets, of several scanners in some.
+// The files have point formats 4 to 10, with extra bytes and wave packets; some are of several scanners.
 TEST_F(Corpus, LazHasThePointsOfItsLas) {
   std::size_t compared = 0;
   for (const fs::path& path : files("visgl+loaders.gl", ".laz")) {

@@ -127,7 +127,7 @@ TEST(MeshoptAttributes, RefusesModesThatAreNone) {
     EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1) + mode, layout));
 }
 
-// In version 1 a whole block of elements of four bytes takes one byte if all its differences are 0.
+// In version 1 a block of elements of four bytes takes a single byte if all its differences are 0.
 TEST(MeshoptAttributes, TakesNoMoreMemoryThanItsBytesStandFor) {
   const std::string stream = "\xA1" + std::string(1000, '\xAA') + std::string(24, '\0');
   EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 256'000, .stride = 4})), std::string(1'024'000, '\0'));

@@ -64,8 +64,8 @@ std::vector<double> heights_of(const HeightSystem& system, const std::vector<Vec
   return z;
 }
 
-// The mean of two slopes is exact along an edge for a quadratic: the paraboloid comes back to rounding,
-// whatever edges count for.
+// The mean of two slopes is exact along an edge for a quadratic: the paraboloid comes back up to rounding,
+// whatever the weights of the edges.
 TEST(Heights, OfAParaboloidAreExact) {
   const DiscCase disc(5000);
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });

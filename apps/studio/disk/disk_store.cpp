@@ -208,7 +208,7 @@ StudioAddress DiskStore::address() const {
   return {json["port"].get<int>(), json["token"].get<std::string>()};
 }
 
-// Who knows the address may use the studio: nobody else can read the file.
+// Everybody who knows the address may use the studio, so only its user can read the file.
 void DiskStore::keep_address(const StudioAddress& address) const {
   (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(),
               Durability::machine);
