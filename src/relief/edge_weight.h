@@ -1,5 +1,6 @@
-// The weight of an edge in equation (9): height_equations() sums up the halves, and TriangleSlopes reduces its
-// triangles by needle_share(). Whoever changes the weight changes it here and in tests/relief/heights_test.cpp.
+// The weight of an edge in equation (9), for the systems of all points and of control points, and for the steps at depth
+// jumps. JumpLift and TriangleSlopes weigh triangles without factors: they take half_edge_weight() and needle_share().
+// tests/relief/heights_test.cpp states the weight once more.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +25,6 @@ inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
   return .5 * std::clamp(u.dot(v) / std::max(cross(u, v), 1e-300), -1e6, 1e6);
 }
 
-// Returns the weight of an edge whose triangles add up to `sum`.
-inline float edge_weight(float sum) {
-  return std::clamp(sum, least_edge_weight, largest_edge_weight);
-}
-
 // Returns the factor, in [0, 1], by which edge_weight() reduces a triangle with the largest half weight
 // `stiffest`: an edge is the sum of two halves, so that a triangle has half of the bound.
 inline double needle_share(double stiffest) {
@@ -36,12 +32,20 @@ inline double needle_share(double stiffest) {
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
 }
 
-// Returns the share of its weight that an edge near a depth jump has: the mean of its ends' `weights`, one
-// per point, see jump_weights(). Walls at jumps are narrower than the sampling distance, and would tie both
-// sides together more than edges between scattered points do; edges across them count a tenth.
-inline float jump_share(const Boundary& boundary, std::span<const float> weights, Index a, Index b) {
-  const float share = (weights[a] + weights[b]) / 2;
-  return boundary.is_across_wall(a, b) ? .1F * share : share;
+// Returns the factor of the edge from a to b: the mean of its ends' `weights`, one per point, see
+// jump_weights(). Walls at jumps are narrower than the sampling distance, and would tie both sides together
+// more than edges between scattered points do; edges across them count a tenth.
+inline float edge_factor(const Boundary& boundary, std::span<const float> weights, Index a, Index b) {
+  const float factor = (weights[a] + weights[b]) / 2;
+  return boundary.is_across_wall(a, b) ? .1F * factor : factor;
+}
+
+// Returns the weight of the edge from a to b, whose triangles add up to `sum`. Without `weights` it has no factor, as
+// the right-hand side of TriangleSlopes has none.
+inline float edge_weight(float sum, const Boundary& boundary, std::span<const float> weights, Index a,
+                         Index b) {
+  const float weight = std::clamp(sum, least_edge_weight, largest_edge_weight);
+  return weights.empty() ? weight : weight * edge_factor(boundary, weights, a, b);
 }
 
 }  // namespace relievo

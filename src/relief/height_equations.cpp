@@ -54,7 +54,7 @@ class EdgeRows {
   std::vector<WeightedEdge> terms_;
 };
 
-// Returns the edges of triangles inside. Edges at depth jumps count for their jump_share().
+// Returns the edges of triangles inside, with their edge_weight().
 Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
                        const Boundary& boundary, std::span<const float> weights) {
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
@@ -64,11 +64,9 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
       row(i, [&](std::vector<WeightedEdge>& edges) {
         const std::size_t before = edges.size();
         rows.add(corners[i], edges);
-        for (std::size_t e = before; e < edges.size(); ++e) {
-          edges[e].weight = edge_weight(edges[e].weight);
-          if (!weights.empty())
-            edges[e].weight *= jump_share(boundary, weights, static_cast<Index>(i), edges[e].to);
-        }
+        for (std::size_t e = before; e < edges.size(); ++e)
+          edges[e].weight =
+              edge_weight(edges[e].weight, boundary, weights, static_cast<Index>(i), edges[e].to);
       });
   });
 }

@@ -33,7 +33,7 @@ std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> 
     float sum = 0;
     for (const TriangleSide& s : sides)
       sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
-    edges.push_back({a, b, edge_weight(sum) * jump_share(surface.boundary, weights, a, b)});
+    edges.push_back({a, b, edge_weight(sum, surface.boundary, weights, a, b)});
   });
   return edges;
 }
