@@ -146,9 +146,11 @@ void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
 }
 
 bool MeasuredCloud::serves(const View& view) const {
-  if (view.denoise != view_.denoise || view.crop != view_.crop) return false;
-  const bool is_of_any_view = view.crop == Crop{} && cloud_.outlines.empty();
-  return is_of_any_view || view.R_view_model == view_.R_view_model;
+  // Whoever adds a field to views decides here whether it needs other measures; without it this does not compile.
+  const auto& [R_view_model, crop, has_crumbs, has_plane, denoise, is_best] = view;
+  if (denoise != view_.denoise || crop != view_.crop) return false;
+  const bool is_of_any_view = crop == Crop{} && cloud_.outlines.empty();
+  return is_of_any_view || R_view_model == view_.R_view_model;
 }
 
 std::vector<double> MeasuredCloud::curvature(std::span<const Index> points, const Progress* progress) const {
