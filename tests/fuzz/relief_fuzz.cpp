@@ -29,10 +29,9 @@ Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
 
 ReliefOptions options_of(const std::uint8_t* data) {
   constexpr Method methods[] = {Method::layered, Method::paper, Method::linear, Method::gradient};
-  constexpr Outline outlines[] = {Outline::rectangle, Outline::circle, Outline::none, Outline::hexagon};
   ReliefOptions options;
   options.method = methods[data[0] % 4];
-  options.outline = outlines[data[1] % 4];
+  options.outline = outline_choices[data[1] % outline_choices.size()].value;
   options.height_mm = .1 + data[2] / 64.;
   options.resolution_mm = 2;
   return options;

@@ -45,8 +45,8 @@ TEST(Inset, RoundCornersOfThatRadiusBecomeSharp) {
 
 TEST(Inset, EveryCornerIsAsFarInsideAsAsked) {
   EXPECT_TRUE(rc::check([] {
-    const auto outline = *rc::gen::element(Outline::rectangle, Outline::round, Outline::circle,
-                                           Outline::ellipse, Outline::hexagon);
+    const Outline outline = (*rc::gen::elementOf(outline_choices)).value;
+    RC_PRE(outline != Outline::none);
     const std::vector<Vec2> points = test::ellipse(*rc::gen::inRange(3, 40), 30, *rc::gen::element(5., 29.));
     const std::vector<Vec2> polygon = outline_around(points, {outline, 4, 10});
     const double mm = *rc::gen::inRange(-200, 100) / 10.0;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "relievo/core/text.h"
 #include "relievo/option_table.h"
 #include "relievo/relief/weights.h"
 
@@ -85,7 +86,11 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   options.plate_mm = Vec2(80, 80);
   EXPECT_EQ(complaint(options), "plate: expected either plate or diameter, found both");
   options.diameter_mm.reset();
-  EXPECT_EQ(complaint(options), "plate: expected outline rectangle, round or ellipse, found circle");
+  std::vector<std::string_view> free_outlines;
+  for (const auto& [name, outline] : outline_choices)
+    if (has_free_size(outline)) free_outlines.push_back(name);
+  EXPECT_EQ(complaint(options), cat("plate: expected outline ", either(free_outlines), ", found circle"));
+  EXPECT_TRUE(find_option("plate")->help.ends_with(cat(" with outline ", either(free_outlines))));
   options.outline = Outline::ellipse;
   options.plate_mm = Vec2(200, 89);  // with 5 mm of margin
   options.shift_mm = Vec2(5, 0);

@@ -46,13 +46,12 @@ double waves(double x, double y) {
 
 // Such flat bevels, and folds, were once smoothed by up to .7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
-  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
-                                Outline::hexagon, Outline::none})
+  for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {
       PlateOptions options;
       options.outline = outline;
       if (outline != Outline::none) options.rim = {2, bevel == .1 ? -1. : 1., bevel};
-      SCOPED_TRACE(bevel);
+      SCOPED_TRACE(testing::Message() << name << ", bevel " << bevel);
       expect_heights_of(plate_of(grid_front({20, 20, 20, 20}, waves), options));
     }
 }

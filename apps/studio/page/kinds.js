@@ -6,6 +6,9 @@ import {FIRST, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
 import {shortLength, shown} from "./lengths.js";
 
+// The outlines of plates that may have any width and height.
+export const FREE_OUTLINES = ["rectangle", "round", "ellipse"];
+
 // A rectangular plate with nothing besides.
 const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
   "rim-height": null, "rim-bevel": null, base: "plane", "base-image": "", wrap: "none", form: "relief", draft: null});

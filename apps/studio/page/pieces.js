@@ -6,7 +6,7 @@ import {$, Pause, clamp, make, pair, sentence} from "./controls.js";
 import {FIRST, NOT_PRINTED} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
-import {KINDS} from "./kinds.js";
+import {FREE_OUTLINES, KINDS} from "./kinds.js";
 import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 import {SHAPES, ShapeRow} from "./shapes.js";
 import {REST_MS, UPWARDS, nextValue} from "./slider.js";
@@ -49,8 +49,8 @@ const isChosen = (width) =>
 // rim of a piece without an outline.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
-  const isRound = value === "circle", hasSides = ["rectangle", "round", "ellipse"].includes(value);
-  const hasSize = (!diameter || isRound) && (!plate || hasSides);
+  const isRound = value === "circle", isFree = FREE_OUTLINES.includes(value);
+  const hasSize = (!diameter || isRound) && (!plate || isFree);
   return hasSize ? rim : {...rim, diameter: null, plate: "", shift: "", width: shownWidth};
 }
 

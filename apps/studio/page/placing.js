@@ -2,6 +2,7 @@
 
 import {clamp} from "./controls.js";
 import {viewTurned} from "./directions.js";
+import {FREE_OUTLINES} from "./kinds.js";
 
 const LEAST = 1, MOST = 1e5; // mm of a figure's longer side
 const TURN_STEP = 1; // degrees
@@ -28,7 +29,7 @@ export class Placing {
     this.part = {};
     if (diameter || plate) return true;
     if (outline === "circle" && form !== "die") this.part = {diameter: rounded(width), width: null};
-    else if (["rectangle", "round", "ellipse"].includes(outline))
+    else if (FREE_OUTLINES.includes(outline))
       this.part = {plate: `${rounded(width)}x${rounded(height)}`, width: null};
     else return this.say("Give the plate a size first: then the figure can be moved on it."), false;
     return true;

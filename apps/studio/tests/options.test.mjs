@@ -128,6 +128,13 @@ test("has a field for each parameter of each shape that the engine takes", async
   }
 });
 
+test("gives any size to plates of the outlines of which the engine takes one", async () => {
+  const known = await page.evaluate(async () => (await import("./kinds.js")).FREE_OUTLINES), taken = [];
+  for (const outline of options.find(({name}) => name === "outline").choices)
+    if (!(await engine.json("check", {options: {outline, plate: "300x200"}})).error) taken.push(outline);
+  assert.deepEqual([...known].sort(), taken.sort());
+});
+
 test("shows the parameters of shapes as they were typed, in the unit of the page", async () => {
   const field = (label) => page.getByRole("textbox", {name: label, exact: true});
   await control("tool").selectOption({label: "V bit"});

@@ -39,9 +39,8 @@ struct OutlineOptions {
 };
 
 // Returns width and height in millimetres of a text such as "200x150" or "8in x 6in": two lengths, see parse_length(),
-// with x or the multiplication sign between them.
-// A unit behind the second alone holds for both. Errors: kind option for any other text; the error's input is
-// empty, for the caller to fill in.
+// with x or the multiplication sign between them. A unit behind the second alone is that of both. Errors: kind option for
+// any other text; the error's input is empty, for the caller to fill in.
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 // Returns the lengths of a text such as "10,-5" or "1in,0", right and up, with units as those of sizes. Errors: kind option
@@ -56,12 +55,11 @@ bool has_free_size(Outline outline);
 bool is_box(Outline outline);
 
 // Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges are at
-// least the margin away from every point. A curve is that far away, and the polygon in it is as wide and as
-// high as the curve and nowhere further than a micrometre from it, or a ten-millionth of its radius. Outlines
-// are centred on the points' box; circles, ellipses and hexagons from left to right alone, and vertically
-// where the circle or ellipse is smallest. All but `round` are as small as their centre allows. Rounded
-// corners that would cut into the margin move the sides out. With a size, the outline has that size and keeps
-// its centre. The result is empty for no points and for `none`.
+// least the margin away from every point. A curve is, and becomes a polygon in it, as wide and as high as the curve and
+// nowhere further than a micrometre from it, or a ten-millionth of its radius. Outlines are centred on the points' box;
+// circles, ellipses and hexagons from left to right alone, and as high as makes the circle or ellipse smallest. All but
+// `round` are as small as their centre allows. Rounded corners that would cut into the margin move the sides out. With a
+// size, the outline has that size and keeps its centre. The result is empty for no points and for `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
 
 }  // namespace relievo
