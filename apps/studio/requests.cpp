@@ -260,7 +260,7 @@ Json to_json(const PictureAnswer& answer) {
           {"alpha", answer.compression.curve ? Json() : number_or_null(answer.compression.alpha())},
           {"solves", answer.times.solves},
           {"heights_ms", answer.times.heights_s * 1e3},
-          {"detail_ms", answer.times.after_solve_s * 1e3},
+          {"after_solve_ms", answer.times.after_solve_s * 1e3},
           {"normals_ms", answer.times.normals_s * 1e3},
           {"drawing_ms", answer.drawing_s * 1e3}};
 }

@@ -42,7 +42,7 @@ std::string without_times(const Answer& answer) {
   std::string text = answer.body;
   for (const auto& [name, value] : answer.headers) {
     Json about = Json::parse(value, nullptr, false);
-    for (const char* key : {"solves", "heights_ms", "detail_ms", "normals_ms", "drawing_ms"})
+    for (const char* key : {"solves", "heights_ms", "after_solve_ms", "normals_ms", "drawing_ms"})
       if (about.is_object()) about.erase(key);
     text += about.dump();
   }

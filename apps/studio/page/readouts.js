@@ -23,7 +23,7 @@ export function showNumbers({about, ms, isFine, height, facts}) {
     make("span", {class: kind}, text)));
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
   const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
-  const spent = [...solves, time("detail", about.detail_ms), time("normals", about.normals_ms),
+  const spent = [...solves, time("detail or correction", about.after_solve_ms), time("normals", about.normals_ms),
     time("picture", about.drawing_ms)];
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
