@@ -38,7 +38,7 @@ SolverWorkspace make_workspace(const ReliefModel& model) {
 
 }  // namespace
 
-struct FrameMaker::Packed {
+struct FrameMaker::State {
   const ReliefModel& model;
   const Surface& surface = model.surface();
   SlicedEllMatrix normal_matrix =
@@ -56,7 +56,7 @@ struct FrameMaker::Packed {
   HeightSearch::Track last_height, last_steps;  // where the last locked height was found, by u or by steps
   bool needs_steps = false;                     // whether slopes alone did not reach it
 
-  explicit Packed(const ReliefModel& m) : model(m) {}
+  explicit State(const ReliefModel& m) : model(m) {}
 
   std::size_t size() const { return surface.points.size(); }
 
@@ -173,42 +173,42 @@ std::vector<Vec3f> vertex_normals(const Surface& surface, std::span<const float>
   return normals;
 }
 
-FrameMaker::FrameMaker(const ReliefModel& model) : packed_(std::make_unique<Packed>(model)) {}
+FrameMaker::FrameMaker(const ReliefModel& model) : state_(std::make_unique<State>(model)) {}
 FrameMaker::FrameMaker(FrameMaker&&) noexcept = default;
 FrameMaker::~FrameMaker() = default;
 
 void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   frame.options = options;
-  frame.heights.resize(packed_->size());
-  frame.normals.resize(packed_->size());
+  frame.heights.resize(state_->size());
+  frame.normals.resize(state_->size());
   frame.times = {};
   frame.is_height_met = true;
-  packed_->set_boundary_width(options.shape.boundary_width);
+  state_->set_boundary_width(options.shape.boundary_width);
   if (options.height)
-    packed_->raise_to(*options.height, options.shape, frame);
+    state_->raise_to(*options.height, options.shape, frame);
   else
-    packed_->raise(options.shape, std::nullopt, frame);
-  packed_->finish(frame);
+    state_->raise(options.shape, std::nullopt, frame);
+  state_->finish(frame);
 
   const Stopwatch watch;
-  packed_->normal_matrix.normals(frame.heights, frame.normals);
+  state_->normal_matrix.normals(frame.heights, frame.normals);
   frame.times.normals_s = watch.seconds();
 }
 
 void FrameMaker::write_gains(std::vector<float>& gains) const {
-  const SlopeInput& input = packed_->input;
-  gains.resize(packed_->size());
-  with_style(packed_->made, [&](const auto& style) {
+  const SlopeInput& input = state_->input;
+  gains.resize(state_->size());
+  with_style(state_->made, [&](const auto& style) {
     parallel_for(gains.size(), [&](std::size_t i) {
-      gains[i] = style.gain(input, i, packed_->weight(input.k[i]), input.boundary_weight[i]);
+      gains[i] = style.gain(input, i, state_->weight(input.k[i]), input.boundary_weight[i]);
     });
   });
 }
 
 std::size_t FrameMaker::memory() const {
-  const std::size_t workspace = std::visit([](const auto& w) { return w.memory(); }, packed_->workspace);
-  return packed_->normal_matrix.memory() + workspace + packed_->correction_workspace.memory() +
-         packed_->slopes.size() * sizeof(Vec2f) + packed_->boundary_weight.size() * sizeof(float);
+  const std::size_t workspace = std::visit([](const auto& w) { return w.memory(); }, state_->workspace);
+  return state_->normal_matrix.memory() + workspace + state_->correction_workspace.memory() +
+         state_->slopes.size() * sizeof(Vec2f) + state_->boundary_weight.size() * sizeof(float);
 }
 
 }  // namespace relievo

@@ -63,8 +63,8 @@ class FrameMaker {
   std::size_t memory() const;
 
  private:
-  struct Packed;
-  std::unique_ptr<Packed> packed_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace relievo
