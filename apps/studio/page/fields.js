@@ -5,7 +5,7 @@ import {sentence} from "./controls.js";
 import {spread} from "./slider.js";
 
 // Labels are words for what the eye sees; the tip has the symbol of the paper. The slider spans the range `hand`. A
-// number may be typed within the whole range of the option.
+// number may be typed within the whole range of the option, which has a number in every document, but for the width.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
   width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},

@@ -1,4 +1,5 @@
-// The sliders on the page, with the lock of the height and the method: shows the document's values, and changes them.
+// The sliders of fields.js on the page, with the lock of the height and the method: shows the document's values, and
+// changes them. slider.js has the control itself.
 
 import {defaultOf, namesOf, optionOf} from "./about.js";
 import {$, make} from "./controls.js";
@@ -94,7 +95,7 @@ export class Sliders {
     for (const [name, slider] of Object.entries(this.all)) {
       const isWaiting = this.entries.isPending(name);
       slider.element.ariaBusy = isWaiting ? "true" : null;
-      if (!isWaiting) slider.show(options[name] ?? this.shownWidth());
+      if (!isWaiting) slider.show(options[name] ?? this.shownWidth()); // no other slider's option may be none
     }
     this.showWidth();
     $("#method").value = options.method;

@@ -27,6 +27,8 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // of the pixels of a side, while things move
+    // Each state to be seen has a number: the newest, and the last that was shown or refused, drawn, drawn finely, and
+    // drawn as export makes the piece.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting`: who waits for rest()
     this.pause = new Pause(() => this.pump());
