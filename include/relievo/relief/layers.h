@@ -49,8 +49,8 @@ struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
   float height_share = 1;  // MembraneParams::height_share
 
-  // Returns the weights at u in [0, infinity]. `detail` >= 0 lowers the u of the coarser layers, by factors of
-  // exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all alike. `height_share` in [0, 1].
+  // Returns the weights at u in [0, infinity]. `detail` >= 0, which is Shape::gamma, lowers the u of the coarser layers, by
+  // factors of exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all alike. `height_share` in [0, 1].
   static LayerWeights of(double u, double detail, double height_share);
 };
 
