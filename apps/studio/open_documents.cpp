@@ -14,7 +14,11 @@ std::shared_ptr<Engine> OpenDocuments::find(const std::string& document) {
 
 std::shared_ptr<Engine> OpenDocuments::open(const std::string& document, const std::string& tab) {
   const Lock lock(mutex_);
-  if (!tab.empty()) tabs_[tab] = document;
+  if (!tab.empty()) {
+    forget_tab(tab);
+    tabs_.push_front({tab, document});
+    if (tabs_.size() > most_tabs) tabs_.pop_back();
+  }
   const auto found = std::ranges::find(entries_, document, &Entry::document);
   if (found == entries_.end())
     entries_.push_front({document, std::make_shared<Engine>(changed_)});
@@ -31,8 +35,7 @@ bool OpenDocuments::is_open(const std::string& document) {
 
 bool OpenDocuments::close(const std::string& document, const std::string& tab) {
   const Lock lock(mutex_);
-  if (const auto shown = tabs_.find(tab); shown != tabs_.end() && shown->second == document)
-    tabs_.erase(shown);
+  std::erase(tabs_, Tab{tab, document});
   if (is_shown(document)) return false;
   const auto found = std::ranges::find(entries_, document, &Entry::document);
   if (found != entries_.end()) close(found);
@@ -42,7 +45,12 @@ bool OpenDocuments::close(const std::string& document, const std::string& tab) {
 
 void OpenDocuments::leave(const std::string& tab) {
   const Lock lock(mutex_);
-  tabs_.erase(tab);
+  forget_tab(tab);
+}
+
+// With `mutex_` locked.
+void OpenDocuments::forget_tab(const std::string& tab) {
+  std::erase_if(tabs_, [&](const Tab& each) { return each.name == tab; });
 }
 
 std::vector<OpenDocuments::Entry> OpenDocuments::all() {
@@ -52,7 +60,7 @@ std::vector<OpenDocuments::Entry> OpenDocuments::all() {
 }
 
 bool OpenDocuments::is_shown(const std::string& document) const {
-  return std::ranges::any_of(tabs_, [&](const auto& tab) { return tab.second == document; });
+  return std::ranges::find(tabs_, document, &Tab::document) != tabs_.end();
 }
 
 // With `mutex_` locked: returns the entry behind it.

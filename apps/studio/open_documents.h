@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <list>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +18,10 @@ class OpenDocuments {
   // The largest number of open documents that no tab shows, and of all open documents. Beyond these, the
   // least recently used document is closed; a tab that shows it opens it anew.
   static constexpr std::size_t most_hidden = 1, most_open = 6;
+
+  // The largest number of tabs that are known. Beyond it, the tab that opened its document first is forgotten: a
+  // tab that has crashed does not report that it is closed.
+  static constexpr std::size_t most_tabs = 64;
 
   struct Entry {
     std::string document;
@@ -50,7 +53,14 @@ class OpenDocuments {
   std::vector<Entry> all();
 
  private:
+  // A tab, and the document that it shows.
+  struct Tab {
+    std::string name, document;
+    bool operator==(const Tab&) const = default;
+  };
+
   bool is_shown(const std::string& document) const;
+  void forget_tab(const std::string& tab);
   std::list<Entry>::iterator close(std::list<Entry>::iterator entry);
   void close_others();
   void forget_idle();
@@ -58,7 +68,7 @@ class OpenDocuments {
   std::function<void()> changed_;
   Mutex mutex_;
   std::list<Entry> entries_;
-  std::map<std::string, std::string> tabs_;       // by tab, the document that it shows
+  std::list<Tab> tabs_;                           // the one that opened its document last is first
   std::vector<std::shared_ptr<Engine>> closing_;  // whose cancelled work has yet to end
 };
 

@@ -294,6 +294,10 @@ test("keeps every document with its scan until it is removed, and says how much 
   assert.match(String(shown.body), /expected a document that no other tab shows/);
   await other.post("leave", {tab: "b"});
   assert.equal(await remove(ids[3]), 200);
+  await other.post("open", {input: inputs[4], tab: "crashed"});
+  assert.equal(await remove(ids[4]), 409);
+  for (let i = 0; i < 64; ++i) await other.post("open", {input: inputs[5], tab: `${i}`}); // as many as are known
+  assert.equal(await remove(ids[4]), 200);
   assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);
   for (const id of ["../address", "", "0123"]) assert.equal(await remove(id), 400);
   rmSync(inputs.at(-1).path);
