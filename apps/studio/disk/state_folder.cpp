@@ -51,7 +51,7 @@ std::string default_state_folder() {
 
 Result<StateFolder> take_state_folder(const std::string& chosen) {
   const std::string first = plain_path(chosen.empty() ? default_state_folder() : chosen);
-  std::string reason = "Another studio uses ";
+  std::string reason = "Another studio uses the folder";
   StateFolder folder;
   for (int i = 1; i <= most_studios; ++i) {
     folder.path = i == 1 ? first : cat(first, "-", i);
@@ -62,18 +62,20 @@ Result<StateFolder> take_state_folder(const std::string& chosen) {
         return option_error(
             "state",
             cat("expected an empty folder, or one of relievo studio, found other files in '", chosen, "'"));
-      reason = "Files of others are in ";
+      reason = "Files of others are in the folder";
     }
     if (found == Ownership::of_others) continue;
     if (found == Ownership::owned) folder.lock = lock_of(folder.path);
     if (folder.lock.is_open()) {
-      if (i > 1) folder.notice = cat(reason, first, ": this one keeps its work in ", folder.path, ".");
+      if (i == 1) return folder;
+      folder.notice = cat(reason, " in which a studio usually keeps its work: this one keeps its own work apart.");
+      folder.detail = cat("It does so in ", folder.path, ".");
       return folder;
     }
     if (found != Ownership::owned || errno != EWOULDBLOCK) break;
   }
-  folder.notice =
-      cat("Your work is not kept, as ", folder.path, " cannot be written to: ", std::strerror(errno), ".");
+  folder.detail = cat(folder.path, ": ", std::strerror(errno));
+  folder.notice = "Your work is not kept, as the studio's folder cannot be written to.";
   return folder;
 }
 

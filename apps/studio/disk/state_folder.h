@@ -9,7 +9,8 @@ namespace relievo::app::studio {
 
 struct StateFolder {
   std::string path;
-  std::string notice;    // what the user should know of it; usually empty
+  std::string notice;    // what the page tells its user of it, without a path; usually empty
+  std::string detail;    // what the terminal adds to the notice: the path
   bool is_ours = false;  // else nothing in it may be read, written or removed
   Descriptor lock{-1};   // no other studio has it while this is open
 };

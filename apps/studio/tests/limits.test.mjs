@@ -180,8 +180,8 @@ test("keeps apart what two studios keep, and says so", async () => {
   const first = await studioIn("shared"), second = await studioIn("shared");
   assert.equal((await first.about()).notice, "");
   const {notice} = await second.about();
-  assert.match(notice, /Another studio uses .*shared.* keeps its work in .*shared-2/);
-  assert.ok(second.errors.includes(notice), second.errors);
+  assert.match(notice, /^Another studio uses the folder .* this one keeps its own work apart\.$/);
+  assert.ok(second.errors.includes(`${notice} It does so in ${path.join(folder, "shared-2")}.`), second.errors);
   const kept = async (of) => (await of.kept({sample: "shell"})).from;
   const {document} = await first.json("document", {input: {sample: "shell"}});
   for (const [of, from] of [[first, "first"], [second, "second"]]) {
@@ -198,8 +198,9 @@ test("says when nothing can be kept, and works all the same", async () => {
   const file = path.join(folder, "file");
   writeFileSync(file, "");
   const other = await new EngineProcess(path.join(file, "state"), scan).ready();
-  assert.match((await other.about()).notice, /not kept, as .*file\/state cannot be written to: Not a directory/);
-  assert.match(other.errors, /cannot be written to/);
+  const {notice} = await other.about();
+  assert.equal(notice, "Your work is not kept, as the studio's folder cannot be written to.");
+  assert.ok(other.errors.includes(`${notice} ${path.join(file, "state")}: Not a directory`), other.errors);
   await other.open({path: scan});
   assert.equal((await other.post("frame", FRAME)).status, 200);
   const {status, body} = await other.post("state", {state: {}});
