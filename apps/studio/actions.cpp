@@ -159,25 +159,28 @@ Result<Answer> Actions::keep_picture(const Json& json) {
   return done();
 }
 
-Result<Answer> Actions::recent(const Json&) {
+Result<Answer> Actions::recent(const Json& json) {
+  const std::string after = json.value("after", "");
   const Lock lock(storing_);
-  return answer_of(Json{{"recent", recent_list()}});
+  return answer_of(Json{{"recent", recent_list(after)}});
 }
 
-// With `storing_` locked: the documents that are being opened come first, as they are not kept before their scan was read.
-Json Actions::recent_list() {
+// With `storing_` locked: see Store::recent(). The documents that are being opened come first, as they are not kept before
+// their scan was read.
+Json Actions::recent_list(const std::string& after) {
   Json list = Json::array();
   const auto opened = opened_.with([](const auto& all) { return all; });
   for (const OpenDocuments::Entry& entry : documents_.all()) {
     const auto found = opened.find(entry.document);
-    if (found == opened.end() || entry.engine->status().error || store_.document(entry.document) != "")
+    if (!after.empty() || found == opened.end() || entry.engine->status().error ||
+        store_.document(entry.document) != "")
       continue;
     list.push_back({{"document", entry.document},
                     {"input", to_json(found->second.input)},
                     {"is_there", true},
                     {"picture", ""}});
   }
-  for (const KeptDocument& kept : store_.recent())
+  for (const KeptDocument& kept : store_.recent(after))
     list.push_back({{"document", kept.id},
                     {"input", to_json(kept.input)},
                     {"is_there", kept.is_scan_there},

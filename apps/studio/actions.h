@@ -77,7 +77,7 @@ class Actions {
   Result<ScanSource> kept(const PackedFile& file);
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder);
-  nlohmann::json recent_list();
+  nlohmann::json recent_list(const std::string& after = {});
   Result<nlohmann::json> kept_state(const std::string& id) const;
   Result<double> time_of_newest(const std::string& id);
   Result<std::shared_ptr<Engine>> open_document(const ScanSource& input, const std::string& tab);

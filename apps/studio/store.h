@@ -64,8 +64,9 @@ class Store {
   // Makes a document the newest in the list.
   virtual void touch(const std::string& id) = 0;
 
-  // Returns the documents that were opened or changed last, the newest first.
-  virtual std::vector<KeptDocument> recent() const = 0;
+  // Returns the most_recent documents that were opened or changed last, the newest first; if `after` is not
+  // empty, those that follow that document in this order.
+  virtual std::vector<KeptDocument> recent(const std::string& after) const = 0;
 
   // Returns the number and size of all documents. They are kept until they are removed.
   virtual KeptAmount amount() const = 0;

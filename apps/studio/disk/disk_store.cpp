@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <utility>
 
 #include "common/files.h"
 #include "common/temporary_file.h"
@@ -168,10 +169,12 @@ std::vector<std::string> DiskStore::newest_documents() const {
   return ids;
 }
 
-std::vector<KeptDocument> DiskStore::recent() const {
+std::vector<KeptDocument> DiskStore::recent(const std::string& after) const {
   std::vector<KeptDocument> all;
+  bool is_before = !after.empty();
   for (const std::string& id : newest_documents()) {
     if (all.size() == most_recent) break;
+    if (std::exchange(is_before, is_before && id != after)) continue;
     const std::optional<ScanSource> input = input_of(document(id).value_or(""));
     if (!input) continue;
     std::error_code ignored;

@@ -33,7 +33,7 @@ class DiskStore final : public Store {
   Result<void> keep_document(const std::string& id, std::string_view state, bool is_moving) override;
   Result<void> keep_picture(const std::string& id, std::string_view picture) override;
   void touch(const std::string& id) override;
-  std::vector<KeptDocument> recent() const override;
+  std::vector<KeptDocument> recent(const std::string& after) const override;
   KeptAmount amount() const override;
   Result<void> remove(const std::string& id) override;
   std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const override;

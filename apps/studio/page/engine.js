@@ -105,8 +105,8 @@ export class Engine {
     return this.#ask("cancel_piece");
   }
 
-  // Returns {document, input, is_there, picture} of the documents that were changed last.
-  recent = async () => (await this.#ask("recent")).recent;
+  // Returns {document, input, is_there, picture} of the documents that were changed last, or of those before `after`.
+  recent = async (after = "") => (await this.#ask("recent", {after})).recent;
   // Returns {documents, bytes} of all that is kept until it is removed.
   kept = () => this.#ask("kept");
   remove = (document) => this.#ask("remove", {document, tab: TAB});

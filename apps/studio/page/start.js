@@ -27,8 +27,16 @@ export class Shelf {
   async show() {
     const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.canRemove && engine.kept()]);
     $("#recent-shelf").hidden = recent.length === 0;
-    $("#recent").replaceChildren(...recent.map((entry) => this.card(entry)));
-    $("#kept").textContent = kept ? inTotal(kept, recent.length) : "";
+    $("#recent").replaceChildren();
+    this.add(recent, kept);
+  }
+
+  add(entries, kept) {
+    $("#recent").append(...entries.map((entry) => this.card(entry)));
+    const shown = $("#recent").children.length, isMore = kept && entries.length > 0 && kept.documents > shown;
+    $("#kept").textContent = kept ? inTotal(kept, shown) : "";
+    $("#older").hidden = !isMore;
+    $("#older").onclick = async () => this.add(await this.engine.recent(entries.at(-1).document), kept);
   }
 
   card({document, input, picture, is_there: isThere}) {

@@ -305,6 +305,23 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
   await other.stop();
 });
 
+test("shows older work, too, than the newest with which the start page begins", async () => {
+  const other = await new EngineProcess(path.join(folder, "older")).ready(), tab = await context.newPage();
+  for (let i = 0; i < 30; ++i) {
+    const input = {path: path.join(folder, `${i}.ply`)}, {document} = await other.json("document", {input});
+    await other.post("state", {document, state: {at: 0, steps: [{input}], changed: 1}, tab: "test"});
+  }
+  await tab.goto(other.address);
+  await tab.getByText(/^The work on 30 scans is kept .* The newest 24 are shown\.$/).waitFor();
+  await button("Show older work", tab).click();
+  await soon.equal(() => shelf(tab).getByRole("listitem").count(), 30);
+  const numbers = (names) => names.map((name) => parseInt(name.textContent));
+  assert.deepEqual(await shelf(tab).locator("span").evaluateAll(numbers), [...Array(30).keys()].reverse());
+  await soon.ok(() => button("Show older work", tab).isHidden());
+  await tab.close();
+  await other.stop();
+});
+
 test("removes what is kept, also what it shows", async () => {
   const other = await new EngineProcess(path.join(folder, "removes")).ready(), tab = await context.newPage();
   await tab.goto(other.address);

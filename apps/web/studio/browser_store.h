@@ -16,7 +16,7 @@ class BrowserStore final : public studio::Store {
   Result<void> keep_document(const std::string&, std::string_view, bool) override { return {}; }
   Result<void> keep_picture(const std::string&, std::string_view) override { return {}; }
   void touch(const std::string&) override {}
-  std::vector<studio::KeptDocument> recent() const override { return {}; }
+  std::vector<studio::KeptDocument> recent(const std::string&) const override { return {}; }
   studio::KeptAmount amount() const override { return {}; }
   Result<void> remove(const std::string&) override { return {}; }
   std::unique_ptr<studio::DroppedScan> begin_scan(const std::string& name) const override;
