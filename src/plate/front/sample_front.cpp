@@ -175,6 +175,7 @@ class Sampler {
       is_left[i] = is_fixed_[i] || band_points_.add(plane(i), least);
     const auto is_kept = [&](std::size_t i) { return is_left[i] != 0; };
     keep_where(out_.points, is_kept), keep_where(slopes_, is_kept), keep_where(out_.colours, is_kept);
+    keep_where(is_fixed_, is_kept);
   }
 
   bool is_open(int x, int y) const {
