@@ -114,6 +114,21 @@ TEST(SupportPlane, IsLeftOutWithItsRidges) {
   for (const Vec3& p : without.points) EXPECT_NEAR((p - centre).norm(), 1, .06);
 }
 
+// A small ball beside the sphere is seen with the table, and is debris without it; one with enough points is a figure.
+TEST(SupportPlane, IsLeftOutWithDebris) {
+  const Vec3 normal = tilted(50), place = 1.7 * Vec3::UnitX() + .5 * normal;
+  for (const std::size_t points : {500, 4000}) {
+    Cloud cloud = sphere_before(normal);
+    for (const Vec3& p : test::sphere(points, .1).points) test::add(cloud, place + p, p.normalized());
+    const auto is_seen = [&](const Surface& surface) {
+      return std::ranges::any_of(surface.points,
+                                 [&](const Vec3& p) { return (p + surface.centre - place).norm() < .11; });
+    };
+    EXPECT_TRUE(is_seen(surface_of(cloud))) << points;
+    EXPECT_EQ(is_seen(surface_of(cloud, false)), points == 4000) << points;
+  }
+}
+
 TEST(SupportPlane, LeavesThePointsOfTheFigureThatStandOnIt) {
   SupportPlane plane{PlaneKind::table, Vec3::UnitY(), 0, .1, .5};
   EXPECT_TRUE(plane.takes({0, .05, 0}, Vec3f(0, 1, 0)));
