@@ -144,7 +144,7 @@ for (const place of ["from disk", "from a server"])
     await page.click("#export");
     await page.untilSaid("triangles");
     await page.click("#export-go");
-    const solid = admesh(await downloaded(folder, "shell.stl"));
+    const solid = admesh(await page.saved("shell.stl"));
     assert.ok(Math.abs(solid.height - 5.5) < 1e-5, `${solid.height} mm`);
     assert.deepEqual([solid.parts, solid.repairs], [1, 0]);
     await page.reload();

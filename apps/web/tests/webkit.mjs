@@ -22,6 +22,7 @@ export class WebKitPage {
       env: {...process.env, HOME: folder, XDG_CONFIG_HOME: folder}, stdio: "ignore", detached: true,
     });
     const page = new WebKitPage();
+    page.folder = folder;
     t.after(async () => {
       await page.#command("DELETE", "").catch(() => {}); // without a session when it did not begin
       process.kill(-driver.pid);
@@ -70,5 +71,16 @@ export class WebKitPage {
 
   untilSaid(pattern) {
     return eventually(() => this.run("return new RegExp(arguments[0]).test(document.body.innerText)", pattern), 120);
+  }
+
+  // Waits for a file that the page saves until it no longer grows. Returns its path.
+  saved(name) {
+    const file = path.join(this.folder, name);
+    let size = 0;
+    return eventually(() => {
+      const before = size;
+      size = fs.existsSync(file) ? fs.statSync(file).size : 0;
+      return size > 0 && size === before && file;
+    });
   }
 }
