@@ -23,23 +23,36 @@ def run_with_fault(place, kind, chance, command, name):
     elif kind == "read":
         faults.arm(Faults.READS, chance.randint(1, most[6]), chance.choice([1, 10**9]))
     process = place.start(command, {})
-    if kind in ("kill", "folder gone", "clock"):
+    if kind == "kill" and chance.random() < 0.5:  # while outputs are written, or at any time
+        while process.poll() is None and not place.is_writing():
+            time.sleep(0.003)
+        time.sleep(chance.uniform(0, 0.02))
+    elif kind in ("kill", "folder gone", "clock"):
         time.sleep(chance.uniform(0, most["seconds"]))
     was_running = process.poll() is None
     if kind == "kill":
-        process.send_signal(chance.choice(SIGNALS))
-    elif kind == "folder gone":
+        return end_by_signal(process, chance.choice(SIGNALS), was_running)
+    if kind == "folder gone":
         shutil.rmtree(place.out, ignore_errors=True)
     elif kind == "clock":
         faults[Faults.CLOCK] = chance.choice([-1, 1]) * chance.randint(1, 10**9)
     code, _, errors = finish(process)
-    return code, errors, faults.disarm() or (was_running and kind in ("kill", "folder gone", "clock")) or (kind == "full disk" and code != 0)
+    return code, errors, faults.disarm() or (was_running and kind in ("folder gone", "clock")) or (kind == "full disk" and code != 0)
+
+
+def end_by_signal(process, number, was_running):
+    """Returns the same; the program must end at once, say nothing, and let a shell see the signal's exit code."""
+    process.send_signal(number)
+    sent = time.monotonic()
+    code, _, errors = finish(process)
+    require(code in (0, -number) and not errors, "after signal", number, "exit code", code, errors[:2000])
+    require(code == 0 or time.monotonic() - sent < 5, "signal", number, "ended it after", time.monotonic() - sent, "s")
+    return code, errors, was_running
 
 
 def check_end(kind, code, errors):
     """Requires that a program ended as its user may expect."""
-    ends = (0, 1) + tuple(-number for number in SIGNALS if kind == "kill")
-    require(code in ends, "exit code", code, errors[:2000])
+    require(code in (0, 1) or kind == "kill", "exit code", code, errors[:2000])
     lines = errors.splitlines()
     require(code != 1 or len(lines) >= 1, "no message")
     require(all(line.startswith("relievo: ") for line in lines), "other lines than messages:", errors[:2000])
@@ -57,6 +70,7 @@ def make(workshop, kind, chance, number):
         code, errors, has_hit = run_with_fault(place, kind, chance, make_command(place, chance.choice([1, 2])), "make")
         lines = check_end(kind, code, errors)
         require(len(lines) <= 1, "more than one line:", errors[:2000])
+        require(kind != "allocation" or code == 0 or "expected more free memory" in errors, "another message:", errors)
         if kind == "folder gone":
             return has_hit
         place.check_foreign_files()
@@ -65,6 +79,9 @@ def make(workshop, kind, chance, number):
             require(made.get(name) in (b"old", whole[name]), name, "is neither old nor whole")
             require(code != 0 or made[name] == whole[name], name, "is not new, and the exit code 0")
         require(code == -signal.SIGKILL or not temporaries(place.out), "left", temporaries(place.out))
+        if code == -signal.SIGKILL:
+            code, _, errors = finish(place.start(make_command(place), {}))
+            require(code == 0 and not temporaries(place.out), "the next run left", temporaries(place.out), code, errors)
         return has_hit
 
 

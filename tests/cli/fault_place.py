@@ -151,6 +151,17 @@ class Place:
         self.groups.append(process.pid)
         return process
 
+    def is_writing(self):
+        """Returns whether a process has a temporary file of the outputs open."""
+        for process in (process for group in self.groups for process in processes_of(group)):
+            try:
+                files = [os.readlink(file) for file in Path(f"/proc/{process}/fd").iterdir()]
+            except OSError:
+                continue  # it has ended
+            if any(file.startswith((f"{self.out}/#", f"{self.out}/a.")) for file in files):
+                return True
+        return False
+
     def make_disk(self, path, kilobytes):
         path.mkdir(exist_ok=True)
         made = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "none", path], capture_output=True, check=False)
