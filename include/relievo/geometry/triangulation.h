@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "relievo/core/types.h"
@@ -30,11 +29,5 @@ struct Triangulation {
 // Time: O(n log n) for scans, grids and clusters; 340k random points take 0.13 s, a regular grid 0.4 s.
 // Memory: about 150 bytes per point.
 Triangulation delaunay(std::span<const Vec2> points);
-
-// Returns the first fault of a triangulation of `points`, or an empty string. It checks exactly the
-// orientation, the neighbour links, the empty circle across every edge, the hull, and which points are used.
-// Together these prove all that delaunay() promises. For tests and bug reports; `triangulation` may contain
-// any numbers.
-std::string check_delaunay(std::span<const Vec2> points, const Triangulation& triangulation);
 
 }  // namespace relievo
