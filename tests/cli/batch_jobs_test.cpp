@@ -39,13 +39,8 @@ TEST(BatchTable, ReadsSemicolonsAndTabs) {
 
 TEST(BatchTable, RefusesWhatIsNoTable) {
   const auto error_of = [](std::string_view text) { return read_table(text, "t.csv").error().message(); };
-  EXPECT_EQ(error_of("file,file\n"),
-            "t.csv, line 1: expected columns of different names, found 'file' twice");
-  EXPECT_EQ(error_of("file,\n"), "t.csv, line 1: expected a name for each column, found none");
   EXPECT_EQ(error_of("file\na.ply\nb.ply,4\n"),
             "t.csv, line 3: expected 1 cells as in the first row, found 2");
-  EXPECT_EQ(error_of("file\n\"a.ply"),
-            "t.csv, line 2: expected a second quotation mark after the first, found none");
 }
 
 class BatchJobs : public CliFolder {
@@ -109,11 +104,8 @@ TEST_F(BatchJobs, AreTheRowsOfATable) {
 }
 
 TEST_F(BatchJobs, NameWhatIsWrongInATable) {
-  EXPECT_NE(error_of("view\nleft\n").find("expected a column 'file'"), std::string::npos);
   EXPECT_NE(error_of("file,hight\na.ply,3\n").find("found 'hight'"), std::string::npos);
-  EXPECT_NE(error_of("file,view\n,left\n").find("line 2: expected a file"), std::string::npos);
   EXPECT_NE(error_of("file,name\na.ply,x\nb.ply,x\n").find("line 3"), std::string::npos);
-  EXPECT_NE(error_of("file,name\na.ply,../x\n").find("inside the folder"), std::string::npos);
   EXPECT_NE(error_of("file\n").find("expected scans, found none"), std::string::npos);
 }
 

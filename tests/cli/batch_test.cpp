@@ -15,6 +15,13 @@ namespace {
 using namespace test;
 using namespace app::batch;
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 // A workshop whose outputs are made at once. The solid's content is the arguments.
 class BatchRun : public CliFolder {
  protected:
@@ -144,9 +151,9 @@ TEST_F(BatchRun, LocksItsFolder) {
 TEST_F(BatchRun, WritesOneLinePerJobAndThePages) {
   run_jobs();
   ASSERT_TRUE(finish(jobs_, read_journals(workshop_.outputs), workshop_));
-  std::istringstream lines(read_all(folder_ / "out/scans.jsonl"));
   std::vector<std::string> status;
-  for (std::string line; std::getline(lines, line);) status.push_back(nlohmann::json::parse(line)["status"]);
+  for (const std::string& line : lines_of(read_all(folder_ / "out/scans.jsonl")))
+    status.push_back(nlohmann::json::parse(line)["status"]);
   EXPECT_EQ(status, (std::vector<std::string>{"made", "made", "failed", "failed"}));
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
   EXPECT_TRUE(fs::exists(folder_ / "out/contact-sheet.png"));
@@ -161,12 +168,23 @@ class BatchProgram : public CliFolder {
     CliFolder::SetUp();
     fs::create_directories(folder_ / "scans");
     fs::remove(folder_ / "torus.ply");
-    for (int i = 1; i <= 3; ++i) {
-      const std::vector<std::byte> bytes = write_ply(torus(1500, 1, .2 + .1 * i));
-      write_all(folder_ / "scans" / (std::to_string(i) + ".ply"),
-                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    }
+    for (int i = 1; i <= 3; ++i)
+      write_all(folder_ / cat("scans/", i, ".ply"), write_ply(torus(1500, 1, .2 + .1 * i)));
     write_all(folder_ / "scans/bad.ply", "ply\nformat ascii 1.0\n");
+  }
+
+  // Returns the lines of jobs that --list prints.
+  std::vector<std::string> listed(const std::string& options = "") const {
+    const Outcome list = run(cat("batch scans -o out --list ", options, quick));
+    EXPECT_EQ(list.exit_code, 0) << list.err;
+    return lines_of(list.out);
+  }
+
+  // Returns the command that does these jobs one after the other.
+  static std::string command_for(const std::vector<std::string>& jobs) {
+    std::string command = "batch -o out";
+    for (const std::string& job : jobs) command += cat(" --job '", job, "'");
+    return command;
   }
 
   static constexpr const char* quick = " --method linear --height 2 --width 30 --resolution 1.5 --denoise 0 ";
@@ -191,11 +209,8 @@ TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
   EXPECT_EQ(run(cat("batch scans -o out --shard 1/2", quick)).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "out/3.stl"));
   EXPECT_FALSE(fs::exists(folder_ / "out/2.stl"));
-  const Outcome list = run(cat("batch scans -o out --list", quick));
-  ASSERT_EQ(list.exit_code, 0) << list.err;
-  std::istringstream lines(list.out);
-  for (std::string line; std::getline(lines, line);) {
-    const Outcome job = run("batch -o out --job '" + line + "'");
+  for (const std::string& line : listed()) {
+    const Outcome job = run(command_for({line}));
     EXPECT_EQ(job.exit_code, 0) << job.err;
     const auto record = nlohmann::json::parse(job.out);
     EXPECT_EQ(record["is_kept"], record["name"] != "2") << job.out;
@@ -206,16 +221,10 @@ TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
 
 // A program that hands scans to workers saves starts of programs, and a bad scan must not keep the others from being made.
 TEST_F(BatchProgram, DoesSeveralJobsInTurn) {
-  const Outcome list = run(cat("batch scans -o out --list", quick));
-  ASSERT_EQ(list.exit_code, 0) << list.err;
-  std::string command = "batch -o out";
-  std::istringstream listed(list.out);
-  for (std::string line; std::getline(listed, line);) command += cat(" --job '", line, "'");
-  const Outcome jobs = run(command);
+  const Outcome jobs = run(command_for(listed()));
   EXPECT_EQ(jobs.exit_code, 1);
   std::map<std::string, std::string> status;
-  std::istringstream records(jobs.out);
-  for (std::string line; std::getline(records, line);) {
+  for (const std::string& line : lines_of(jobs.out)) {
     const auto record = nlohmann::json::parse(line);
     status[record["name"]] = record["status"];
   }
@@ -226,13 +235,8 @@ TEST_F(BatchProgram, DoesSeveralJobsInTurn) {
 }
 
 TEST_F(BatchProgram, EndsAfterTheJobWhoseRecordNobodyTakes) {
-  const Outcome list = run(cat("batch scans -o out --list --match ?.ply", quick));
-  ASSERT_EQ(list.exit_code, 0) << list.err;
-  std::string command = "batch -o out";
-  std::istringstream listed(list.out);
-  for (std::string line; std::getline(listed, line);) command += cat(" --job '", line, "'");
-  const std::string script =
-      cat("cd '", folder_.string(), "'; '" RELIEVO_CLI "' ", command, " > /dev/full 2> error");
+  const std::string script = cat("cd '", folder_.string(), "'; '" RELIEVO_CLI "' ",
+                                 command_for(listed("--match ?.ply")), " > /dev/full 2> error");
   EXPECT_NE(std::system(script.c_str()), 0);
   EXPECT_NE(read_all(folder_ / "error").find("expected a reader of records"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out/1.stl"));
@@ -240,10 +244,7 @@ TEST_F(BatchProgram, EndsAfterTheJobWhoseRecordNobodyTakes) {
 }
 
 TEST_F(BatchProgram, MakesAJobOnceThatTwoProcessesGet) {
-  const Outcome list = run(cat("batch scans -o out --list --match 1.ply", quick));
-  ASSERT_EQ(list.exit_code, 0) << list.err;
-  write_all(folder_ / "line", list.out);
-  const std::string job = "'" RELIEVO_CLI "' batch -o out --job \"$(cat line)\"";
+  const std::string job = cat("'" RELIEVO_CLI "' ", command_for(listed("--match 1.ply")));
   const std::string script = cat("cd '", folder_.string(), "'; ", job, " > a & ", job, " > b; wait");
   ASSERT_EQ(std::system(script.c_str()), 0);
   const auto is_kept = [&](const char* name) -> bool {
@@ -259,16 +260,6 @@ TEST_F(BatchProgram, TakesOptionsOfEachRow) {
   EXPECT_NEAR(nlohmann::json::parse(read_all(folder_ / "out/inch.json"))["height_mm"].get<double>(), 25.4,
               .1);
   EXPECT_NE(read_all(folder_ / "out/scans.jsonl").find("no number"), std::string::npos);
-}
-
-TEST_F(BatchProgram, RefusesMisuse) {
-  expect_refusal("batch", "expected a folder or a table");
-  expect_refusal("batch scans", "expected a folder");
-  expect_refusal("batch scans -o out --height none", "--height");
-  EXPECT_EQ(run("batch scans -o out --shard 3/2").exit_code, 2);
-  EXPECT_EQ(run("batch scans -o out --files jpg").exit_code, 2);
-  expect_refusal("batch scans -o scans", "another folder than that of the outputs");
-  expect_refusal("batch gone -o out", "a folder or a table");
 }
 
 }  // namespace

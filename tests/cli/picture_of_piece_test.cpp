@@ -2,16 +2,17 @@
 // that is drawn from nothing but the triangles.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "common/export_file.h"
 #include "common/project.h"
+#include "quality/image_measures.h"
 #include "relievo/make_relief.h"
 #include "relievo/samples/sample.h"
 #include "studio/drawing.h"
+#include "support/picture_similarity.h"
 #include "support/read_solid.h"
 #include "support/second_renderer.h"
 
@@ -27,59 +28,16 @@ std::shared_ptr<const ReliefModel> model() {
 }
 
 // Returns a solid of the triangles in a file. Those that face up are the front.
-Solid solid_of(const test::ReadSolid& file, double ground_mm) {
-  Solid solid;
+Solid solid_with_front(const test::ReadSolid& file, double ground_mm) {
+  Solid solid = test::solid_of(file);
   solid.ground_mm = ground_mm;
-  std::map<std::array<float, 3>, Index> numbers;
-  const auto number = [&](const Vec3f& p) {
-    const auto [at, is_new] =
-        numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(solid.points.size()));
-    if (is_new) solid.points.push_back(p.cast<double>());
-    return at->second;
+  const auto is_up = [&](const Triangle& t) {
+    const Vec3 &a = solid.points[t[0]], &b = solid.points[t[1]], &c = solid.points[t[2]];
+    return (b - a).cross(c - a).normalized().z() > 1e-3;
   };
-  std::vector<Triangle> others;
-  for (const auto& [a, b, c] : file.triangles) {
-    const Triangle t{number(a), number(b), number(c)};
-    const bool is_up = (b - a).cross(c - a).normalized().z() > 1e-3F;
-    (is_up ? solid.triangles : others).push_back(t);
-  }
-  solid.front_triangles = solid.triangles.size();
-  solid.triangles.insert(solid.triangles.end(), others.begin(), others.end());
+  const auto others = std::ranges::stable_partition(solid.triangles, is_up);
+  solid.front_triangles = solid.triangles.size() - others.size();
   return solid;
-}
-
-// The green of a picture on a grey ground.
-Image<float> green_of(const Image8& image) {
-  Image<float> green = filled_image(image.width, image.height, 0.F);
-  for (std::size_t i = 0; i < green.pixels.size(); ++i) {
-    const float opacity = image.pixels[4 * i + 3] / 255.F;
-    green.pixels[i] = opacity * image.pixels[4 * i + 1] + (1 - opacity) * 200;
-  }
-  return green;
-}
-
-// Returns the mean structural similarity (Wang et al. 2004) of two pictures, in windows of 8 x 8 pixels.
-double similarity(const Image8& picture, const Image8& other) {
-  constexpr int side = 8;
-  constexpr double c1 = .01 * 255 * .01 * 255, c2 = .03 * 255 * .03 * 255;
-  const Image<float> a = green_of(picture), b = green_of(other);
-  if (a.width != b.width || a.height != b.height) return 0;
-  double sum = 0;
-  int windows = 0;
-  for (int top = 0; top + side <= a.height; top += side / 2)
-    for (int left = 0; left + side <= a.width; left += side / 2, ++windows) {
-      double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-      for (int y = top; y < top + side; ++y)
-        for (int x = left; x < left + side; ++x) {
-          const double p = static_cast<double>(a.at(x, y)), q = static_cast<double>(b.at(x, y));
-          ma += p, mb += q, aa += p * p, bb += q * q, ab += p * q;
-        }
-      constexpr double n = side * side;
-      ma /= n, mb /= n;
-      const double va = aa / n - ma * ma, vb = bb / n - mb * mb, both = ab / n - ma * mb;
-      sum += (2 * ma * mb + c1) * (2 * both + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
-    }
-  return sum / windows;
 }
 
 // A height map of a hill beside a hollow.
@@ -109,30 +67,23 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
-// Pearson's correlation.
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto n = static_cast<double>(a.size());
-  double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sa += a[i], sb += b[i], saa += a[i] * a[i], sbb += b[i] * b[i], sab += a[i] * b[i];
-  return (n * sab - sa * sb) / std::sqrt((n * saa - sa * sa) * (n * sbb - sb * sb));
-}
-
 // Returns the correlation of the picture's green with the cosines where the piece is, and expects that it is drawn there
 // and nowhere else, but for pixels of its outline.
 double agreement(const Image8& picture, const Image<double>& cosines) {
-  std::vector<double> drawn, expected;
+  Image<float> drawn = filled_image(picture.width, picture.height, 0.F), expected = drawn;
+  PixelMask both;
   int beside = 0;
   for (std::size_t i = 0; i < cosines.pixels.size(); ++i) {
     const bool is_there = !std::isnan(cosines.pixels[i]), is_drawn = picture.pixels[4 * i + 3] > 250;
     beside += is_there != is_drawn;
     if (!is_there || !is_drawn) continue;
-    drawn.push_back(picture.pixels[4 * i + 1]);
-    expected.push_back(cosines.pixels[i]);
+    both.pixels.push_back(static_cast<Index>(i));
+    drawn[i] = picture.pixels[4 * i + 1];
+    expected[i] = static_cast<float>(cosines.pixels[i]);
   }
-  EXPECT_GT(drawn.size(), cosines.pixels.size() / 10);
-  EXPECT_LT(beside, .01 * static_cast<double>(drawn.size()));
-  return correlation(drawn, expected);
+  EXPECT_GT(both.pixels.size(), cosines.pixels.size() / 10);
+  EXPECT_LT(beside, .01 * static_cast<double>(both.pixels.size()));
+  return correlation(drawn, expected, both);
 }
 
 // Expects that without shadows the piece is as bright as the angle between surface and lamp says, by another renderer,
@@ -185,15 +136,15 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   const std::string bytes = app::export_file(*made, **app::find_format("stl"), {}).bytes;
   const test::ReadSolid triangles = test::solid_in_stl(bytes);
   expect_lit_piece(triangles, made->solid.ground_mm, drawing, request);
-  const auto solid = std::make_shared<const Solid>(solid_of(triangles, made->solid.ground_mm));
+  const auto solid = std::make_shared<const Solid>(solid_with_front(triangles, made->solid.ground_mm));
   Picture file;
   SolidRenderer(solid).render(request.render, file);
-  EXPECT_GT(similarity(shown->picture.image, file.image), .98);
+  EXPECT_GT(test::structural_similarity(shown->picture.image, file.image), .97);
 
   // The comparison detects another picture: one that is 2 % smaller.
   request.render.camera.zoom = .98;
   SolidRenderer(solid).render(request.render, file);
-  EXPECT_LT(similarity(shown->picture.image, file.image), .98);
+  EXPECT_LT(test::structural_similarity(shown->picture.image, file.image), .85);
 }
 
 INSTANTIATE_TEST_SUITE_P(

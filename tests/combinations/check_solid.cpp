@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 #include "relievo/io/read.h"
 #include "support/read_solid.h"
@@ -15,24 +14,6 @@ namespace {
 std::string bytes_of(const char* path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// Joins corners of equal coordinates.
-Solid joined(const ReadSolid& read) {
-  Solid solid;
-  std::map<std::array<float, 3>, Index> numbers;
-  for (const auto& corners : read.triangles) {
-    Triangle t{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3f& p = corners[i];
-      const auto [at, is_new] =
-          numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(solid.points.size()));
-      if (is_new) solid.points.emplace_back(p.cast<double>());
-      t[i] = at->second;
-    }
-    solid.triangles.push_back(t);
-  }
-  return solid;
 }
 
 // The triangles that face +Z, and their box.
@@ -116,7 +97,7 @@ std::string difference(const Solid& solid, const char* path) {
 
 int run(int argc, char** argv) {
   if (argc < 2) return std::fprintf(stderr, "usage: check_solid SOLID.stl [MAP]\n"), 2;
-  const Solid solid = joined(solid_in_stl(bytes_of(argv[1])));
+  const Solid solid = solid_of(solid_in_stl(bytes_of(argv[1])));
   std::string wrong = check_solid(solid);
   for (const std::string& more :
        {self_intersections(solid), argc > 2 ? difference(solid, argv[2]) : std::string()})

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include "relievo/io/read.h"
@@ -29,6 +30,18 @@ inline void write_all(const fs::path& path, std::string_view text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
+inline void write_all(const fs::path& path, std::span<const std::byte> bytes) {
+  write_all(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+// The line of a listing that begins with `label`, without it and the spaces after it.
+inline std::string line_of(const std::string& listing, const std::string& label) {
+  const std::size_t at = ("\n" + listing).find("\n" + label + " ");
+  if (at == std::string::npos) return {};
+  const std::string line = listing.substr(at, listing.find('\n', at) - at);
+  return line.substr(line.find_first_not_of(' ', label.size()));
+}
+
 struct Outcome {
   int exit_code = 0;
   std::string out, err;
@@ -40,8 +53,7 @@ class CliFolder : public testing::Test {
     std::string name = fs::temp_directory_path() / "relievo-cli-XXXXXX";
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     folder_ = name;
-    const std::vector<std::byte> bytes = write_ply(torus(20000, 1, .4));
-    write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    write_all(folder_ / "torus.ply", write_ply(torus(20000, 1, .4)));
   }
   void TearDown() override {
     fs::permissions(folder_, fs::perms::owner_all);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "relievo/core/types.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo::test {
 
@@ -50,6 +51,24 @@ struct ReadSolid {
     return !triangles.empty();
   }
 };
+
+// Joins corners of equal coordinates.
+inline Solid solid_of(const ReadSolid& read) {
+  Solid solid;
+  std::map<std::array<float, 3>, Index> numbers;
+  for (const auto& corners : read.triangles) {
+    Triangle t{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3f& p = corners[i];
+      const auto [at, is_new] =
+          numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(solid.points.size()));
+      if (is_new) solid.points.emplace_back(p.cast<double>());
+      t[i] = at->second;
+    }
+    solid.triangles.push_back(t);
+  }
+  return solid;
+}
 
 template <typename T>
 T value_at(std::string_view bytes, std::size_t at) {
