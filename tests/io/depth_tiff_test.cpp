@@ -1,11 +1,14 @@
 // TIFF pictures of every kind of number, as cameras, terrain models and microscopes write them.
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "relievo/scan/depth_image.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
@@ -69,6 +72,20 @@ std::string pixels_of(MakeNumber&& number) {
   std::string pixels;
   for (int i = 0; i < width * height; ++i) pixels += raw(number(i));
   return pixels;
+}
+
+std::string whole_tiff() {
+  return tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
+}
+
+// A file in which these fields, counted from 0, have another value.
+std::string with_field(std::string file, std::initializer_list<std::size_t> fields, std::uint32_t value) {
+  for (const std::size_t i : fields) file = patched(file, 10 + 12 * i + 8, value);
+  return file;
+}
+
+std::string tiff_message(const std::string& file) {
+  return message_of(read_depth_image(bytes_of(file), "d.tif"));
 }
 
 // Expects that pixel i of the picture has the value expected(i).
@@ -217,6 +234,9 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
   EXPECT_EQ(message({48, 1}), numbers + "48-bit whole numbers");
   EXPECT_EQ(message({24, 3}), numbers + "24-bit fractions");
   EXPECT_EQ(message({64, 6}), numbers + "64-bit complex numbers");
+  const std::string pixels = "d.tif: expected at most 134217728 pixels, found ";
+  EXPECT_TRUE(tiff_message(with_field(whole_tiff(), {0}, 1U << 30)).starts_with(pixels));
+  EXPECT_EQ(tiff_message(with_field(whole_tiff(), {1, 7}, 1U << 26)), pixels + "335544320");
 }
 
 // A picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16. Tiles at its sides are cut. The number
@@ -250,15 +270,13 @@ TEST(DepthTiff, ReadsTiles) {
       ASSERT_EQ(image.values.at(x, y), static_cast<float>(100 * y + x)) << x << ", " << y;
 }
 
-std::string tiff_message(const std::string& file) {
-  return message_of(read_depth_image(bytes_of(file), "d.tif"));
-}
-
 TEST(DepthTiff, CutFilesAreNamedWithThePlace) {
-  const std::string whole = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
+  const std::string whole = whole_tiff();
   EXPECT_EQ(tiff_message(whole.substr(0, whole.size() - 10)),
             cat("d.tif, strip 0: expected 40 bytes from byte ", whole.size() - 40,
                 " on, found 30; the file is cut, get it anew"));
+  EXPECT_EQ(tiff_message(with_field(whole, {5}, 99999)),
+            "d.tif, strip 0: expected 40 bytes from byte 99999 on, found 0; the file is cut, get it anew");
   EXPECT_EQ(tiff_message(tiled_tiff(16).substr(0, tiled_tiff(16).size() - 1)),
             cat("d.tif, tile 5: expected 512 bytes from byte ", tiled_tiff(16).size() - 512,
                 " on, found 511; the file is cut, get it anew"));
@@ -274,16 +292,43 @@ TEST(DepthTiff, CutFilesAreNamedWithThePlace) {
 }
 
 TEST(DepthTiff, SaysWhatLibtiffSays) {
-  const std::string whole = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
-  const std::string packed = patched(whole, whole.find(raw(std::uint16_t{259})) + 8, std::uint16_t{5});
-  for (const auto& [file, place] :
-       {std::pair{whole.substr(0, 60), "byte 8"}, {packed, "strip 0"}, {tiled_tiff(0), "byte 8"}}) {
+  const std::string whole = whole_tiff();
+  for (const auto& [file, place] : {std::pair{whole.substr(0, 6), "byte 0"},
+                                    {whole.substr(0, 60), "byte 8"},
+                                    {with_field(whole, {0}, 0), "byte 8"},
+                                    {with_field(whole, {3}, 5), "strip 0"},
+                                    {with_field(whole, {3}, 60000), "strip 0"},
+                                    {tiled_tiff(0), "byte 8"}}) {
     const std::string message = tiff_message(file),
                       begin = cat("d.tif, ", place, ": expected the data of a TIFF picture; libtiff says: ");
     EXPECT_TRUE(message.starts_with(begin) && message.size() > begin.size()) << message;
     EXPECT_EQ(message.find("picture: "), std::string::npos) << message;
     EXPECT_FALSE(message.ends_with("...")) << message;
   }
+}
+
+TEST(DepthTiff, AnyDamageToItOrAPngGivesAnAnswer) {
+  const std::vector<std::string> files = {
+      as_string(write_png(Image16{5, 4, 1, std::vector<std::uint16_t>(20, 3001)})), whole_tiff(),
+      as_string(write_tiff({{5, 4, 1, std::vector<float>(20, 1)}, .1}))};
+  for (const std::string& file : files) {
+    for (std::size_t size = 0; size < file.size(); ++size) (void)tiff_message(file.substr(0, size));
+    for (std::size_t at = 0; at < file.size(); ++at)
+      for (const auto byte : std::array<std::uint8_t, 3>{0x00, 0x7F, 0xFF}) {
+        const auto image = read_depth_image(bytes_of(patched(file, at, byte)), "d.tif");
+        if (image) {
+          EXPECT_EQ(image->values.size(), image->values.index(0, image->values.height));
+        }
+      }
+  }
+  ASSERT_TRUE(rc::check([&] {
+    std::string text = *rc::gen::elementOf(files);
+    const int edits = *rc::gen::inRange(1, 5);
+    for (int i = 0; i < edits; ++i)
+      text[*rc::gen::inRange<std::size_t>(0, text.size())] = *rc::gen::arbitrary<char>();
+    const auto image = read_depth_image(bytes_of(text), "d.tif");
+    RC_ASSERT(image.has_value() || image.error().kind == ErrorKind::input);
+  }));
 }
 
 }  // namespace

@@ -31,11 +31,13 @@ inline std::string fault_of_edges(std::span<const Vec2> points, const Triangulat
     for (std::size_t i = 0; i < 3; ++i) {
       const Index from = corners[(i + 1) % 3], to = corners[(i + 2) % 3], n = it.neighbours[t][i];
       if (n == no_index) {
-        if (!hull_next.contains(from) || hull_next[from] != to || !on_border.insert(from).second) return "hull";
+        if (!hull_next.contains(from) || hull_next[from] != to || !on_border.insert(from).second)
+          return "hull";
         continue;
       }
       const auto is_across = [&](std::size_t j) {
-        return it.neighbours[n][j] == t && it.triangles[n][(j + 1) % 3] == to && it.triangles[n][(j + 2) % 3] == from;
+        return it.neighbours[n][j] == t && it.triangles[n][(j + 1) % 3] == to &&
+               it.triangles[n][(j + 2) % 3] == from;
       };
       std::size_t j = 0;
       while (j < 3 && !is_across(j)) ++j;
