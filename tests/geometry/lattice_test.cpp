@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "geometry/plane.h"
-#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -192,17 +191,6 @@ TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
     EXPECT_NEAR(sum, 2, 1e-5);
     EXPECT_LT((moment / sum - place).norm(), 1e-5);
   }
-}
-
-TEST(Lattice, HasTheSameBitsForAnyNumberOfThreads) {
-  const Scattered s;
-  const std::vector<double> values = some_values(s.points.size());
-  test::expect_same_for_any_threads([&] {
-    std::vector<float> out(s.lattice.nodes());
-    std::vector<Lattice::Corners> sums(out.size());
-    s.lattice.gather(std::span(values), sums, out);
-    return out;
-  });
 }
 
 TEST(Lattice, OfNothingHasNothing) {

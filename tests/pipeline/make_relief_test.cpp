@@ -267,31 +267,6 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-// A cloud far from its origin, turned: the report's transform puts each point of the outline on the outline of the
-// solid.
-TEST(MakeRelief, TellsWhereTheScanLies) {
-  Cloud cloud = figure();
-  for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);
-  ReliefOptions options;
-  options.view = *parse_view("1,.2,2");
-  const auto made = value_of(make_relief(cloud, options));
-  const ReliefReport& r = made.report;
-  const auto surface = find_surface(cloud, options.view);
-  double lowest = 1e9;
-  for (std::size_t i = 0; i < surface->points.size(); ++i) {
-    const Vec3 p = surface->view.R_view_model.transpose() * surface->points[i] + surface->centre;
-    const Vec3 mm = r.scale * r.rotation * p + r.offset;
-    if (surface->boundary.is_boundary[i]) {
-      EXPECT_TRUE(test::has_corner_at(made.solid, mm.head<2>(), 1e-6));
-    }
-    lowest = std::min(lowest, mm.z());
-  }
-  const auto ground = std::ranges::find_if(made.solid.points,
-                                           [](const Vec3& p) { return p.head<2>().isZero() && p.z() > 0; });
-  ASSERT_NE(ground, made.solid.points.end());
-  EXPECT_NEAR(lowest, ground->z(), 1e-6);
-}
-
 TEST(MakeRelief, RefusesAHeightOutOfReach) {
   ReliefOptions options;
   options.height_mm = 5000;

@@ -63,40 +63,21 @@ TEST(Options, TheBestViewFindsWhatIsUp) {
   const Result<ReliefOptions> options = parse_options({{"view", "auto"}});
   ASSERT_TRUE(options);
   EXPECT_TRUE(options->view.is_best);
-  const Result<ReliefOptions> refused = parse_options({{"view", "auto"}, {"up", "0,0,1"}});
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().input, "up");
-}
-
-TEST(Options, HeightAndAlphaContradict) {
-  ReliefOptions options;
-  options.height_mm = 3;
-  options.alpha = 4;
-  EXPECT_NE(complaint(options).find("found both"), std::string::npos);
 }
 
 TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   ReliefOptions options;
   options.diameter_mm = 80;
-  EXPECT_EQ(complaint(options), "diameter: expected outline circle, found rectangle");
   options.outline = Outline::circle;
   EXPECT_EQ(complaint(options), "");
   options.rim_mm = 39;  // and 1 mm of margin
   EXPECT_EQ(complaint(options), "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
-  options.plate_mm = Vec2(80, 80);
-  EXPECT_EQ(complaint(options), "plate: expected either plate or diameter, found both");
-  options.diameter_mm.reset();
-  std::vector<std::string_view> free_outlines;
-  for (const auto& [name, outline] : outline_choices)
-    if (has_free_size(outline)) free_outlines.push_back(name);
-  EXPECT_EQ(complaint(options), cat("plate: expected outline ", either(free_outlines), ", found circle"));
-  EXPECT_TRUE(find_option("plate")->help.ends_with(cat(" with outline ", either(free_outlines))));
+  options = {};
+  options.rim_mm = options.rim_bevel_mm = 2;
   options.outline = Outline::ellipse;
-  options.plate_mm = Vec2(200, 89);  // with 5 mm of margin
+  options.plate_mm = Vec2(200, 89);  // with 5 mm of margin, and the bevel as wide as the rim
   options.shift_mm = Vec2(5, 0);
   EXPECT_EQ(complaint(options), "");
-  options.plate_mm.reset();
-  EXPECT_EQ(complaint(options), "shift: expected a size of the plate with it, diameter or plate");
 }
 
 TEST(Options, MethodsHaveWhatTheyNeed) {
@@ -108,20 +89,6 @@ TEST(Options, MethodsHaveWhatTheyNeed) {
   options.alpha.reset();
   options.detail = .1;
   EXPECT_NE(complaint(options).find("detail"), std::string::npos);
-}
-
-TEST(Options, ARimGoesAlongAnOutlineAndHoldsItsBevel) {
-  ReliefOptions options;
-  options.rim_height_mm = 1;
-  EXPECT_NE(complaint(options).find("rim-height"), std::string::npos);
-  options.rim_mm = 2;
-  EXPECT_EQ(complaint(options), "");
-  options.rim_bevel_mm = 2.5;
-  EXPECT_NE(complaint(options).find("rim-bevel"), std::string::npos);
-  options.rim_bevel_mm = 2;
-  EXPECT_EQ(complaint(options), "");
-  options.outline = Outline::none;
-  EXPECT_NE(complaint(options).find("rim: "), std::string::npos);
 }
 
 TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
@@ -139,18 +106,6 @@ TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
     options.method = method;
     EXPECT_EQ(options.effective_boundary_width(), default_shape(method).boundary_width) << name_of(method);
   }
-}
-
-TEST(Options, AReachableFinishLiesOnAPlane) {
-  ReliefOptions options;
-  options.finish = Finish::reachable;
-  EXPECT_EQ(complaint(options), "finish: expected a tool, which tells what is reachable");
-  options.tool = Tool{};
-  EXPECT_TRUE(check(options));
-  options.base.kind = BaseKind::wave;
-  const auto refused = check(options);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().input, "finish");
 }
 
 }  // namespace

@@ -86,28 +86,6 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
   EXPECT_NEAR(die.report.height_mm, 4, .01);
 }
 
-TEST(Forms, TheReportTellsWhereTheScanLies) {
-  const Cloud cloud = balls();
-  for (const Form form : {Form::relief, Form::mirror, Form::die}) {
-    const MadeRelief it = made(form);
-    // Points of the scan whose normals face the viewer come to lie over points of the front.
-    const auto& [rotation, scale, offset] = std::tie(it.report.rotation, it.report.scale, it.report.offset);
-    double nearest_sum = 0;
-    int count = 0;
-    for (std::size_t i = 0; i < cloud.size(); i += 100) {
-      if (cloud.normals[i].z() < .8F) continue;
-      const Vec3 p = scale * (rotation * cloud.points[i]) + offset;
-      double nearest = 1e9;
-      for (std::size_t k = 0; k < it.solid.points.size(); k += 3)
-        nearest = std::min(nearest, (it.solid.points[k] - p).head<2>().norm());
-      nearest_sum += nearest, ++count;
-    }
-    ASSERT_GT(count, 0);
-    EXPECT_LT(nearest_sum / count, 1.5)
-        << name_in(form_choices, form);  // hidden ones lie between their neighbours
-  }
-}
-
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const MadeRelief it = made(Form::lithophane);
   const Box box = box_of(it.solid);

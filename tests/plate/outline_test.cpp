@@ -314,20 +314,28 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // of 254
 }
 
-// The transform of the report puts each point of the outline on a corner of the solid, however it is cut out.
+// The transform of the report puts each point of the outline on a corner of the solid, however it is cut out and formed and
+// wherever the scan lies, and the lowest one on the ground.
 TEST(Outlines, TheReportTellsWhereTheScanLies) {
-  const Surface& surface = model().surface();
-  for (const auto& [name, outline] : outline_choices) {
-    if (outline == Outline::none) continue;
-    const auto made = make_relief(model(), options_for(outline, Form::relief, false));
-    const ReliefReport& r = made->report;
-    for (std::size_t i = 0; i < surface.points.size(); ++i) {
-      if (!surface.boundary.is_boundary[i]) continue;
-      const Vec3 p = surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
-      const Vec3 mm = r.scale * r.rotation * p + r.offset;
-      EXPECT_TRUE(test::has_corner_at(made->solid, mm.head<2>(), 1e-9)) << name;
+  Cloud cloud = two_pieces();
+  for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);
+  const auto far = value_of(prepare(cloud, *parse_view("1,.2,2")));
+  const Surface& surface = far.surface();
+  for (const auto& [name, outline] : outline_choices)
+    for (const Form form : {Form::relief, Form::mirror, Form::die}) {
+      if (outline == Outline::none) continue;
+      const auto made = value_of(make_relief(far, options_for(outline, form, false)));
+      const ReliefReport& r = made.report;
+      double lowest = 1e9;
+      for (std::size_t i = 0; i < surface.points.size(); ++i) {
+        const Vec3 p = surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
+        const Vec3 mm = r.scale * r.rotation * p + r.offset;
+        lowest = std::min(lowest, mm.z());
+        const bool is_inside = !surface.boundary.is_boundary[i];
+        EXPECT_TRUE(is_inside || test::has_corner_at(made.solid, mm.head<2>(), 1e-6)) << name;
+      }
+      EXPECT_TRUE(form == Form::die || std::abs(lowest - made.solid.ground_mm) < 1e-6) << name << lowest;
     }
-  }
 }
 
 TEST(Outlines, OnlyTheRectangleIsTheBoxOfItsPoints) {

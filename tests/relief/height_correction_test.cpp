@@ -9,7 +9,6 @@
 #include "relievo/relief/weights.h"
 #include "scan/jumps.h"
 #include "support/differences.h"
-#include "support/same_bits.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -271,12 +270,6 @@ TEST(HeightCorrection, LeavesWhatHasNoHeight) {
   const std::vector<float> before = some;
   correction.compress_heights<float>({some, weight, {0, pull_length}}, workspace);
   EXPECT_EQ(some, before);
-}
-
-TEST(HeightCorrection, HasTheSameBitsForAnyNumberOfThreads) {
-  const Surface surface = bumpy();
-  const std::vector<float> level(surface.points.size(), .3F);
-  test::expect_same_for_any_threads([&] { return corrected(surface, level, .1); });
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include "relief/vertex_normals.h"
 #include "support/differences.h"
 #include "support/results.h"
-#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -132,12 +131,6 @@ void expect_least_squares(const std::vector<float>& weights) {
 TEST(Heights, MinimiseEquationNine) {
   expect_least_squares({});
   expect_least_squares(DiscCase(40, 20).uneven());
-}
-
-TEST(Heights, HaveTheSameBitsForAnyNumberOfThreads) {
-  const DiscCase disc(20000);
-  const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(std::sin(9 * p.x()), p.y()); });
-  test::expect_same_for_any_threads([&] { return heights_of(disc.system(), slopes); });
 }
 
 // A second disc beside the first: their triangulation with the triangles between them left out.

@@ -8,7 +8,6 @@
 
 #include "relief/layered_slopes.h"
 #include "relievo/relief/weights.h"
-#include "support/same_bits.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -109,15 +108,6 @@ TEST(Layers, ContainWhatTheirSizeSays) {
   EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, coarse));
   EXPECT_GT(size_of(bumps, coarse), 2 * size_of(bumps, broad));
   EXPECT_GT(size_of(swell, broad), 2 * size_of(swell, coarse));
-}
-
-TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
-  test::expect_same_for_any_threads([] {
-    std::vector<Vec2f> all;
-    for (const PointLayers& l : layers_of(surface_of(test::torus(20000, 1, .4))))
-      all.insert(all.end(), {Vec2f(l.fine), Vec2f(l.middle), Vec2f(l.coarse), Vec2f(l.broad)});
-    return all;
-  });
 }
 
 TEST(LayerWeights, AreEquationSixPerLayerTimesTwoMinusTheShare) {

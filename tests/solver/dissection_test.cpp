@@ -11,7 +11,6 @@
 #include "geometry/plane_order.h"
 #include "solver/bisection.h"
 #include "support/planar_systems.h"
-#include "support/same_bits.h"
 
 namespace relievo::solver {
 namespace {
@@ -86,12 +85,6 @@ TEST(Dissection, NeedsNoPositionsForAModestFill) {
             1.6 * good);
   const auto wrong = ordered(graph, test::shuffled(system.positions));
   EXPECT_LT(static_cast<double>(fill_of(graph, wrong)), 1.6 * good);
-}
-
-TEST(Dissection, IsTheSameForAnyNumberOfThreads) {
-  const PlanarSystem system = jittered_grid(120, 110);
-  const Graph graph = test::graph_of(system.A);
-  test::expect_same_for_any_threads([&] { return ordered(graph, system.positions); });
 }
 
 TEST(Bisection, PartsAGridAcrossItsShortSide) {
