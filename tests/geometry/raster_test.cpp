@@ -5,18 +5,10 @@
 #include <cmath>
 
 #include "geometry/blur.h"
+#include "support/shapes.h"
 
 namespace relievo {
 namespace {
-
-// Portable uniform numbers in [0, 1).
-struct Random {
-  std::uint64_t state = 88172645463325252ULL;
-  double operator()() {
-    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-    return static_cast<double>(state >> 11) * 0x1p-53;
-  }
-};
 
 // A rectangle cut into `cells` x `cells` quadrangles with jittered corners, each in two triangles, that
 // covers the whole picture. `round` moves corners onto multiples of it, so that pixel centres lie on edges
@@ -26,14 +18,15 @@ struct Sheet {
   RasterInput scene;
 
   Sheet(int width, int height, int cells, double round) {
-    Random random;
+    test::Random random(1);
     const auto place = [&](int i, double size) {
-      const double jitter = i == 0 || i == cells ? 0 : random() * 0.48 - 0.24;
+      const double jitter = i == 0 || i == cells ? 0 : random.uniform() * 0.48 - 0.24;
       const double at = (i + jitter) * size / cells;
       return i == cells ? size : std::round(at / round) * round;
     };
     for (int j = 0; j <= cells; ++j)
-      for (int i = 0; i <= cells; ++i) scene.points.emplace_back(place(i, width), place(j, height), random());
+      for (int i = 0; i <= cells; ++i)
+        scene.points.emplace_back(place(i, width), place(j, height), random.uniform());
     const auto at = [&](int i, int j) { return static_cast<Index>(j * (cells + 1) + i); };
     for (int j = 0; j < cells; ++j) {
       for (int i = 0; i < cells; ++i) {
@@ -167,10 +160,10 @@ std::vector<float> slow_blur(std::vector<float> values, int width, int radius) {
 }
 
 TEST(Blur, IsTheAverageOverBoxesTwice) {
-  Random random;
+  test::Random random(1);
   for (const auto& [width, height, radius] : {std::array{37, 29, 3}, {5, 40, 9}, {1, 1, 2}, {33, 1, 1}}) {
     Image<float> image = filled_image(width, height, 0.F);
-    for (float& v : image.pixels) v = static_cast<float>(random());
+    for (float& v : image.pixels) v = static_cast<float>(random.uniform());
     const std::vector<float> expected = slow_blur(image.pixels, width, radius);
     blur(image, radius);
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(image.pixels[i], expected[i], 1e-5) << i;

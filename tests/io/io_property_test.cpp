@@ -7,6 +7,7 @@
 #include "relievo/io/write.h"
 #include "support/e57_encoder.h"
 #include "support/format_samples.h"
+#include "support/laz_encoder.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"
 
@@ -184,6 +185,8 @@ std::vector<FileSample> valid_files() {
   const PlyTable triangle_strips{"tristrips", {{"short", "vertex_indices", "int"}}, {{5, 0, 1, 2, -1, 0}}};
   std::vector<FileSample> all = format_samples();
   all.push_back({"scan.e57", e57_sample()});
+  for (const bool is_layered : {false, true})
+    all.push_back({"scan.laz", laz({any_points(5, 1), any_points(20, 2)}, is_layered)});
   for (const PlyEncoding encoding : ply_encodings) {
     all.push_back({"scan.ply", encode_ply({strips, vertex, strips}, encoding)});
     all.push_back({"scan.ply", encode_ply({coloured, faces, triangle_strips}, encoding)});

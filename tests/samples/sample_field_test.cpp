@@ -57,19 +57,6 @@ TEST(Scatter, PutsPointsAndNormalsOnTheSphere) {
   }
 }
 
-TEST(Scatter, IsUniformOverTheSphere) {
-  const int bands = 16, sectors = 16;  // equal areas, by Archimedes
-  const Cloud cloud = scatter(sphere(), {200000, 0, 2});
-  std::vector<double> counts(bands * sectors, 0);
-  for (const Vec3& p : cloud.points) {
-    const Vec3 q = p - centre;
-    const std::size_t band = slot((q.z() + 1) / 2, bands);
-    ++counts[band * sectors + slot(std::atan2(q.y(), q.x()) / (2 * pi) + 0.5, sectors)];
-  }
-  const std::vector<double> expected(counts.size(), 200000.0 / (bands * sectors));
-  EXPECT_LT(std::abs(misfit(counts, expected)), 4);
-}
-
 TEST(Scatter, IsUniformOverTheTorus) {
   const int slots = 32;
   const Cloud cloud = scatter(torus(), {200000, 0, 3});

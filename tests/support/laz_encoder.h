@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -149,6 +150,22 @@ inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_la
   const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
   return first + size(points.size()) + size(xy.size()) + size(z_bytes.size()) + std::string(28, '\0') + xy +
          z_bytes;
+}
+
+// Points as laz_chunk() needs them: every other step in x and y is 0.
+inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<LazTestPoint> points = {{-1000, 2000, 500}};
+  while (points.size() < count) {
+    LazTestPoint p = points.back();
+    if (points.size() % 2 == 1) {
+      p[0] += 2 + static_cast<std::int32_t>(random() % 100000 >> random() % 12);
+      p[1] += 2 + static_cast<std::int32_t>(random() % 3000);
+    }
+    p[2] = 3 * static_cast<std::int32_t>(points.size()) + (points.size() % 5 == 0 ? 70000000 : 0);
+    points.push_back(p);
+  }
+  return points;
 }
 
 // A file of chunks of any size, of format 0, or layered of format 6. Coordinates are whole numbers.
