@@ -267,12 +267,6 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-TEST(MakeRelief, RefusesAHeightOutOfReach) {
-  ReliefOptions options;
-  options.height_mm = 5000;
-  expect_error(make_relief(figure(), options), "at most");
-}
-
 // Two sheets, one before the other: a form without slopes.
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));

@@ -89,15 +89,5 @@ TEST(TriangleLimit, GivesFewNeedles) {
   EXPECT_GT(angles[angles.size() / 100], 2.5);
 }
 
-TEST(TriangleLimit, RefusesFewerThanTheOutlineNeeds) {
-  expect_error(make_relief(model(), options_with(500)), "triangles: expected at least");
-}
-
-TEST(Resolution, RefusesMoreThanTenThousandSamplesAcross) {
-  ReliefOptions options = options_with(1e6);
-  options.resolution_mm = .0049;
-  expect_error(make_relief(model(), options), "resolution: expected ");
-}
-
 }  // namespace
 }  // namespace relievo
