@@ -3,11 +3,11 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/flags.h"
 #include "cli/make_options.h"
 #include "cli/terminal.h"
 #include "common/export_file.h"
 #include "common/make_order.h"
-#include "common/make_report.h"
 #include "common/relief_files.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -37,7 +37,7 @@ Result<CheckedOrder> order_of(MakeArguments& arguments) {
 std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
   const auto in_units = [&](double mm) { return std::round(mm / mm_per(outputs.unit) * 1e4) / 1e4; };
   const ReliefReport& report = made.report;
-  const Vec3 size = size_mm(made.solid);
+  const Vec3 size = Box::of(made.solid.points).size();
   const std::string_view unit = name_of(outputs.unit);
   const double below_ground = in_units(report.below_ground_mm);
   return cat(outputs.solid, ": ", report.visible_points, " of ", report.input_points, " points, height ",

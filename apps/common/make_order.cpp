@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "common/make_report.h"
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"

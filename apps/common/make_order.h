@@ -64,6 +64,9 @@ struct InputFacts {
 
 InputFacts facts_of(const LoadedOrder& loaded);
 
+// Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in the scene.
+nlohmann::json models_report(const Scene& scene, const View& view);
+
 // A relief that was made, and all that its files and its report need.
 struct FinishedRelief {
   MadeRelief made;

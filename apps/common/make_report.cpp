@@ -1,5 +1,4 @@
-#include "common/make_report.h"
-
+// The report on a relief, as JSON.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -89,10 +88,6 @@ nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime
 
 }  // namespace
 
-Vec3 size_mm(const Solid& solid) {
-  return Box::of(solid.points).size();
-}
-
 nlohmann::json models_report(const Scene& scene, const View& view) {
   const auto places = place_models(scene, view);
   nlohmann::json models = nlohmann::json::array();
@@ -113,15 +108,10 @@ nlohmann::json models_report(const Scene& scene, const View& view) {
 
 nlohmann::json FinishedRelief::report(LengthUnit unit) const {
   nlohmann::json report = report_json(made.report, times);
-  report["size_mm"] = as_list(size_mm(made.solid));
+  report["size_mm"] = as_list(Box::of(made.solid.points).size());
   report["units"] = name_of(unit);
   report["models"] = inputs.models;
   return report;
-}
-
-std::string report_text(const nlohmann::json& report) {
-  // Names of files need not be UTF-8, but JSON is.
-  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace relievo::app

@@ -2,7 +2,6 @@
 
 #include "common/export_file.h"
 #include "common/files.h"
-#include "common/make_report.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/preview.h"
 #include "relievo/picture/reach_picture.h"
@@ -57,7 +56,9 @@ Result<std::vector<OutputFile>> relief_files(const ReliefFiles& to, const MadeRe
 }
 
 OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief) {
-  return {files.report, bytes_of(report_text(relief.report(files.unit)))};
+  // Names of files need not be UTF-8, but JSON is.
+  const auto replace = nlohmann::json::error_handler_t::replace;
+  return {files.report, bytes_of(relief.report(files.unit).dump(2, ' ', false, replace) + "\n")};
 }
 
 }  // namespace relievo::app

@@ -1,20 +1,16 @@
-// The names of a long call's stages, in words for users.
+// Names for people of the stages of a long call, and what else programs without a help text tell of themselves.
 #pragma once
 
-#include <span>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 namespace relievo::app {
 
-struct StageName {
-  std::string_view stage;  // as Progress reports it
-  std::string_view text;
-};
-
-// Returns the names of all stages that the library and the programs report.
-std::span<const StageName> stage_names();
-
-// Returns the name of a stage; for other stages, the name that Progress has.
+// Returns the name of a stage that the library or a program reports; of others what Progress calls them.
 std::string_view name_of_stage(std::string_view stage);
+
+// Returns version, stages (names by what Progress calls them), formats (see format_list()), endings of files that can be
+// read, and samples with their descriptions.
+nlohmann::json program_facts();
 
 }  // namespace relievo::app

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "common/make_report.h"
 #include "common/wording.h"
-#include "relievo/core/text.h"
+#include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
+#include "studio/piece.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -39,9 +39,39 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<st
   return facts;
 }
 
+CurveSamples sample_curve(const Shape& shape, double delta) {
+  const bool is_layered = shape.style == Style::layered;
+  const Compression saturation = saturation_alone(shape.compression);
+  // Layers keep a slope as it is where the share is 1, whatever the formula's largest value.
+  const double scale = is_layered ? saturation_scale(shape.compression) : 1;
+  CurveSamples samples;
+  for (std::size_t i = 0; i < CurveSamples::size; ++i) {
+    const double root = static_cast<double>(i) / (CurveSamples::size - 1), k = root * root;
+    samples.share.push_back(std::min(1.0, scale * curvature_weight(k, delta, saturation)));
+    samples.kept.push_back(is_layered ? samples.share.back() : curvature_weight(k, delta, shape.compression));
+  }
+  return samples;
+}
+
 // Returns a height with as many decimals as the page gives to files: if it is the largest one, it can be reached.
 double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
+}
+
+// Returns whether the options ask for nothing but the relief on a rectangular plate, which FrameRenderer can draw.
+bool is_plain(const ReliefOptions& options) {
+  return options.outline == Outline::rectangle && !options.rim_mm && options.base.kind == BaseKind::plane &&
+         options.wrap.kind == WrapKind::none && options.form == Form::relief && !options.draft_deg &&
+         !options.tolerance_mm && !options.triangles && !options.tool && !options.plate_mm;
+}
+
+ReliefOptions coarse(ReliefOptions options) {
+  constexpr double samples = 180;  // along the longer side: enough to follow a hand
+  options.resolution_mm = std::max(options.effective_width_mm() / samples, options.resolution_mm.value_or(0));
+  options.tolerance_mm = options.draft_deg = options.triangles = std::nullopt;
+  options.finish = Finish::full;
+  options.tool = std::nullopt;
+  return options;
 }
 
 // Returns whether the piece is exactly as thick as plate and relief together, of however few samples it is made.
@@ -55,7 +85,7 @@ bool is_level(const ReliefOptions& options) {
 
 Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)
     : facts_(facts_of(shown.model->surface(), outliers, std::move(remarks))),
-      piece_(shown.model),
+      model_(shown.model),
       live_(std::move(shown)) {}
 
 LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
@@ -90,28 +120,46 @@ PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& m
 }
 
 // A piece has the height that is met or the largest that can be reached.
-PieceOrder Drawing::order_of(const PictureRequest& request, const LiveFrame& made) const {
-  PieceOrder order{request.options, request.key};
+ReliefOptions Drawing::piece_options(const PictureRequest& request, const LiveFrame& made) const {
+  ReliefOptions options = request.options;
   const PieceHeight height = height_of(request, made);
-  if (!request.u && height.is_met) return order;
-  order.options.height_mm = height.mm;
-  order.key = cat(request.key, " ", *order.options.height_mm);
-  return order;
+  if (request.u || !height.is_met) options.height_mm = height.mm;
+  return options;
 }
 
-Result<std::optional<PieceOrder>> Drawing::missing_piece(PictureRequest request) {
+Result<std::optional<ReliefOptions>> Drawing::missing_piece(PictureRequest request) {
   RELIEVO_TRY(request.options, live_.with_width(request.options));
-  PieceOrder order = order_of(request, frame(request, true));
-  if (piece_.is_finished(order.key)) return std::nullopt;
-  return order;
+  ReliefOptions wanted = piece_options(request, frame(request, true));
+  if (is_finished(wanted)) return std::nullopt;
+  return wanted;
+}
+
+void Drawing::take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options) {
+  const std::shared_ptr<const Solid> solid(made, &made->solid);
+  std::shared_ptr<const ToolReach> reach;
+  if (made->report.reach) reach = {made, &*made->report.reach};
+  finished_.reset();
+  const bool is_flat = options.wrap.kind == WrapKind::none;  // as is the front whose reach was measured
+  finished_.emplace(options, solid, reach, SolidRenderer(solid, is_flat ? reach : nullptr),
+                    relief_height_mm(*made, options));
+}
+
+Result<DrawnPiece*> Drawing::piece(const ReliefOptions& options) {
+  if (is_finished(options)) return &*finished_;
+  if (coarse_ && coarse_->options == options) return &*coarse_;
+  RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(options)));
+  const auto solid = std::make_shared<const Solid>(std::move(made.solid));
+  coarse_.reset();
+  coarse_.emplace(options, solid, nullptr, SolidRenderer(solid));
+  return &*coarse_;
 }
 
 Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
                            PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
-  const PieceOrder order = order_of(request, made);
+  const ReliefOptions wanted = piece_options(request, made);
   answer.is_plain = is_plain(request.options);
-  answer.is_finished = (!answer.is_plain || request.is_finished) && piece_.is_finished(order.key);
+  answer.is_finished = (!answer.is_plain || request.is_finished) && is_finished(wanted);
   answer.is_size_exact = answer.is_finished || is_level(request.options);
   answer.relief_height_mm = answer.height_mm;
   if (answer.is_plain && !answer.is_finished) {
@@ -121,9 +169,9 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
     const Vec2 half = facts_.size * render.mm_per_unit / 2;
     answer.relief_mm = {-half, half};
   } else {
-    RELIEVO_TRY(DrawnPiece* const piece, piece_.drawn(order));
+    RELIEVO_TRY(DrawnPiece* const piece, this->piece(wanted));
     piece->renderer.render(render, answer.picture, request.progress.get());
-    answer.size_mm = size_mm(*piece->solid);
+    answer.size_mm = Box::of(piece->solid->points).size();
     if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
     answer.relief_height_mm = piece->height_mm.value_or(answer.height_mm);
     answer.relief_mm = relief_in(*piece->solid, request.options);
@@ -175,10 +223,10 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   if (request.is_original) return along(live_.renderer().original());
   const LiveFrame made = frame(request, true);
   if (is_plain(request.options)) return along(live_.shown(made));
-  const PieceOrder order = order_of(request, made);
-  RELIEVO_CHECK(check_rim(order.options, height_of(request, made).mm));  // coarse pieces have no draft angle
-  RELIEVO_TRY(const DrawnPiece* const piece, piece_.drawn(order));
-  return section_of(*piece->solid, line);
+  const ReliefOptions wanted = piece_options(request, made);
+  RELIEVO_CHECK(check_rim(wanted, height_of(request, made).mm));  // coarse pieces have no draft angle
+  RELIEVO_TRY(const DrawnPiece* const shown, piece(wanted));
+  return section_of(*shown->solid, line);
 }
 
 }  // namespace relievo::app::studio

@@ -9,8 +9,7 @@
 
 #include "common/wording.h"
 #include "relievo/job.h"
-#include "studio/curve_samples.h"
-#include "studio/piece.h"
+#include "relievo/picture/solid_renderer.h"
 #include "studio/solid_section.h"
 
 namespace relievo::app::studio {
@@ -26,10 +25,17 @@ struct ModelFacts {
   std::vector<std::size_t> histogram;  // of sqrt(|k|), from 0 to 1
 };
 
+// The share of a slope that a relief keeps, over curvature, both in [0, 1]: at sqrt(|k|) = i / (size - 1). The page draws them
+// as the tone curve.
+struct CurveSamples {
+  static constexpr std::size_t size = 81;
+
+  std::vector<double> share;  // that saturation or tone curve ask for
+  std::vector<double> kept;   // in the relief of this height; in layers the same as `share`
+};
+
 struct PictureRequest {
-  ReliefOptions options;       // its view is ignored
-  std::string key;             // the options as text: equal for equal options
-  std::string key_but_height;  // the same without the height
+  ReliefOptions options;  // its view is ignored
   std::optional<double>
       draft_limit_mm;  // height that the draft angle allows; nothing without one, or while it is not known
   std::optional<View>
@@ -69,6 +75,15 @@ struct PictureAnswer {
   CurveSamples curve;
 };
 
+// A piece with what draws it.
+struct DrawnPiece {
+  ReliefOptions options;  // that it was made of
+  std::shared_ptr<const Solid> solid;
+  std::shared_ptr<const ToolReach> reach;  // of the options' tool; null without one
+  SolidRenderer renderer;
+  std::optional<double> height_mm = {};  // see relief_height_mm(); nothing of a piece that is not finished
+};
+
 // The height that a piece is made with, and whether it is the one that was asked for.
 struct PieceHeight {
   double mm = 0;
@@ -88,17 +103,16 @@ class Drawing {
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
   // Draws a frame, whose height is met within 3 % unless the picture is to be fine. If the options ask for more than a
-  // rectangular plate, draws a piece, whose height is met, see Piece::drawn(). Errors: those of make_relief().
+  // rectangular plate, draws a piece, whose height is met: the finished one if it was taken, otherwise one that is made
+  // faster, of fewer samples and without a draft angle or tool. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
-  // Returns the order of the piece that the request would show; nothing if it is at hand. Errors: those of
+  // Returns the options of the piece that the request would show; nothing if it is at hand. Errors: those of
   // with_width().
-  Result<std::optional<PieceOrder>> missing_piece(PictureRequest request);
+  Result<std::optional<ReliefOptions>> missing_piece(PictureRequest request);
 
-  // Takes the piece of such an order.
-  void take(std::shared_ptr<const MadeRelief> made, const PieceOrder& order) {
-    piece_.take(std::move(made), order);
-  }
+  // Takes the piece that was made of such options. It stays until the next one.
+  void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);
 
   // Returns the height in mm of the highest relief that the options allow, see LiveModel::highest_mm().
   // Errors: those of with_width().
@@ -112,13 +126,16 @@ class Drawing {
   PieceHeight height_of(const PictureRequest& request, const LiveFrame& made) const;
   LiveFrame frame(const PictureRequest& request, bool is_exact);
   std::optional<std::array<Vec2, 2>> relief_in(const Solid& solid, const ReliefOptions& options) const;
-  PieceOrder order_of(const PictureRequest& request, const LiveFrame& made) const;
+  ReliefOptions piece_options(const PictureRequest& request, const LiveFrame& made) const;
+  bool is_finished(const ReliefOptions& options) const { return finished_ && finished_->options == options; }
+  Result<DrawnPiece*> piece(const ReliefOptions& options);
   Result<void> draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
                     PictureAnswer& answer);
 
   ModelFacts facts_;
-  Piece piece_;
+  std::shared_ptr<const ReliefModel> model_;
   LiveModel live_;
+  std::optional<DrawnPiece> finished_, coarse_;
   bool is_frozen_ = false;
 };
 

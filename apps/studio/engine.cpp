@@ -275,8 +275,7 @@ Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
   if (!request.options.draft_deg) return {};
   const NumberedModel shown = state_->shown_model();
   if (!shown.model) return nothing_open();
-  RELIEVO_TRY(request.draft_limit_mm,
-              state_->maker.draft_limit(use, shown, request.options, request.key_but_height));
+  RELIEVO_TRY(request.draft_limit_mm, state_->maker.draft_limit(use, shown, request.options));
   return {};
 }
 
@@ -288,15 +287,15 @@ Result<void> Engine::finish(PictureRequest& request) {
     return unless_cancelled(known.error());
   RELIEVO_CHECK(check_cancelled(request.progress.get()));  // while it waited for another piece
   std::uint64_t model = 0;
-  RELIEVO_TRY(const std::optional<PieceOrder> order, state_->with_drawing([&](Drawing& drawing) {
+  RELIEVO_TRY(const std::optional<ReliefOptions> missing, state_->with_drawing([&](Drawing& drawing) {
     model = state_->drawn_model;
     return drawing.missing_piece(request);
   }));
-  if (!order) return {};
-  auto made = piece(order->options, order->key, PieceUse::picture);
+  if (!missing) return {};
+  auto made = piece(*missing, PieceUse::picture);
   if (!made) return unless_cancelled(made.error());
   return state_->with_drawing([&](Drawing& drawing) -> Result<void> {
-    if (state_->drawn_model == model) drawing.take(std::move(*made), *order);
+    if (state_->drawn_model == model) drawing.take(std::move(*made), *missing);
     return {};
   });
 }
@@ -311,10 +310,9 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
   if (request.is_finished) {
     RELIEVO_CHECK(finish(request));
   } else {
-    state_->maker.cancel_for_picture();
-    const NumberedModel shown = state_->shown_model();
+    state_->maker.cancel(PieceUse::picture);
     if (request.options.draft_deg)
-      request.draft_limit_mm = state_->maker.known_draft_limit(shown, request.key_but_height);
+      request.draft_limit_mm = state_->maker.known_draft_limit(state_->shown_model(), request.options);
   }
   if (request.turned) return state_->turned_picture(request);
   return state_->with_drawing([&](Drawing& drawing) -> Result<PictureAnswer> {
@@ -360,22 +358,17 @@ Result<std::vector<ViewGuess>> Engine::suggest_views() {
   return std::vector<ViewGuess>(ranked.begin(), ranked.end());
 }
 
-Result<ExportedFile> Engine::make_file(const FileRequest& request) {
-  RELIEVO_TRY(const FileFormat* const known, find_format(request.format));
-  RELIEVO_TRY(const auto made, piece(request.options, request.key));
-  return export_file(*made, *known, request.order);
-}
-
-Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, const std::string& key,
-                                                        PieceUse use) {
-  const ShownModel shown = state_->shared.with([](const Shared& s) { return s.shown; });
+Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, PieceUse use) {
+  const NumberedModel shown = state_->shown_model();
   const auto& model = shown.model;
   if (!model) return nothing_open();
   if (options.view != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  return state_->maker.piece(shown, options, key, use);
+  // Pictures have the width that the plate leaves among their options, exports may have none: both make the same piece.
+  RELIEVO_TRY(const ReliefOptions sized, with_width(model->surface(), options));
+  return state_->maker.piece(use, shown, sized);
 }
 
 void Engine::cancel_making() {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/export_file.h"
 #include "common/project.h"
 #include "relievo/make_relief.h"
 #include "relievo/option_table.h"
@@ -29,14 +28,6 @@ struct EngineStatus {
   std::uint64_t model =
       0;                  // number of the model that is shown, of no other model of any engine; 0 is none yet
   bool can_turn = false;  // whether pictures of other views than the model's can be drawn
-};
-
-// A file to make of the scan that is shown.
-struct FileRequest {
-  ReliefOptions options;
-  std::string key;     // the options as text: equal for equal options
-  std::string format;  // one of file_formats()
-  ExportOrder order;
 };
 
 // Every method may be called from any thread. Those that draw wait for each other.
@@ -88,15 +79,12 @@ class Engine {
   // Returns the six sides, the best one first; see rank_views().
   Result<std::vector<ViewGuess>> suggest_views();
 
-  // Returns the finished relief as export writes it, and keeps it for the next call with these options. Errors: see
-  // make_file(); kind cancelled after cancel_making().
-  Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options, const std::string& key,
+  // Returns the finished relief as `relievo make` makes it, and keeps it for the next call with these options. Errors: those
+  // of make_relief(); kind option if the view that the options ask for is not the one prepared; kind cancelled after
+  // cancel_making().
+  Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options,
                                                   PieceUse use = PieceUse::file);
   void cancel_making();
-
-  // Returns a file of the relief, the same bytes as `relievo make` writes. Errors: those of make_relief(); kind option for
-  // an unknown format, or if the view that the options ask for is not the one prepared.
-  Result<ExportedFile> make_file(const FileRequest& request);
 
  private:
   struct State;

@@ -4,13 +4,11 @@
 
 #include "common/export_file.h"
 #include "common/files.h"
-#include "common/make_report.h"
 #include "common/option_list.h"
 #include "common/scene_file.h"
+#include "common/stage_names.h"
 #include "relievo/core/text.h"
-#include "relievo/core/version.h"
 #include "relievo/io/read.h"
-#include "relievo/samples/sample.h"
 #include "studio/actions.h"
 #include "studio/requests.h"
 
@@ -19,6 +17,10 @@ namespace relievo::app::studio {
 namespace {
 
 using Json = nlohmann::json;
+
+Result<ReliefOptions> options_in(const Json& json) {
+  return options_from_json(json.value("options", Json()), "options");
+}
 
 // Returns the models of a scene file and how each stands, as such a file has them; none for other scans.
 Json models_of(const ScanSource& input) {
@@ -91,11 +93,10 @@ Result<Answer> reach(Engine& engine, const Json& json) {
 
 // Makes the piece as export writes it, and answers with its size.
 Result<Answer> piece(Engine& engine, const Json& json) {
-  const Json texts = json.value("options", Json());
-  RELIEVO_TRY(const ReliefOptions options, options_from_json(texts, "options"));
-  RELIEVO_TRY(const auto made, engine.piece(options, texts.dump()));
+  RELIEVO_TRY(const ReliefOptions options, options_in(json));
+  RELIEVO_TRY(const auto made, engine.piece(options));
   const Solid& solid = made->solid;
-  const Vec3 size = size_mm(solid);
+  const Vec3 size = Box::of(solid.points).size();
   return answer_of(Json{{"triangles", solid.triangles.size()},
                         {"points", solid.points.size()},
                         {"size_mm", {size.x(), size.y(), size.z()}},
@@ -108,10 +109,11 @@ Result<Answer> cancel_piece(Engine& engine, const Json&) {
 }
 
 Result<Answer> make_file(Engine& engine, const Json& json) {
-  const Json texts = json.value("options", Json());
-  RELIEVO_TRY(const ReliefOptions wanted, options_from_json(texts, "options"));
+  RELIEVO_TRY(const ReliefOptions options, options_in(json));
   RELIEVO_TRY(const ExportOrder order, export_order_from(json));
-  RELIEVO_TRY(ExportedFile file, engine.make_file({wanted, texts.dump(), json.value("format", ""), order}));
+  RELIEVO_TRY(const FileFormat* const format, find_format(json.value("format", "")));
+  RELIEVO_TRY(const auto made, engine.piece(options));
+  ExportedFile file = export_file(*made, *format, order);
   return Answer{200, std::move(file.type), std::move(file.bytes)};
 }
 
@@ -132,29 +134,23 @@ EngineAction find_engine_action(std::string_view name) {
 
 // Tells whether options can be read and do not contradict each other.
 Result<Answer> Actions::check(const nlohmann::json& json) {
-  RELIEVO_CHECK(options_from_json(json.value("options", Json()), "options"));
+  RELIEVO_CHECK(options_in(json));
   return answer_of(Json::object());
 }
 
 nlohmann::json Actions::about() {
-  Json samples = Json::array();
-  for (const SampleInfo& sample : relievo::samples())
-    samples.push_back({{"name", sample.name}, {"description", sample.description}});
+  Json all = program_facts();
   const Lock lock(storing_);
-  return {{"version", version},
-          {"options", option_list()},
-          {"readable", readable_formats()},
-          {"endings", readable_endings()},
-          {"views", view_list()},
-          {"materials", material_list()},
-          {"stages", stage_list()},
-          {"curve", {{"most_points", ToneCurve::most_points}}},
-          {"formats", format_list()},
-          {"samples", samples},
-          {"recent", recent_list()},
-          {"first", first_},
-          {"notice", store_.notice()},
-          {"most_upload", most_scan}};
+  all.update({{"options", option_list()},
+              {"readable", readable_formats()},
+              {"views", view_list()},
+              {"materials", material_list()},
+              {"curve", {{"most_points", ToneCurve::most_points}}},
+              {"recent", recent_list()},
+              {"first", first_},
+              {"notice", store_.notice()},
+              {"most_upload", most_scan}});
+  return all;
 }
 
 }  // namespace relievo::app::studio

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/stage_names.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 
@@ -43,19 +42,23 @@ bool flag(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
+// Returns an array of n finite numbers; nothing for anything else.
+template <int n>
+std::optional<Eigen::Matrix<double, n, 1>> numbers(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  const auto is_number = [](const Json& each) { return each.is_number(); };
+  if (found == json.end() || !found->is_array() || found->size() != n) return std::nullopt;
+  if (!std::ranges::all_of(*found, is_number)) return std::nullopt;
+  const std::vector<double> all = found->get<std::vector<double>>();
+  const Eigen::Matrix<double, n, 1> v(all.data());
+  return v.allFinite() ? std::optional(v) : std::nullopt;
+}
+
 // Returns a direction, scaled so that neither its square nor a float of it can overflow.
 std::optional<Vec3> direction(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  if (found == json.end() || !found->is_array() || found->size() != 3) return std::nullopt;
-  Vec3 v;
-  for (int i = 0; i < 3; ++i) {
-    const Json& entry = (*found)[static_cast<std::size_t>(i)];
-    if (!entry.is_number()) return std::nullopt;
-    v[i] = entry.get<double>();
-  }
-  const double largest = v.cwiseAbs().maxCoeff();
-  if (!v.allFinite() || largest == 0) return std::nullopt;
-  return Vec3(v / largest);
+  const std::optional<Vec3> v = numbers<3>(json, key);
+  if (!v || v->isZero(0)) return std::nullopt;
+  return Vec3(*v / v->cwiseAbs().maxCoeff());
 }
 
 Result<Camera> camera_from(const Json& json) {
@@ -118,15 +121,11 @@ Result<Json> parse_body(std::string_view body) {
 }
 
 Result<PictureRequest> picture_request(const Json& json) {
-  Json texts = json.value("options", Json::object());
   PictureRequest request;
-  RELIEVO_TRY(request.options, options_from_json(texts, "options"));
+  RELIEVO_TRY(request.options, options_from_json(json.value("options", Json::object()), "options"));
   RELIEVO_TRY(request.render, render_from(json));
   request.is_original = flag(json, "original");
   request.is_finished = flag(json, "finished");
-  request.key = texts.dump();
-  texts.erase("height");
-  request.key_but_height = texts.dump();
   if (const auto turned = json.find("turned"); turned != json.end()) {
     RELIEVO_TRY(const View towards, view_from(*turned));
     request.turned = request.options.view;
@@ -141,14 +140,10 @@ Result<PictureRequest> picture_request(const Json& json) {
 }
 
 Result<Vec2> place_from(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  const bool is_pair = found != json.end() && found->is_array() && found->size() == 2 &&
-                       (*found)[0].is_number() && (*found)[1].is_number();
-  if (!is_pair) return wrong(key, "expected two numbers");
-  const Vec2 place((*found)[0].get<double>(), (*found)[1].get<double>());
-  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > 1e6)
-    return wrong(key, "expected a place on the plate");
-  return place;
+  const std::optional<Vec2> place = numbers<2>(json, key);
+  if (!place) return wrong(key, "expected two numbers");
+  if (place->cwiseAbs().maxCoeff() > 1e6) return wrong(key, "expected a place on the plate");
+  return *place;
 }
 
 Result<View> view_from(const Json& json) {
@@ -281,12 +276,6 @@ Json material_list() {
   for (std::size_t i = 0; i < material_choices.size(); ++i)
     list.push_back({{"id", material_choices[i].name}, {"name", material_names[i]}});
   return list;
-}
-
-Json stage_list() {
-  Json json = Json::object();
-  for (const auto& [stage, text] : stage_names()) json[std::string(stage)] = text;
-  return json;
 }
 
 Json error_json(const Error& error) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
+#include "common/export_file.h"
 #include "studio/engine.h"
 
 namespace relievo::app::studio {
@@ -36,9 +37,6 @@ nlohmann::json view_list();
 
 // Returns the materials of pictures: id, and name for people.
 nlohmann::json material_list();
-
-// Returns, by stage, its name for people.
-nlohmann::json stage_list();
 
 nlohmann::json error_json(const Error& error);
 

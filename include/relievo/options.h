@@ -38,6 +38,8 @@ struct NumericOptions {
   std::optional<double> resolution_mm;   // finest step of the solid's samples; width / 700 or rho if less
   std::optional<double> tolerance_mm;    // largest error of a mesh made simpler; without it all points stay
   std::optional<double> triangles;       // most triangles of the solid; any number
+
+  bool operator==(const NumericOptions&) const = default;
 };
 
 // The surface that the solid gets.
@@ -63,8 +65,10 @@ struct ReliefOptions : NumericOptions {
   std::optional<Tool> tool;  // its reach is reported
   Finish finish = Finish::full;
 
-  // The following return the value given, or else a default: the paper's, or for other methods those that
-  // keep most of the model. The width is that for a plate without a size of its own, see with_width().
+  bool operator==(const ReliefOptions&) const = default;
+
+  // The values that rule where none was given: the paper's, or for other methods those that keep most of the
+  // model. The width is that for a plate without a size of its own, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   Method effective_method() const;
   // Returns nothing where the shape gives the height: by the paper's method, and for a lithophane. A height

@@ -7,8 +7,6 @@
 #include "native/inputs.h"
 #include "native/options.h"
 #include "native/relief.h"
-#include "native/session.h"
-#include "native/stages.h"
 #include "relievo/core/version.h"
 
 PYBIND11_MODULE(_native, module) {

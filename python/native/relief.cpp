@@ -5,7 +5,6 @@
 
 #include "common/export_file.h"
 #include "common/files.h"
-#include "common/make_report.h"
 #include "common/relief_files.h"
 #include "native/arrays.h"
 #include "native/call.h"
@@ -21,7 +20,8 @@ namespace relievo::python {
 namespace {
 
 py::object from_json(const nlohmann::json& json) {
-  return py::module_::import("json").attr("loads")(text_of(app::report_text(json)));
+  return py::module_::import("json").attr("loads")(
+      text_of(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
 py::bytes bytes_of(std::string_view text) {
@@ -80,19 +80,12 @@ py::array preview(const SharedRelief& relief, int size, const std::string& mater
   return array_of(unlocked([&] { return app::preview_of(relief->made, options); }));
 }
 
-py::bytes preview_png(const SharedRelief& relief, int size, const std::string& material) {
-  const PreviewOptions options = value_or_raise(app::preview_options(size, material));
-  const auto png = unlocked([&] { return write_png(app::preview_of(relief->made, options)); });
-  return bytes_of({reinterpret_cast<const char*>(png.data()), png.size()});
-}
-
-// Returns the heights, and the millimetres per pixel.
-py::tuple heights(const SharedRelief& relief, int size) {
+py::array heights(const SharedRelief& relief, int size) {
   if (size < 1 || size > 32768)
     raise({ErrorKind::option, "size", {}, cat("expected 1 to 32768 pixels, found ", size)});
   const MadeRelief& made = relief->made;
   HeightsMm map = unlocked([&] { return make_heights_mm(made.report.wrap ? made.flat : made.solid, size); });
-  return py::make_tuple(array_of(std::move(map.image)), map.mm_per_pixel);
+  return array_of(std::move(map.image));
 }
 
 // Returns a picture of 8 bits, of one, three or four channels, as the bytes of a PNG file.
@@ -110,7 +103,7 @@ py::bytes png(const py::array& picture) {
       static_cast<int>(rows.shape(1)), static_cast<int>(rows.shape(0)), static_cast<int>(channels), {}};
   image.pixels.assign(rows.data(), rows.data() + rows.size());
   const auto bytes = unlocked([&] { return write_png(image); });
-  return bytes_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return bytes_of(app::text_in(bytes));
 }
 
 py::array vertices(const SharedRelief& relief) {
@@ -163,7 +156,6 @@ void add_relief(py::module_& module) {
            })
       .def("to_bytes", &to_bytes)
       .def("preview", &preview)
-      .def("preview_png", &preview_png)
       .def("heights", &heights)
       .def("vertices", &vertices)
       .def("faces", &faces)

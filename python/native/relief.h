@@ -15,6 +15,9 @@ app::MakeOrder order_of(const pybind11::list& sources, const pybind11::dict& key
 
 using SharedRelief = std::shared_ptr<app::FinishedRelief>;
 
+// Add the types and functions of their sources.
 void add_relief(pybind11::module_& module);
+void add_session(pybind11::module_& module);
+void add_stages(pybind11::module_& module);
 
 }  // namespace relievo::python

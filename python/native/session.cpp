@@ -1,5 +1,4 @@
-#include "native/session.h"
-
+// One model, prepared once, whose reliefs are made many times.
 #include "common/prepared_model.h"
 #include "native/arrays.h"
 #include "native/call.h"

@@ -1,5 +1,4 @@
-#include "native/stages.h"
-
+// Stages of the library that can be called with arrays.
 #include <header_docs.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "native/arrays.h"
 #include "native/call.h"
 #include "native/errors.h"
+#include "native/relief.h"
 #include "relievo/core/text.h"
 #include "relievo/geometry/triangulation.h"
 #include "relievo/relief/heights.h"

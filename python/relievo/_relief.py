@@ -57,7 +57,7 @@ class Relief:
 
     def height_map(self, size: int = 1024) -> NDArray[np.float32]:
         """Returns the heights with that many pixels on the longer side; 0 beside the plate."""
-        return self._native.heights(size)[0]
+        return self._native.heights(size)
 
     def preview(self, size: int = 1200, material: str = "plaster") -> NDArray[np.uint8]:
         """Returns a picture, (rows, columns, 3): from the front and obliquely, each with `size` pixels on its longer side.
@@ -102,7 +102,7 @@ class Relief:
 
     def _repr_png_(self) -> bytes:
         """Shows the relief in a notebook."""
-        return self._native.preview_png(480, "plaster")
+        return png(self.preview(480))
 
     def __repr__(self) -> str:
         size = " x ".join(f"{mm:.4g}" for mm in self.report["size_mm"])

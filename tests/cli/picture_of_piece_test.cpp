@@ -119,14 +119,13 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   ReliefOptions options = *app::options_from_json(json, "options");
   options.base = base;
   request.options = options;
-  request.key = json.dump();
   request.render.width = 720;
   request.render.height = 600;
   request.render.is_fine = request.is_finished = true;
   Drawing drawing({model(), {}}, 0);
   const auto order = drawing.missing_piece(request);
   ASSERT_TRUE(order && *order);
-  drawing.take(std::make_shared<const MadeRelief>(*make_relief(*model(), (*order)->options)), **order);
+  drawing.take(std::make_shared<const MadeRelief>(*make_relief(*model(), **order)), **order);
   const auto shown = drawing.picture(request);
   ASSERT_TRUE(shown) << shown.error().message();
   EXPECT_TRUE(shown->is_finished);

@@ -13,14 +13,15 @@
 #include "common/stage_names.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
-#include "relievo/core/version.h"
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
 #include "relievo/samples/sample.h"
 #include "relievo/scan/surface.h"
-#include "web/host.h"
-#include "web/npm/order.h"
+
+// Imported from the module "relievo". Returns 1 to cancel.
+__attribute__((import_module("relievo"), import_name("progress"))) extern "C" int relievo_host_progress(
+    const char* stage, std::size_t size, double fraction);
 
 namespace relievo::app::web {
 namespace {
@@ -29,7 +30,15 @@ using Json = nlohmann::json;
 using Kept =
     std::variant<std::shared_ptr<FinishedRelief>, std::shared_ptr<PreparedModel>, std::shared_ptr<FrameInMm>>;
 
-// Keeps the objects that calls have made, by number, until they are forgotten.
+// The host hears of this progress, and may cancel it at the beginning of a stage.
+struct HostProgress : Progress {
+  HostProgress()
+      : Progress([this](std::string_view stage, double fraction) {
+          if (relievo_host_progress(stage.data(), stage.size(), fraction) != 0) cancel();
+        }) {}
+};
+
+// Holds by number what calls have made, until it is forgotten.
 std::map<int, Kept>& kept() {
   static std::map<int, Kept> all;
   return all;
@@ -41,19 +50,44 @@ int keep(Kept made) {
   return last;
 }
 
-int integer(const Json& json, const char* key, int otherwise) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_number() ? static_cast<int>(found->get<double>()) : otherwise;
-}
-
 double number(const Json& json, const char* key, double otherwise) {
   const auto found = json.find(key);
   return found != json.end() && found->is_number() ? found->get<double>() : otherwise;
 }
 
+int integer(const Json& json, const char* key, int otherwise) {
+  return static_cast<int>(number(json, key, otherwise));
+}
+
 std::string text(const Json& json, const char* key, std::string otherwise = {}) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+// Reads {"inputs": [paths], "options": {name: number or text}, "camera": text, "base_image": path, "stream_above_mb":
+// number}; each may be missing. Options have the names of the command line; lengths may be texts with a unit. Errors:
+// kind option, naming the option.
+Result<MakeOrder> order_from(const Json& json) {
+  MakeOrder order;
+  const Json options = json.contains("options") ? json["options"] : Json::object();
+  if (!options.is_object()) return option_error("options", "expected an object");
+  for (const auto& [name, given] : options.items()) {
+    if (given.is_null()) continue;
+    const OptionRow* const option = find_option(name);
+    if (!option) return option_error(name, "expected the name of an option");
+    const std::optional<OptionValue> value = value_from_json(given);
+    if (!value) return option_error(name, std::string(expected_type(*option)));
+    order.values.emplace(name, *value);
+  }
+  RELIEVO_TRY(order.in.depth, parse_depth(order.values));
+  order.in.camera = text(json, "camera");
+  order.base_image_path = text(json, "base_image");
+  order.scan_path = text(json, "scan");
+  order.in.stream_above_mb = number(json, "stream_above_mb", order.in.stream_above_mb);
+  if (const auto inputs = json.find("inputs"); inputs != json.end() && inputs->is_array())
+    for (const Json& path : *inputs)
+      if (path.is_string()) order.inputs.push_back(path.get<std::string>());
+  return order;
 }
 
 // Returns what an earlier call has made.
@@ -79,17 +113,9 @@ CallAnswer answer_of(std::shared_ptr<FinishedRelief> relief) {
 // --------------------------------------------------------------------------------------------------- making
 
 Result<CallAnswer> about(const Json&) {
-  Json all = Json::array();
-  for (const SampleInfo& sample : samples())
-    all.push_back({{"name", sample.name}, {"description", sample.description}});
-  Json stages = Json::object();
-  for (const auto& [stage, words] : stage_names()) stages[std::string(stage)] = words;
-  return CallAnswer{{{"version", version},
-                     {"options", keyword_list()},
-                     {"formats", format_list()},
-                     {"endings", readable_endings()},
-                     {"stages", stages},
-                     {"samples", all}}};
+  Json facts = program_facts();
+  facts["options"] = keyword_list();
+  return CallAnswer{std::move(facts)};
 }
 
 Result<CallAnswer> make(const Json& json) {

@@ -45,6 +45,8 @@ struct BaseOptions {
   bool is_mirrored = false;   // left and right swapped
   // image: its heights in any unit; height_mm is then a tenth of the plate by default
   std::shared_ptr<const Image<float>> image;
+
+  bool operator==(const BaseOptions&) const = default;  // images are equal if they are the same object
 };
 
 // Returns the base of a text like "wave", "wave:height=3,length=40" or "dome:diameter=90,hollow". Errors:

@@ -20,6 +20,8 @@ struct Tool {
   double diameter_mm = 1;  // of a ball or flat end, [0.01, 1000]
   double angle_deg = 60;   // of a V tool, from flank to flank, [1, 170]; its flanks have no end
   double tip_mm = 0;       // diameter of the ball that rounds a V tool's tip, [0, 1000]; 0 is sharp
+
+  bool operator==(const Tool&) const = default;
 };
 
 // Returns the tool of "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in degrees and lengths,

@@ -29,6 +29,8 @@ struct WrapOptions {
   double angle_deg = 10;      // cone: between its side and its axis; positive if it is narrow at the top
   double direction_deg = 90;  // of the axis, counter-clockwise from the x axis; 90 is upright
   bool is_inside = false;     // the relief is on the inner side
+
+  bool operator==(const WrapOptions&) const = default;
 };
 
 // Returns the wrap of a text like "cylinder:diameter=60", "cylinder:turn=360" or "cone:diameter=70,angle=8".

@@ -26,6 +26,8 @@ class ToneCurve {
   // Share of the normal kept at a curvature in [-1, 1], in [0, 1].
   double operator()(double k) const;
 
+  bool operator==(const ToneCurve&) const = default;
+
  private:
   explicit ToneCurve(std::vector<Vec2> points);
 
