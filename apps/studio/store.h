@@ -41,7 +41,7 @@ struct KeptAmount {
 // Returns the name of the document of that scan: 16 hexadecimal digits.
 std::string document_of(const ScanSource& input);
 
-// Keeps documents and scans. Not for concurrent use, but for begin_scan().
+// Keeps scans and, where a derived class says so, documents. Not for concurrent use, but for begin_scan().
 class Store {
  public:
   static constexpr std::size_t most_recent = 24;
@@ -49,31 +49,29 @@ class Store {
   virtual ~Store() = default;
 
   // Returns what the user should know of the place: that it is another one, or cannot be written to. Usually empty.
-  virtual const std::string& notice() const = 0;
+  virtual std::string notice() const { return {}; }
 
   // Returns a document as keep_document() stored it; an empty text before. Errors: kind output if it cannot be read.
-  virtual Result<std::string> document(const std::string& id) const = 0;
+  virtual Result<std::string> document(const std::string& /*id*/) const { return {}; }
 
-  // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors:
-  // kind input if `id` is no document's name, kind output.
-  virtual Result<void> keep_document(const std::string& id, std::string_view state, bool is_moving) = 0;
+  // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors: kind input if
+  // the name is none, kind output.
+  virtual Result<void> keep_document(const std::string&, std::string_view, bool /*is_moving*/) { return {}; }
 
   // Keeps the document's picture, an address that begins with "data:". Errors: as above.
-  virtual Result<void> keep_picture(const std::string& id, std::string_view picture) = 0;
+  virtual Result<void> keep_picture(const std::string& /*id*/, std::string_view) { return {}; }
 
   // Makes a document the newest in the list.
-  virtual void touch(const std::string& id) = 0;
+  virtual void touch(const std::string& /*id*/) {}
 
-  // Returns the most_recent documents that were opened or changed last, the newest first; if `after` is not
-  // empty, those that follow that document in this order.
-  virtual std::vector<KeptDocument> recent(const std::string& after) const = 0;
+  // Returns the documents that were opened or changed last, the newest first.
+  virtual std::vector<KeptDocument> recent() const { return {}; }
 
-  // Returns the number and size of all documents. They are kept until they are removed.
-  virtual KeptAmount amount() const = 0;
+  // Returns what all documents take. They are kept until they are removed.
+  virtual KeptAmount amount() const { return {}; }
 
-  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if `id` is no
-  // document's name, kind output.
-  virtual Result<void> remove(const std::string& id) = 0;
+  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if the name is none, kind output.
+  virtual Result<void> remove(const std::string& /*id*/) { return {}; }
 
   // Begins a dropped scan. Folders in the name are ignored. May be called from any thread.
   virtual std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const = 0;
@@ -82,7 +80,7 @@ class Store {
   virtual Result<ScanSource> keep(DroppedScan& scan) = 0;
 
   // Returns the dropped scan with those bytes as an input; none if it is not there.
-  virtual std::optional<ScanSource> find_scan(const std::string& hash) const = 0;
+  virtual std::optional<ScanSource> find_scan(const std::string& /*hash*/) const { return std::nullopt; }
 };
 
 // Returns whether a text is the name of a document.

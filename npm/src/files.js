@@ -63,19 +63,18 @@ export function wasi(files, memory, log) {
     return 0;
   }
 
+  // There is no environment, and there are no arguments.
+  const noSizes = (count, size) => {
+    view().setUint32(count, 0, true);
+    view().setUint32(size, 0, true);
+    return 0;
+  };
+
   return {
     environ_get: () => 0,
-    environ_sizes_get(count, size) {
-      view().setUint32(count, 0, true);
-      view().setUint32(size, 0, true);
-      return 0;
-    },
+    environ_sizes_get: noSizes,
     args_get: () => 0,
-    args_sizes_get(count, size) {
-      view().setUint32(count, 0, true);
-      view().setUint32(size, 0, true);
-      return 0;
-    },
+    args_sizes_get: noSizes,
     clock_res_get: () => UNKNOWN,
     clock_time_get(clock, _precision, at) {
       const ms = clock === 0 ? Date.now() : performance.now();

@@ -28,7 +28,7 @@ class DiskStore final : public Store {
  public:
   explicit DiskStore(StateFolder folder);
 
-  const std::string& notice() const override { return notice_; }
+  std::string notice() const override { return notice_; }
   Result<std::string> document(const std::string& id) const override;
   Result<void> keep_document(const std::string& id, std::string_view state, bool is_moving) override;
   Result<void> keep_picture(const std::string& id, std::string_view picture) override;

@@ -35,18 +35,19 @@ std::string plain_path(const std::string& path) {
   return failed ? path : whole.string();
 }
 
-}  // namespace
-
-bool own_state_folder(const std::string& folder) {
-  return own_folder(folder, mark_owner, private_folder) == Ownership::owned;
-}
-
+// Returns a folder for temporary files if there is no home.
 std::string default_state_folder() {
   const std::string state = environment_variable("XDG_STATE_HOME"), home = environment_variable("HOME");
   if (!state.empty()) return state + "/relievo";
   if (!home.empty()) return home + "/.local/state/relievo";
   std::error_code ignored;
   return (fs::temp_directory_path(ignored) / "relievo").string();
+}
+
+}  // namespace
+
+bool own_state_folder(const std::string& folder) {
+  return own_folder(folder, mark_owner, private_folder) == Ownership::owned;
 }
 
 Result<StateFolder> take_state_folder(const std::string& chosen) {

@@ -15,9 +15,6 @@ struct StateFolder {
   Descriptor lock{-1};   // no other studio has it while this is open
 };
 
-// Returns $XDG_STATE_HOME/relievo, or ~/.local/state/relievo, or without a home a folder for temporary files.
-std::string default_state_folder();
-
 // Returns whether a folder has a studio's mark; one that is gone is made anew.
 bool own_state_folder(const std::string& folder);
 
