@@ -19,10 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr int tile_px = 160;
 
-std::string sheet_name(std::size_t i) {
-  return i == 0 ? "contact-sheet.png" : cat("contact-sheet-", i + 1, ".png");
-}
-
 const Record* made_record(const Job& job, const Records& records) {
   const auto found = records.find(job.name);
   return found != records.end() && found->second.is_made ? &found->second : nullptr;
@@ -47,7 +43,7 @@ Result<std::vector<std::string>> write_sheets(const std::vector<Job>& jobs, cons
     std::vector<Image8> tiles;
     for (std::size_t i = first; i < std::min(jobs.size(), first + tiles_per_sheet); ++i)
       tiles.push_back(tile_of(jobs[i], records, workshop));
-    names.push_back(sheet_name(names.size()));
+    names.push_back(names.empty() ? "contact-sheet.png" : cat("contact-sheet-", names.size() + 1, ".png"));
     RELIEVO_CHECK(write_file(workshop, names.back(), write_png(contact_sheet(tiles, tile_px))));
   }
   return names;

@@ -18,10 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::unexpected<Error> fail(const std::string& input, std::string place, std::string expected) {
-  return input_error(input, std::move(place), std::move(expected));
-}
-
 std::string absolute_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal().string();
 }
@@ -69,7 +65,8 @@ Result<std::vector<fs::path>> files_in(const Catalogue& catalogue) {
     }
     if (!name.starts_with('.')) paths.push_back(entry->path());
   }
-  if (failed) return fail(catalogue.path, {}, cat("expected a folder that can be read: ", failed.message()));
+  if (failed)
+    return input_error(catalogue.path, {}, cat("expected a folder that can be read: ", failed.message()));
   std::ranges::sort(paths);
   return paths;
 }
@@ -131,7 +128,7 @@ class TableJobs {
 
  private:
   std::unexpected<Error> fail(const TableRow& row, std::string expected) const {
-    return batch::fail(catalogue_.path, cat("line ", row.line), std::move(expected));
+    return input_error(catalogue_.path, cat("line ", row.line), std::move(expected));
   }
 
   const std::string& cell(const TableRow& row, std::string_view column) const {
@@ -167,12 +164,12 @@ Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
   const std::string ending = ending_of(catalogue.path);
   const bool may_be_table = ending == "csv" || ending == "txt";  // scans may have these endings, too
   if (is_scan_name(catalogue.path) && !may_be_table)
-    return fail(catalogue.path, {},
-                "expected a folder of scans or a table of them, found a scan; see relievo make");
+    return input_error(catalogue.path, {},
+                       "expected a folder of scans or a table of them, found a scan; see relievo make");
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(catalogue.path));
   RELIEVO_TRY(const Table table, read_table(text_in(bytes), catalogue.path));
   if (std::ranges::find(table.columns, "file") == table.columns.end())
-    return fail(catalogue.path, "line 1", "expected a column 'file', found none");
+    return input_error(catalogue.path, "line 1", "expected a column 'file', found none");
   for (const std::string& column : table.columns)
     if (column != "file" && column != "name" && !is_option(column))
       return option_error(catalogue.path,
@@ -189,13 +186,13 @@ Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
   for (auto& [option, value] : resolved.common)
     if (is_path(option, value)) value = absolute_path(value);
   if (!fs::exists(catalogue.path, ignored))
-    return fail(catalogue.path, {}, "expected a folder or a table, found none");
+    return input_error(catalogue.path, {}, "expected a folder or a table, found none");
   const bool is_folder = fs::is_directory(catalogue.path, ignored);
   if (is_folder && fs::equivalent(catalogue.path, catalogue.outputs, ignored))
-    return fail(catalogue.path, {}, "expected another folder than that of the outputs");
+    return input_error(catalogue.path, {}, "expected another folder than that of the outputs");
   RELIEVO_TRY(std::vector<Job> jobs,
               is_folder ? jobs_of_folder(resolved) : jobs_of_table(resolved, is_option));
-  if (jobs.empty()) return fail(catalogue.path, {}, "expected scans, found none");
+  if (jobs.empty()) return input_error(catalogue.path, {}, "expected scans, found none");
   return jobs;
 }
 
@@ -222,12 +219,12 @@ Json to_json(const Job& job) {
 
 Result<Job> job_from_json(const Json& json) {
   const auto is_text = [](const Json& value) { return value.is_string(); };
-  if (!json.is_object()) return fail("job", {}, "expected a job in JSON");
+  if (!json.is_object()) return input_error("job", {}, "expected a job in JSON");
   const Json name = json.value("name", Json()), file = json.value("file", Json()),
              options = json.value("options", Json::object());
   if (!is_text(name) || !is_text(file) || !options.is_object() || !std::ranges::all_of(options, is_text))
-    return fail("job", {}, "expected an object with name, file and options, as --list prints it");
-  if (!is_inside(name)) return fail("job", "name", "expected a name inside the folder");
+    return input_error("job", {}, "expected an object with name, file and options, as --list prints it");
+  if (!is_inside(name)) return input_error("job", "name", "expected a name inside the folder");
   return Job{name, file, options.get<Options>()};
 }
 

@@ -11,6 +11,7 @@
 #include "batch/run.h"
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
+#include "cli/flags.h"
 #include "cli/make_options.h"
 #include "cli/program.h"
 #include "cli/terminal.h"

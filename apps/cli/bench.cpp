@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/flags.h"
 #include "cli/frame_figures.h"
 #include "cli/input_flags.h"
 #include "cli/view_figures.h"
@@ -48,25 +49,23 @@ struct BenchResult {
 Result<void> measure_mode(const Surface& surface, Mode mode, int frames, BenchResult& result) {
   const std::string name = mode == Mode::exact ? "exact" : "subspace";
   Progress progress;
-  const Result<ReliefModel> model = ReliefModel::prepare(surface, &progress, mode);
-  if (!model) return std::unexpected(model.error());
+  RELIEVO_TRY(const ReliefModel model, ReliefModel::prepare(surface, &progress, mode));
   progress.finish();
   for (const StageTime& stage : progress.times())
     result.preparation.push_back({cat(name, ": ", stage.name), stage.seconds});
   const int most_threads = thread_count();
-  if (most_threads > 1) result.frames.push_back(measure_frames(*model, {1, frames, false}));
+  if (most_threads > 1) result.frames.push_back(measure_frames(model, {1, frames, false}));
   for (const bool is_locked : {false, true})
-    result.frames.push_back(measure_frames(*model, {most_threads, frames, is_locked}));
-  result.frames.push_back(measure_frames(*model, {most_threads, frames, false, Style::paper}));
-  result.memory.push_back({name, bytes_per_point(*model)});
+    result.frames.push_back(measure_frames(model, {most_threads, frames, is_locked}));
+  result.frames.push_back(measure_frames(model, {most_threads, frames, false, Style::paper}));
+  result.memory.push_back({name, bytes_per_point(model)});
   return {};
 }
 
 Result<std::vector<Mode>> modes_of(const BenchArguments& arguments, const Surface& surface) {
   if (arguments.mode == "all") return std::vector{Mode::exact, Mode::subspace};
-  const Result<Mode> mode = parse_choice("mode", arguments.mode, mode_choices);
-  if (!mode) return std::unexpected(mode.error());
-  return std::vector{resolve_mode(*mode, surface)};
+  RELIEVO_TRY(const Mode mode, parse_choice("mode", arguments.mode, mode_choices));
+  return std::vector{resolve_mode(mode, surface)};
 }
 
 Result<BenchResult> measure(const BenchArguments& arguments) {
@@ -132,9 +131,8 @@ void print_json(const BenchResult& r) {
 }
 
 Result<void> bench(const BenchArguments& arguments) {
-  const Result<BenchResult> result = measure(arguments);
-  if (!result) return std::unexpected(result.error());
-  arguments.is_json ? print_json(*result) : print_table(*result);
+  RELIEVO_TRY(const BenchResult result, measure(arguments));
+  arguments.is_json ? print_json(result) : print_table(result);
   return {};
 }
 
@@ -147,14 +145,10 @@ void add_bench(CLI::App& program, Result<void>& result) {
   command.add_option("--mode", arguments->mode, "exact, subspace, auto or all")
       ->type_name("MODE")
       ->capture_default_str();
-  command.add_option("--frames", arguments->frames, "frames timed for each line [5 to 10000]")
-      ->check(CLI::Range(5, 10000).description(""))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--views", arguments->views, "other views timed; 0 times no views [0 to 10000]")
-      ->check(CLI::Range(0, 10000).description(""))
-      ->type_name("N")
-      ->capture_default_str();
+  add_number(command, "--frames", arguments->frames, CLI::Range(5, 10000),
+             "frames timed for each line [5 to 10000]");
+  add_number(command, "--views", arguments->views, CLI::Range(0, 10000),
+             "other views timed; 0 times no views [0 to 10000]");
   command.add_flag("--json", arguments->is_json, "print JSON instead of a table");
   command.callback([arguments, &result] { result = bench(*arguments); });
 }

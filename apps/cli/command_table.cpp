@@ -10,31 +10,22 @@
 namespace relievo::app::cli {
 namespace {
 
-std::vector<std::string> copies(const std::vector<std::string_view>& views) {
-  return {views.begin(), views.end()};
-}
-
-std::vector<std::string> sample_names() {
+std::vector<std::string> all_names(const auto& infos) {
   std::vector<std::string> names;
-  for (const SampleInfo& info : samples()) names.emplace_back(info.name);
-  return names;
-}
-
-std::vector<std::string> method_words() {
-  std::vector<std::string> names;
-  for (const MethodInfo& info : methods) names.emplace_back(info.name);
+  for (const auto& info : infos) names.emplace_back(info.name);
   return names;
 }
 
 // Returns the words that the tables of options have for a flag without its dashes.
 std::vector<std::string> words_of(const std::string& command, const std::string& name) {
-  if (command == "sample" && name == "name") return sample_names();
+  if (command == "sample" && name == "name") return all_names(samples());
   if (name == "units") return {"mm", "in"};
-  if (name == "methods") return method_words();
+  if (name == "methods") return all_names(methods);
   if (command == "bench" && name == "mode") return {"exact", "subspace", "auto", "all"};
   if (name == "view") return {"front", "back", "left", "right", "top", "bottom"};
   const OptionRow* const option = find_option(name);
-  return option == nullptr ? std::vector<std::string>() : copies(option->choices);
+  if (option == nullptr) return {};
+  return {option->choices.begin(), option->choices.end()};
 }
 
 // A path is named by its ending ("P.png") or by a word for files and folders.

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/comparison_page.h"
+#include "cli/flags.h"
 #include "cli/input_flags.h"
 #include "cli/terminal.h"
 #include "common/files.h"
@@ -212,10 +213,7 @@ void add_compare(CLI::App& program, Result<void>& result) {
   command.add_option("--methods", arguments->methods, cat("of ", method_names(), "; default all"))
       ->delimiter(',')
       ->type_name("NAME,...");
-  command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
-      ->check(CLI::Range(0, 256).description(""))
-      ->type_name("N")
-      ->capture_default_str();
+  add_number(command, "--threads", arguments->threads, CLI::Range(0, 256), "0 for all [0 to 256]");
   command.add_flag("--json", arguments->is_json, "print JSON instead of a table");
   command.add_flag("--quiet", arguments->is_quiet, "no progress bar");
   command.callback([arguments, &result] { result = compare(*arguments); });

@@ -63,9 +63,15 @@ std::string initial_text(const OptionRow& option) {
 }  // namespace
 
 std::string flag_help(const OptionRow& option) {
-  const std::string range = option.is_number() ? cat(" [", option.min, " to ", option.max, "]") : "";
   const bool is_shown = !initial_text(option).empty();
-  return cat(help_text(option), range, is_shown ? "" : cat("; default: ", default_text(option)));
+  return cat(help_text(option), is_shown ? "" : cat("; default: ", default_text(option)));
+}
+
+void add_number(CLI::App& command, const char* name, int& value, const CLI::Range& range, const char* help) {
+  command.add_option(name, value, help)
+      ->check(CLI::Range(range).description(""))
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 void add_flags(CLI::App& command, OptionValues& values,

@@ -17,4 +17,7 @@ void add_flags(CLI::App& command, OptionValues& values,
                const std::function<bool(const OptionRow&)>& is_wanted,
                const std::function<std::string(const OptionRow&)>& help = flag_help);
 
+// Adds a flag for a whole number within the range.
+void add_number(CLI::App& command, const char* name, int& value, const CLI::Range& range, const char* help);
+
 }  // namespace relievo::app::cli

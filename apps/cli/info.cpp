@@ -44,16 +44,15 @@ void print_line(const char* what, const std::string& value) {
 }
 
 Result<void> depth_info(std::span<const std::byte> bytes, const std::string& input) {
-  const Result<DepthImage> image = read_depth_image(bytes, input);
-  if (!image) return std::unexpected(image.error());
+  RELIEVO_TRY(const DepthImage image, read_depth_image(bytes, input));
   std::size_t missing = 0;
   float low = std::numeric_limits<float>::infinity(), high = -low;
-  for (const float v : image->values.pixels) {
+  for (const float v : image.values.pixels) {
     missing += !std::isfinite(v) || v == 0;
     if (std::isfinite(v) && v != 0) low = std::min(low, v), high = std::max(high, v);
   }
-  print_line("format", cat(image->format, ", taken as a depth image"));
-  print_line("pixels", cat(image->values.width, " x ", image->values.height));
+  print_line("format", cat(image.format, ", taken as a depth image"));
+  print_line("pixels", cat(image.values.width, " x ", image.values.height));
   print_line("values", low <= high ? cat(low, " to ", high) : "none");
   print_line("missing", cat(missing, " (0 or not finite)"));
   return {};
@@ -104,21 +103,19 @@ Result<void> scene_info(const std::vector<std::string>& inputs) {
 Result<void> info(const std::vector<std::string>& inputs) {
   const std::string& input = inputs[0];
   if (inputs.size() > 1 || is_scene_file(input)) return scene_info(inputs);
-  const Result<std::vector<std::byte>> bytes = read_file(input, true);
-  if (!bytes) return std::unexpected(bytes.error());
-  if (is_picture(*bytes)) return depth_info(*bytes, input);
-  const Result<CloudFile> file = read_cloud_at(*bytes, input);
-  if (!file) return std::unexpected(file.error());
-  const Box box = box_of(*file, {});
-  print_line("format", file->format);
-  print_line("points", points_text(*file));
-  if (!file->mesh.empty()) print_line("triangles", cat(file->mesh.triangles.size()));
-  print_line("normals", normals_text(file->cloud));
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(input, true));
+  if (is_picture(bytes)) return depth_info(bytes, input);
+  RELIEVO_TRY(const CloudFile file, read_cloud_at(bytes, input));
+  const Box box = box_of(file, {});
+  print_line("format", file.format);
+  print_line("points", points_text(file));
+  if (!file.mesh.empty()) print_line("triangles", cat(file.mesh.triangles.size()));
+  print_line("normals", normals_text(file.cloud));
   print_line("from", vector_text(box.min));
   print_line("to", vector_text(box.max));
   print_line("size", vector_text(box.size()));
-  print_line("spacing", cat(measure_spacing(without_repeated_points(file->cloud)).rho));
-  print_line("best view", views_text(file->mesh.empty() ? file->cloud : scatter(file->mesh, 200000)));
+  print_line("spacing", cat(measure_spacing(without_repeated_points(file.cloud)).rho));
+  print_line("best view", views_text(file.mesh.empty() ? file.cloud : scatter(file.mesh, 200000)));
   return {};
 }
 

@@ -4,13 +4,6 @@
 
 namespace relievo::app::cli {
 
-void add_number(CLI::App& command, const char* name, int& value, const CLI::Range& range, const char* help) {
-  command.add_option(name, value, help)
-      ->check(CLI::Range(range).description(""))
-      ->type_name("N")
-      ->capture_default_str();
-}
-
 void add_make_options(CLI::App& command, MakeOptions& options) {
   command
       .add_option("--units", options.units,

@@ -20,7 +20,4 @@ struct MakeOptions {
 
 void add_make_options(CLI::App& command, MakeOptions& options);
 
-// Adds a flag for a whole number within the range.
-void add_number(CLI::App& command, const char* name, int& value, const CLI::Range& range, const char* help);
-
 }  // namespace relievo::app::cli

@@ -19,9 +19,8 @@ struct SampleArguments {
 
 Result<void> sample(const SampleArguments& arguments) {
   RELIEVO_CHECK(check_output(arguments.output, {".ply"}));
-  const Result<Cloud> cloud = make_sample(arguments.name, arguments.options);
-  if (!cloud) return std::unexpected(cloud.error());
-  const OutputFile file{arguments.output, write_ply(*cloud, cat("relievo sample ", arguments.name))};
+  RELIEVO_TRY(const Cloud cloud, make_sample(arguments.name, arguments.options));
+  const OutputFile file{arguments.output, write_ply(cloud, cat("relievo sample ", arguments.name))};
   return write_files({&file, 1});
 }
 

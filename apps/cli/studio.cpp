@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "cli/flags.h"
 #include "common/files.h"
 #include "relievo/core/text.h"
 #include "studio/actions.h"
@@ -52,15 +53,14 @@ Result<void> studio(const StudioArguments& arguments) {
     RELIEVO_CHECK(actions.begin_with(arguments.input, std::filesystem::absolute(arguments.input).string()));
   studio::Server server(actions, store,
                         {arguments.port, arguments.page, std::chrono::seconds(arguments.linger_s)});
-  const Result<std::string> address = server.bind();
-  if (!address) return std::unexpected(address.error());
-  std::printf("Relievo studio: %s\nCtrl-C ends it; so does closing the page.\n", address->c_str());
-  if (const std::string tunnel = tunnel_command(*address); !tunnel.empty())
+  RELIEVO_TRY(const std::string address, server.bind());
+  std::printf("Relievo studio: %s\nCtrl-C ends it; so does closing the page.\n", address.c_str());
+  if (const std::string tunnel = tunnel_command(address); !tunnel.empty())
     std::printf("From the machine that you sit at, make a tunnel, then open the address there:\n  %s\n",
                 tunnel.c_str());
   std::fflush(stdout);
-  if (!detail.empty()) std::fprintf(stderr, "relievo: %s %s\n", store.notice().c_str(), detail.c_str());
-  if (!arguments.has_no_browser) show(*address);
+  if (!store.notice().empty()) std::fprintf(stderr, "relievo: %s\n", store.notice().c_str());
+  if (!arguments.has_no_browser) show(address);
   server.run();
   return {};
 }
@@ -73,10 +73,7 @@ void add_studio(CLI::App& program, Result<void>& result) {
   command
       .add_option("input", arguments->input, "point cloud, mesh, depth image, scene or project, as for make")
       ->type_name("INPUT");
-  command.add_option("--port", arguments->port, "0 for a free one [0 to 65535]")
-      ->check(CLI::Range(0, 65535).description(""))
-      ->type_name("N")
-      ->capture_default_str();
+  add_number(command, "--port", arguments->port, CLI::Range(0, 65535), "0 for a free one [0 to 65535]");
   command.add_flag("--no-browser", arguments->has_no_browser, "print the address only");
   command.add_option("--state", arguments->state, "folder for what is kept between runs")->type_name("DIR");
   command

@@ -53,10 +53,6 @@ std::string plain_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : cat(value.get<double>());
 }
 
-std::string range_text(const OptionRow& option) {
-  return option.is_number() ? cat(" [", option.min, " to ", option.max, "]") : std::string();
-}
-
 Json entry_of(const OptionRow& option) {
   Json entry{{"name", option.name},
              {"unit", option.unit},
@@ -84,6 +80,7 @@ std::string default_text(const OptionRow& option) {
 }
 
 std::string help_text(const OptionRow& option) {
+  if (option.is_number()) return cat(option.help, " [", option.min, " to ", option.max, "]");
   return option.choices.empty() ? std::string(option.help) : cat(option.help, "; ", either(option.choices));
 }
 
@@ -114,8 +111,8 @@ std::string option_markdown() {
   std::string text = "| flag | meaning | default |\n| --- | --- | --- |\n";
   for (const OptionRow& option : option_table())
     if (option.is_of_relief())
-      text += cat("| `--", option.name, " ", option.unit, "` | ", help_text(option), range_text(option),
-                  " | ", default_text(option), " |\n");
+      text += cat("| `--", option.name, " ", option.unit, "` | ", help_text(option), " | ",
+                  default_text(option), " |\n");
   return text;
 }
 

@@ -12,7 +12,7 @@ namespace relievo::app {
 // with method paper".
 std::string default_text(const OptionRow& option);
 
-// Returns the help, with the words that may stand there.
+// Returns the help, with the range of a number or the words that may stand there.
 std::string help_text(const OptionRow& option);
 
 // Returns a list of objects with name, unit, help and stage; of numbers with min and max; of enumerations with choices.

@@ -207,10 +207,9 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder,
     return Scene{{{input.sample, std::make_shared<const CloudFile>(std::move(sample), "sample")}}};
   }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
-  const Result<std::vector<std::byte>> bytes = read_file(path);
-  if (!bytes) return std::unexpected(bytes.error());
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
   if (is_unwanted && is_unwanted()) return cancelled_error();
-  return load_scan(input, *bytes, path, is_unwanted);
+  return load_scan(input, bytes, path, is_unwanted);
 }
 
 }  // namespace relievo::app

@@ -45,15 +45,9 @@ std::vector<std::string> remarks_on(const CloudFile& file, const std::string& pa
 
 Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
   if (camera.empty()) return std::nullopt;
-  std::string text = camera;
-  if (is_there(camera)) {
-    const auto bytes = read_file(camera);
-    if (!bytes) return std::unexpected(bytes.error());
-    text = text_in(*bytes);
-  }
-  const auto parsed = parse_camera(text);
-  if (!parsed) return std::unexpected(parsed.error());
-  return *parsed;
+  if (!is_there(camera)) return parse_camera(camera);
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(camera));
+  return parse_camera(text_in(bytes));
 }
 
 std::string remark_on(const DepthImage& image, const DepthCloud& made) {
@@ -109,38 +103,33 @@ Result<std::optional<SceneModel>> read_large(const std::string& path, const Inpu
   FileSource source(path, *size);
   std::vector<std::byte> head(static_cast<std::size_t>(std::min<std::uint64_t>(*size, 1 << 20)));
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
-  auto streamed = stream_front(source, path, seen.view, seen.points, progress);
-  if (!streamed) return std::unexpected(streamed.error());
+  RELIEVO_TRY(auto streamed, stream_front(source, path, seen.view, seen.points, progress));
   SceneModel input{path, nullptr};
   input.remarks.push_back(
-      cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
-  if (streamed->missing_points > 0)
-    input.remarks.push_back(remark_on_missing(path, streamed->missing_points));
-  if (streamed->ignored_faces > 0)
+      cat(path, ": ", streamed.cloud.size(), " points for the ", streamed.input_points, " of the file"));
+  if (streamed.missing_points > 0) input.remarks.push_back(remark_on_missing(path, streamed.missing_points));
+  if (streamed.ignored_faces > 0)
     input.remarks.push_back(
-        cat(path, ": left out the ", streamed->ignored_faces,
+        cat(path, ": left out the ", streamed.ignored_faces,
             " faces of the mesh, as it is read piece by piece; stream-above sets from which size"));
-  input.file = std::make_shared<const CloudFile>(std::move(streamed->cloud), streamed->format);
+  input.file = std::make_shared<const CloudFile>(std::move(streamed.cloud), streamed.format);
   return input;
 }
 
 // Reads the file of that path.
 Result<SceneModel> read_input(const std::string& path, const InputArguments& arguments,
                               const PointsWanted& seen, Progress* progress) {
-  if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
-  auto large = read_large(path, arguments, seen, progress);
-  if (!large) return std::unexpected(large.error());
-  if (*large) return std::move(**large);
-  const auto bytes = read_file(path, arguments.are_pipes_fine);
-  if (!bytes) return std::unexpected(bytes.error());
-  return parse_input(*bytes, path, arguments, seen.points, progress);
+  RELIEVO_CHECK(begin_stage(progress, "read", 0));
+  RELIEVO_TRY(std::optional<SceneModel> large, read_large(path, arguments, seen, progress));
+  if (large) return *std::move(large);
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path, arguments.are_pipes_fine));
+  return parse_input(bytes, path, arguments, seen.points, progress);
 }
 
 Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths) {
   if (paths.size() == 1 && is_scene_file(paths[0])) {
-    const auto bytes = read_file(paths[0]);
-    if (!bytes) return std::unexpected(bytes.error());
-    return read_scene_file(text_in(*bytes), paths[0]);
+    RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(paths[0]));
+    return read_scene_file(text_in(bytes), paths[0]);
   }
   std::vector<SceneEntry> entries;
   for (const std::string& path : paths) {
@@ -194,10 +183,9 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
   if (is_picture(bytes)) return read_depths(bytes, path, arguments, points, progress);
-  auto file = read_cloud_at(bytes, path);
-  if (!file) return std::unexpected(file.error());
-  std::vector<std::string> remarks = remarks_on(*file, path);
-  return SceneModel{path, std::make_shared<const CloudFile>(*std::move(file)), {}, std::move(remarks)};
+  RELIEVO_TRY(CloudFile file, read_cloud_at(bytes, path));
+  std::vector<std::string> remarks = remarks_on(file, path);
+  return SceneModel{path, std::make_shared<const CloudFile>(std::move(file)), {}, std::move(remarks)};
 }
 
 std::vector<std::string> remarks_of(const Scene& scene) {

@@ -20,15 +20,14 @@ class SceneReader {
 
   Result<std::vector<SceneEntry>> read(const Json& scene) const {
     if (!scene.is_object()) return fail({}, "expected a scene in JSON, {\"models\": [...]}" + found(scene));
-    if (auto ok = check_keys(scene, {}, {"models"}); !ok) return std::unexpected(ok.error());
+    RELIEVO_CHECK(check_keys(scene, {}, {"models"}));
     const auto models = scene.find("models");
     if (models == scene.end() || !models->is_array() || models->empty())
       return fail("models", "expected a list of at least one model" + found(scene.value("models", Json())));
     std::vector<SceneEntry> entries;
     for (std::size_t i = 0; i < models->size(); ++i) {
-      Result<SceneEntry> entry = read_model((*models)[i], cat("models[", i, "]"));
-      if (!entry) return std::unexpected(entry.error());
-      entries.push_back(std::move(*entry));
+      RELIEVO_TRY(SceneEntry entry, read_model((*models)[i], cat("models[", i, "]")));
+      entries.push_back(std::move(entry));
     }
     return entries;
   }
@@ -52,12 +51,10 @@ class SceneReader {
 
   Result<SceneEntry> read_model(const Json& model, const std::string& place) const {
     if (!model.is_object()) return fail(place, "expected an object" + found(model));
-    if (auto ok = check_keys(model, place, {"file", "rotate", "translate", "scale", "mirror"}); !ok)
-      return std::unexpected(ok.error());
+    RELIEVO_CHECK(check_keys(model, place, {"file", "rotate", "translate", "scale", "mirror"}));
     SceneEntry entry;
-    Result<void> ok = read_path(model, place + ".file", entry.path);
-    if (ok) ok = read_pose(model, place, entry.pose);
-    if (!ok) return std::unexpected(ok.error());
+    RELIEVO_CHECK(read_path(model, place + ".file", entry.path));
+    RELIEVO_CHECK(read_pose(model, place, entry.pose));
     return entry;
   }
 
@@ -72,11 +69,9 @@ class SceneReader {
 
   Result<void> read_pose(const Json& model, const std::string& place, Pose& pose) const {
     if (const auto turn = model.find("rotate"); turn != model.end())
-      if (auto ok = read_three(*turn, place + ".rotate", "angles in degrees", pose.rotate_deg); !ok)
-        return ok;
+      RELIEVO_CHECK(read_three(*turn, place + ".rotate", "angles in degrees", pose.rotate_deg));
     if (const auto move = model.find("translate"); move != model.end())
-      if (auto ok = read_three(*move, place + ".translate", "lengths", pose.translate.emplace()); !ok)
-        return ok;
+      RELIEVO_CHECK(read_three(*move, place + ".translate", "lengths", pose.translate.emplace()));
     if (const auto scale = model.find("scale"); scale != model.end()) {
       if (!scale->is_number() || !(scale->get<double>() >= 1e-6 && scale->get<double>() <= 1e6))
         return fail(place + ".scale", "expected a number from 1e-06 to 1e+06" + found(*scale));

@@ -117,7 +117,7 @@ function changed(before) {
   if (doc.steps.includes(before)) takeRefusalBack(); // a drag that goes on is no other entry
   opened.keep(doc.stroke !== null);
   tour.takeBack();
-  showDocumentSoon();
+  doc.stroke === null ? showDocument() : showing.begin();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
     shownView.choose();
@@ -134,9 +134,6 @@ function stateCame() {
 
 // A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
 const showing = new Pause(showDocument, SHOW_MS);
-function showDocumentSoon() {
-  doc.stroke === null ? showDocument() : showing.begin();
-}
 
 function showDocument() {
   showing.end();
