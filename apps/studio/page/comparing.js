@@ -45,9 +45,7 @@ export class Comparing {
   }
 
   // Moves the divider to a pixel.
-  drag(x) {
-    this.setSplit(clamp(x / this.stage.size.width, 0, 1));
-  }
+  drag = (x) => this.setSplit(clamp(x / this.stage.size.width, 0, 1));
 
   marks({width, height}) {
     const x = this.split * width;

@@ -198,7 +198,5 @@ export class CropFrame {
   }
 
   // Moves the frame by keys.
-  step(x, y) {
-    this.choose(movedBy(this.numbers, x * KEY_STEP, y * KEY_STEP));
-  }
+  step = (x, y) => this.choose(movedBy(this.numbers, x * KEY_STEP, y * KEY_STEP));
 }

@@ -72,9 +72,7 @@ export class Document {
   }
 
   // Returns the step at a position, or the first one that is kept.
-  stepAt(position) {
-    return this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
-  }
+  stepAt = (position) => this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
 
   // Changes the document as it was at a position that was the newest then. Later changes follow and keep their values.
   changeAt(position, part) {
@@ -135,16 +133,10 @@ export class Document {
   }
 
   // Returns whether there is a step so many steps after the present one, or before it for negative numbers.
-  can(by) {
-    return this.steps[this.at + by] !== undefined;
-  }
+  can = (by) => this.steps[this.at + by] !== undefined;
 
-  undo() {
-    this.move(-1);
-  }
-  redo() {
-    this.move(1);
-  }
+  undo = () => this.move(-1);
+  redo = () => this.move(1);
   move(by) {
     if (!this.can(by)) return;
     const before = this.now;
@@ -155,9 +147,7 @@ export class Document {
   }
 
   // Returns all of it as plain data.
-  keep() {
-    return {version: 1, changed: this.changedAt, steps: this.steps, at: this.at};
-  }
+  keep = () => ({version: 1, changed: this.changedAt, steps: this.steps, at: this.at});
 
   // Returns whether the kept state could be used.
   restore(kept) {

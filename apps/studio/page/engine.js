@@ -38,9 +38,7 @@ export class Engine {
     this.#transport = transport;
   }
 
-  #call(name, request, options) {
-    return this.#transport.call(name, {document: this.document, ...request}, options);
-  }
+  #call = (name, request, options) => this.#transport.call(name, {document: this.document, ...request}, options);
 
   async #ask(name, request, options) {
     return (await this.#call(name, request, options)).body;

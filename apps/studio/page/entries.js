@@ -15,9 +15,7 @@ export class Entries {
     return this.waiting.filter(({document}) => document === this.engine.document);
   }
 
-  isPending(name) {
-    return this.pending.some((entry) => entry.name === name);
-  }
+  isPending = (name) => this.pending.some((entry) => entry.name === name);
 
   // Takes {name, label, part, isTried}: the option or control, its name for people, and a function that returns the
   // changes to the step before it. An entry that is not tried is taken at once if none is waiting.

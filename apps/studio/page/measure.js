@@ -121,9 +121,7 @@ export class Measure {
   }
 
   // Returns the line while it is drawn or one of its ends is dragged.
-  dragged(line, {end, from}, place) {
-    return end ? {...line, [end]: place} : {from, to: place};
-  }
+  dragged = (line, {end, from}, place) => (end ? {...line, [end]: place} : {from, to: place});
 
   lineMarks({from, to}, kind = "cut") {
     const [x1, y1] = this.stage.toPixels(from), [x2, y2] = this.stage.toPixels(to);

@@ -44,9 +44,7 @@ export class Modes {
     this.stage.setTable(isShown);
   }
 
-  toggleTable() {
-    this.setTable(!isPressed("#light-table"));
-  }
+  toggleTable = () => this.setTable(!isPressed("#light-table"));
 
   setComparing(isComparing) {
     if (isComparing === isPressed("#compare")) return;
@@ -55,9 +53,7 @@ export class Modes {
     this.stage.comparing.set({isComparing});
   }
 
-  toggleComparing() {
-    this.setComparing(!isPressed("#compare"));
-  }
+  toggleComparing = () => this.setComparing(!isPressed("#compare"));
 
   // Leaves the light table and the comparison.
   leave() {

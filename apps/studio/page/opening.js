@@ -127,9 +127,7 @@ export class OpenDocument {
   }
 
   // Returns the document's view, with the side that the engine chose if the document has none yet.
-  wantedView(shown) {
-    return withSide(viewOf(this.doc.now), shown);
-  }
+  wantedView = (shown) => withSide(viewOf(this.doc.now), shown);
 
   // Returns whether the model may be shown. The first one needs the view that was asked for, unless that failed.
   isWanted({busy, error, shown}) {

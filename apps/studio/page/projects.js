@@ -55,9 +55,7 @@ export class Projects {
     return this.open(await this.take(upload), work);
   }
 
-  openScene(models, work = null) {
-    return this.openScan([sceneFile(models)], work);
-  }
+  openScene = (models, work = null) => this.openScan([sceneFile(models)], work);
 
   async openProject(project) {
     const work = {steps: [stepOfProject(project)], at: 0};

@@ -147,7 +147,5 @@ export class ScanPanel {
     return JSON.stringify(this.offered);
   }
 
-  set(options) {
-    this.doc.change({options});
-  }
+  set = (options) => this.doc.change({options});
 }

@@ -48,11 +48,7 @@ export class ScenePanel {
       pair("Mirrored", mirror));
   }
 
-  change(at, part) {
-    this.open(this.models.map((model, i) => (i === at ? {...model, ...part} : model)));
-  }
+  change = (at, part) => this.open(this.models.map((model, i) => (i === at ? {...model, ...part} : model)));
 
-  remove(at) {
-    this.open(this.models.filter((_, i) => i !== at));
-  }
+  remove = (at) => this.open(this.models.filter((_, i) => i !== at));
 }

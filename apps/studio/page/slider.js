@@ -116,13 +116,9 @@ export class Slider {
     this.rest.begin();
   }
 
-  valueAt(position) {
-    return this.spread.from(position / STEPS, ...this.hand);
-  }
+  valueAt = (position) => this.spread.from(position / STEPS, ...this.hand);
 
-  position(value = this.value) {
-    return Math.round(this.spread.to(clamp(value, ...this.hand), ...this.hand) * STEPS);
-  }
+  position = (value = this.value) => Math.round(this.spread.to(clamp(value, ...this.hand), ...this.hand) * STEPS);
 
   moved(value, isTyped = false) {
     this.show(value);

@@ -39,9 +39,7 @@ export class Sliders {
     return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
   }
 
-  shownWidth() {
-    return Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
-  }
+  shownWidth = () => Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
 
   // Marks the width that a plate of a given size leaves.
   showWidth() {

@@ -213,16 +213,12 @@ export class Stage {
     this.invalidate();
   }
 
-  fit() {
-    this.look(FRONT);
-  }
+  fit = () => this.look(FRONT);
 
   // --------------------------------------------------------------------- section
 
   // Returns heights in mm along a line.
-  heights(from, to) {
-    return this.engine.profile(this.request({from, to}));
-  }
+  heights = (from, to) => this.engine.profile(this.request({from, to}));
 
   // ------------------------------------------------------------------- positions
 
@@ -312,9 +308,7 @@ export class Stage {
     this.look({yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)});
   }
 
-  shift(x, y) {
-    this.look({x: this.camera.x + x, y: this.camera.y + y});
-  }
+  shift = (x, y) => this.look({x: this.camera.x + x, y: this.camera.y + y});
 
   setLine(line) {
     this.line = line;

@@ -40,9 +40,7 @@ export class Transport {
     return {about: JSON.parse(about), body: new Uint8Array(await response.arrayBuffer())};
   }
 
-  addressOf(file) {
-    return file;
-  }
+  addressOf = (file) => file;
 
   // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that
   // has the lock opens the stream and passes on its events; when that tab goes, another has the lock.

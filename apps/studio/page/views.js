@@ -62,9 +62,7 @@ export class ViewDialog {
     this.draw();
   }
 
-  turn(...angles) {
-    this.look(turnedByHand(this.view, ...angles));
-  }
+  turn = (...angles) => this.look(turnedByHand(this.view, ...angles));
 
   // Draws the model, and again with more pixels when nothing else is drawn for a while.
   async draw() {

@@ -73,9 +73,7 @@ export class BrowserStore {
   }
 
   // Returns {id, state, picture, touched} of a document; nothing if it is not kept.
-  document(id) {
-    return this.#get("documents", id);
-  }
+  document = (id) => this.#get("documents", id);
 
   // Throws an error of kind "older" if a newer state is kept, "output" if this one cannot be.
   keepDocument(id, state) {
@@ -85,13 +83,9 @@ export class BrowserStore {
     });
   }
 
-  keepPicture(id, picture) {
-    return this.#change("documents", id, (kept) => ({...kept, id, picture}));
-  }
+  keepPicture = (id, picture) => this.#change("documents", id, (kept) => ({...kept, id, picture}));
 
-  touch(id) {
-    return this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
-  }
+  touch = (id) => this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
 
   // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}. Private windows of WebKit keep no blobs, but
   // their bytes.
@@ -105,9 +99,7 @@ export class BrowserStore {
     }
   }
 
-  scan(digits) {
-    return digits ? this.#get("scans", digits) : undefined;
-  }
+  scan = (digits) => (digits ? this.#get("scans", digits) : undefined);
 
   // Returns the documents that were used last, the newest first.
   async recent() {
