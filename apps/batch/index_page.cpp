@@ -1,8 +1,8 @@
 #include "batch/index_page.h"
 
 #include <algorithm>
+#include <cctype>
 
-#include "common/html.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 
@@ -132,6 +132,17 @@ std::string heading(const std::vector<Job>& jobs, const Summary& sum,
 }
 
 }  // namespace
+
+std::string url_of_path(std::string_view path) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string url;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = byte < 0x80 && (std::isalnum(byte) != 0 || std::string_view("-._/").contains(c));
+    url += is_plain ? std::string(1, c) : cat('%', digits[byte >> 4], digits[byte & 15]);
+  }
+  return url;
+}
 
 std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
                        const std::vector<std::string>& sheets) {

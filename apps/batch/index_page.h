@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "batch/finish.h"
@@ -12,5 +13,8 @@ namespace relievo::app::batch {
 // the folder of the outputs, to which all its links are relative, as are the paths of the contact sheets.
 std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
                        const std::vector<std::string>& sheets);
+
+// Returns the relative path as an address for a link, with all but letters, digits, - . _ / written as %XX.
+std::string url_of_path(std::string_view path);
 
 }  // namespace relievo::app::batch

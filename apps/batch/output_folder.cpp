@@ -12,18 +12,13 @@ namespace {
 constexpr std::string_view owner = "batch";
 
 Result<void> check_ownership(Ownership found, const std::string& folder) {
-  switch (found) {
-    case Ownership::owned:
-    case Ownership::free:
-      return {};
-    case Ownership::of_others:
-      return option_error(
-          "output",
-          cat("expected an empty folder, or one of relievo batch, found other files in '", folder, "'"));
-    case Ownership::unusable:
-      break;
-  }
-  return system_error(ErrorKind::output, folder, "expected a folder that can be written to");
+  if (found == Ownership::of_others)
+    return option_error(
+        "output",
+        cat("expected an empty folder, or one of relievo batch, found other files in '", folder, "'"));
+  if (found == Ownership::unusable)
+    return system_error(ErrorKind::output, folder, "expected a folder that can be written to");
+  return {};
 }
 
 }  // namespace

@@ -60,23 +60,22 @@ std::optional<Record> record_from_line(std::string_view line) {
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   // A value of a wrong type counts as missing.
-  const auto take = [&]<typename T>(const char* key, T& value, bool is_right) {
-    if (is_right) value = json[key].get<T>();
+  const auto take = [&]<typename T>(const char* key, T& value) {
+    const Json found = json.value(key, Json());
+    if (std::is_same_v<T, double> ? found.is_number() : found.is_string()) value = found.get<T>();
   };
-  const auto is_text = [&](const char* key) { return json.contains(key) && json[key].is_string(); };
-  const auto is_number = [&](const char* key) { return json.contains(key) && json[key].is_number(); };
   Record record;
-  take("name", record.name, is_text("name"));
-  take("file", record.file, is_text("file"));
-  record.is_made = is_text("status") && json["status"] == "made";
-  take("error", record.error, is_text("error"));
-  record.may_succeed = json.contains("may_succeed") && json["may_succeed"] == true;
-  take("hash", record.hash, is_text("hash"));
-  take("seconds", record.seconds, is_number("seconds"));
-  take("cpu_seconds", record.cpu_seconds, is_number("cpu_seconds"));
-  take("peak_mb", record.peak_mb, is_number("peak_mb"));
-  take("host", record.host, is_text("host"));
-  take("finished", record.finished, is_text("finished"));
+  take("name", record.name);
+  take("file", record.file);
+  take("error", record.error);
+  take("hash", record.hash);
+  take("seconds", record.seconds);
+  take("cpu_seconds", record.cpu_seconds);
+  take("peak_mb", record.peak_mb);
+  take("host", record.host);
+  take("finished", record.finished);
+  record.is_made = json.value("status", Json()) == "made";
+  record.may_succeed = json.value("may_succeed", Json()) == true;
   if (json.contains("outputs") && json["outputs"].is_object())
     for (const auto& [name, bytes] : json["outputs"].items())
       if (bytes.is_number_unsigned()) record.outputs[name] = bytes.get<std::uintmax_t>();

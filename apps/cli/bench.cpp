@@ -9,7 +9,6 @@
 #include "cli/flags.h"
 #include "cli/frame_figures.h"
 #include "cli/input_flags.h"
-#include "cli/view_figures.h"
 #include "common/files.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"

@@ -1,11 +1,15 @@
-// Measured times and memory of frames, and those that the paper printed.
+// Measured times and memory of frames and of views, which a user waits for who turns a scan, and those that the paper
+// printed.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "relievo/core/error.h"
 #include "relievo/relief/relief.h"
+#include "relievo/scan/view.h"
 
 namespace relievo::app::cli {
 
@@ -66,5 +70,30 @@ inline constexpr std::array<PaperRow, 15> paper_table_1{{
 void print_frame_head();
 void print_frames(const FrameFigures& figures, std::size_t visible_points);
 void print_paper_rows();
+
+struct ViewRun {
+  std::shared_ptr<const Cloud> cloud;
+  View view;  // the first
+  Mode mode = Mode::automatic;
+  int views = 5;
+};
+
+// Views of one kind, one after the other.
+struct ViewSeries {
+  Series time;
+  double early_mib = 0, late_mib = 0;  // memory of the process after a tenth of the views, and after all
+};
+
+struct ViewFigures {
+  double first_ms = 0;         // from points in memory to the first frame of the first view
+  double first_turned_ms = 0;  // from the first view to the first frame of a coarse relief
+  ViewSeries turned;           // coarse reliefs with a frame of each
+  ViewSeries prepared;         // other views with their first frames
+};
+
+// Opens the cloud in a session and turns it about the upright axis. Errors: those of preparations.
+Result<ViewFigures> measure_views(const ViewRun& run);
+
+void print_views(const ViewFigures& figures);
 
 }  // namespace relievo::app::cli

@@ -1,5 +1,4 @@
-#include "cli/view_figures.h"
-
+// Times of views as a user turns a scan.
 #include <unistd.h>
 
 #include <Eigen/Geometry>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cli/frame_figures.h"
 #include "relievo/relief/frame.h"
 #include "relievo/session.h"
 

@@ -10,20 +10,8 @@ namespace {
 using Json = nlohmann::json;
 
 int status_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::input:
-      return 400;
-    case ErrorKind::option:
-      return 422;
-    case ErrorKind::output:
-      return 500;
-    case ErrorKind::cancelled:
-      return 202;
-    case ErrorKind::memory:
-      return 507;
-    default:
-      return 409;
-  }
+  constexpr int statuses[] = {400, 422, 409, 202, 500, 507};  // in the order of ErrorKind
+  return statuses[static_cast<int>(kind)];
 }
 
 }  // namespace

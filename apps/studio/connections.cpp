@@ -49,10 +49,6 @@ bool has_whole_head(const Connection& connection) {
   return connection.received.find("\r\n\r\n") != std::string::npos;
 }
 
-void send_text(int socket, std::string_view text) {
-  (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-}
-
 // Closing at once would destroy an answer that the other side has not read while it is still sending.
 Connection ending(int socket) {
   ::shutdown(socket, SHUT_WR);
@@ -72,8 +68,9 @@ Arrival receive(Connection& connection) {
   connection.received.append(bytes.data(), static_cast<std::size_t>(got));
   if (has_whole_head(connection)) return Arrival::whole;
   if (connection.received.size() < most_head) return Arrival::partial;
-  send_text(connection.socket,
-            "HTTP/1.1 431 Request Header Fields Too Large\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
+  constexpr std::string_view refusal =
+      "HTTP/1.1 431 Request Header Fields Too Large\r\nConnection: close\r\nContent-Length: 0\r\n\r\n";
+  (void)!::send(connection.socket, refusal.data(), refusal.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   connection = ending(connection.socket);
   return Arrival::partial;
 }

@@ -35,6 +35,15 @@ bool is_equal(std::string_view a, std::string_view b) {
   return different == 0;
 }
 
+// Any port will do: a tunnel through ssh has one of its own.
+bool is_here(const std::string& host) {
+  const std::size_t colon = host.rfind(':');
+  const std::string_view name = std::string_view(host).substr(0, colon);
+  if (colon == std::string::npos || (name != "127.0.0.1" && name != "localhost")) return false;
+  const std::string_view port = std::string_view(host).substr(colon + 1);
+  return !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 }  // namespace
 
 RequestGuard::RequestGuard(const std::string& former_token)
@@ -42,15 +51,6 @@ RequestGuard::RequestGuard(const std::string& former_token)
 
 std::string RequestGuard::address() const {
   return cat("http://127.0.0.1:", port_, "/", token_, "/");
-}
-
-// Any port will do: a tunnel through ssh has one of its own.
-bool RequestGuard::is_here(const std::string& host) {
-  const std::size_t colon = host.rfind(':');
-  const std::string_view name = std::string_view(host).substr(0, colon);
-  if (colon == std::string::npos || (name != "127.0.0.1" && name != "localhost")) return false;
-  const std::string_view port = std::string_view(host).substr(colon + 1);
-  return !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 std::optional<std::string> RequestGuard::admit(const Request& request, Response& response) const {

@@ -25,8 +25,6 @@ class RequestGuard {
   std::optional<std::string> admit(const httplib::Request& request, httplib::Response& response) const;
 
  private:
-  static bool is_here(const std::string& host);
-
   std::string token_;
   int port_ = 0;
 };

@@ -1,7 +1,6 @@
 // The contact sheet and the pieces of the page.
 #include "batch/contact_sheet.h"
 #include "batch/index_page.h"
-#include "common/html.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"
