@@ -59,7 +59,7 @@ Result<void> studio(const StudioArguments& arguments) {
     std::printf("From the machine that you sit at, make a tunnel, then open the address there:\n  %s\n",
                 tunnel.c_str());
   std::fflush(stdout);
-  if (!store.notice().empty()) std::fprintf(stderr, "relievo: %s\n", store.notice().c_str());
+  if (!detail.empty()) std::fprintf(stderr, "relievo: %s %s\n", store.notice().c_str(), detail.c_str());
   if (!arguments.has_no_browser) show(address);
   server.run();
   return {};

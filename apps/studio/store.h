@@ -54,8 +54,8 @@ class Store {
   // Returns a document as keep_document() stored it; an empty text before. Errors: kind output if it cannot be read.
   virtual Result<std::string> document(const std::string& /*id*/) const { return {}; }
 
-  // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors: kind input if
-  // the name is none, kind output.
+  // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors:
+  // kind input if `id` is no document's name, kind output.
   virtual Result<void> keep_document(const std::string&, std::string_view, bool /*is_moving*/) { return {}; }
 
   // Keeps the document's picture, an address that begins with "data:". Errors: as above.
@@ -64,13 +64,15 @@ class Store {
   // Makes a document the newest in the list.
   virtual void touch(const std::string& /*id*/) {}
 
-  // Returns the documents that were opened or changed last, the newest first.
-  virtual std::vector<KeptDocument> recent() const { return {}; }
+  // Returns the most_recent documents that were opened or changed last, the newest first; if `after` is not
+  // empty, those that follow that document in this order.
+  virtual std::vector<KeptDocument> recent(const std::string& /*after*/) const { return {}; }
 
-  // Returns what all documents take. They are kept until they are removed.
+  // Returns the number and size of all documents. They are kept until they are removed.
   virtual KeptAmount amount() const { return {}; }
 
-  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if the name is none, kind output.
+  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if
+  // `id` is no document's name, kind output.
   virtual Result<void> remove(const std::string& /*id*/) { return {}; }
 
   // Begins a dropped scan. Folders in the name are ignored. May be called from any thread.
