@@ -24,7 +24,8 @@ double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
   return twice_area > 0 ? product / (2 * twice_area) : std::numeric_limits<double>::infinity();
 }
 
-// Returns the spacing by which gaps are measured at a triangle: that of its corners where all are sparse, else rho.
+// Returns the spacing by which gaps at a triangle are measured: the smallest spacing of its corners if all
+// are sparse, else rho.
 double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {
   constexpr double sparse = 2;  // in rho
   if (spacing.empty()) return rho;

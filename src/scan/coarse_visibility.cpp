@@ -31,8 +31,8 @@ class Grid {
  public:
   Grid(const Cloud& cloud, const Mat3& R, NormalSigns signs) {
     for (const Vec3& p : cloud.points) box_.extend(R * p);
-    // Cells at least two spacings wide, or the back shows through gaps in the front. The factor 2 in the
-    // spacing accounts for the points at the back.
+    // Cells are at least two spacings wide; otherwise the back would show through gaps in the front. The
+    // factor 2 in the spacing accounts for the points at the back.
     const Vec3 size = box_.size();
     const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
     width_ = std::max({box_.diagonal() / cells_along_diagonal, 2 * spacing, 1e-300});
@@ -62,7 +62,7 @@ class Grid {
   }
 
   double one_layer() const {
-    constexpr double thin = 6;  // cells: a surface of 80 degrees rises by as much in one
+    constexpr double thin = 6;  // in cells: a surface tilted by 80 degrees rises by as much in one cell
     std::size_t cells = 0, thin_cells = 0;
     for (const Cell& cell : cells_) {
       if (cell.is_empty()) continue;
@@ -113,8 +113,8 @@ class Grid {
            cells_[cell + columns_].is_empty();
   }
 
-  // Returns the difference between the normals of two cells, 0 across depth jumps. At most 0.5: a sharp edge
-  // shall not count for more than a rounded one.
+  // Returns the difference between the normals of two cells, 0 across depth jumps. It is at most 0.5, so that
+  // a sharp edge does not count for more than a rounded one.
   double difference(const Cell& a, const Cell& b) const {
     if (a.is_empty() || b.is_empty()) return 0;
     const bool is_jump = std::abs(a.front_z - b.front_z) > 4 * width_;

@@ -11,23 +11,24 @@
 namespace relievo {
 
 struct CoarseVisibility {
-  // The fraction that faces the viewer of those front points that are not seen edge on; 0.5 if there are
+  // The fraction of the front points that face the viewer, not counting those seen edge on; 0.5 if there are
   // none.
   double facing_share = .5;
   // The sum of the normal differences between neighbouring cells, without those across depth jumps.
   double normal_variation = 0;
   double one_layer =
       0;             // share of the cells in which the nearest and the farthest point belong to one surface
-  double bulge = 0;  // how much nearer the front is inside its outline than along it, over the box's diagonal
+  double bulge = 0;  // how much nearer the front is within its outline than on it, in diagonals of the box
 };
 
-// The signs of a cloud's normals tell whether they point out of the model or into it. Where the signs are unknown, each
-// normal is taken to face the viewer.
+// Says whether a cloud's normals point out of the model or into it. `unknown` takes each normal to face the
+// viewer.
 enum class NormalSigns { outward, inward, unknown };
 
-// Returns what each view shows of the cloud, in the order of the views. A grid is laid over the cloud as the view turns
-// it. Its cells are a 160th of the diagonal of the cloud's box or wider, and the front of a cell is its point with the
-// largest z. Crops are not looked at. Without normals the results are the default.
+// Returns one estimate for each view, in the order of the views. Each is made on a grid over the cloud as the
+// view turns it. The cells of the grid are a 160th of the diagonal of the cloud's box wide or wider, and the
+// front of a cell is its point with the largest z. Crops are ignored. Without normals the results are the
+// default.
 std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
                                                 NormalSigns signs = NormalSigns::outward);
 

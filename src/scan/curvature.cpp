@@ -21,8 +21,8 @@ struct Neighbour {
   Vec3 n;  // its unit normal
 };
 
-// The weight of a neighbour, from 1 at the point to 0 at the radius: close to exp(-d^2 / h^2) for a radius of
-// 1.7 h, without the exponential.
+// Returns the weight of a neighbour, which falls from 1 at the point to 0 at the radius. For a radius of 1.7
+// h it is close to exp(-d^2 / h^2), but needs no exponential.
 double fit_weight(const Neighbour& s, double radius) {
   const double rest = std::max(0.0, 1 - s.d.squaredNorm() / (radius * radius));
   return rest * rest;
@@ -57,7 +57,8 @@ class CurvatureEstimator {
       : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options), tree_(searchable.tree) {}
 
   double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<Neighbour>& neighbours) const {
-    // At least rho: near coincident points the local spacing is almost 0, and the fit would see noise only.
+    // The spacing is at least rho: near coincident points the local one is almost 0, and the fit would see
+    // noise only.
     const double h = options_.scale * std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
     tree_.within(cloud_.points[i], support * h, matches);
     neighbours.clear();
@@ -104,7 +105,7 @@ std::vector<double> average_in_plane(std::span<const double> values, std::span<c
   constexpr int passes = 3;  // over direct neighbours; each widens the average by about rho, to 2 rho or more
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
-  std::vector<std::array<double, 3>> areas(triangles.size());  // that corners give to those before them
+  std::vector<std::array<double, 3>> areas(triangles.size());  // weight of corner c + 1 in the mean at c
   parallel_for(triangles.size(), [&](std::size_t t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const Index to = triangles[t][c], from = triangles[t][(c + 1) % 3];

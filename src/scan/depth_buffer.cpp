@@ -12,7 +12,7 @@ namespace {
 constexpr double least_normal_z = 0.05;  // a slope of 20; steeper discs are drawn as if they were this steep
 constexpr long band_rows = 64;           // rows of pixels that one task draws
 
-// Half the extent of the disc's projection along y and along x.
+// Returns half the extent of the disc's projection along y; half_width() does so along x.
 double half_height(const Disc& disc) {
   const double ny = static_cast<double>(disc.normal.y());
   return disc.radius * std::sqrt(std::max(0.0, 1 - ny * ny));

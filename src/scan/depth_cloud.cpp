@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns the places without a depth that are enclosed by known ones, by flooding the others from the image's
-// border.
+// Returns a mask of the grid points without a depth that are enclosed by known ones. It floods all other
+// unknown grid points from the image's border.
 std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
   std::vector<std::uint8_t> is_hole(b.is_known.size());
   for (std::size_t i = 0; i < is_hole.size(); ++i) is_hole[i] = !b.is_known[i];
@@ -31,8 +31,8 @@ std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
   return is_hole;
 }
 
-// Gives each place of a hole the lowest height of the nearest known places in the four directions along its
-// row and column, as a hole beside an outline belongs to the surface behind it.
+// Gives each grid point of a hole the lowest of the nearest known heights in the four directions along its
+// row and column, because a hole beside an outline belongs to the surface behind it.
 void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::vector<float>& z) {
   const std::vector<float> known = z;
   parallel_for(
@@ -55,7 +55,7 @@ void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::v
       16);
 }
 
-// Returns the mean of the differences to the joined neighbours on both sides; 0 without any.
+// Returns the mean of the differences to the joined neighbours on both sides; 0 if there are none.
 float slope_between(float before, float here, float after, bool joins_before, bool joins_after) {
   const float sum = (joins_before ? here - before : 0) + (joins_after ? after - here : 0);
   return joins_before && joins_after ? sum / 2 : sum;

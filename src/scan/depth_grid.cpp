@@ -11,10 +11,11 @@
 namespace relievo {
 namespace {
 
-// In units of the largest inverse depth. Smaller values are raised to this, as estimators return nearly 0 for
-// the sky, whose depth would be unlimited: no depth is more than 20 times the smallest.
+// The least inverse depth, as a share of the largest. Smaller values are raised to it, because estimators
+// return nearly 0 for the sky, whose depth would be unlimited. So no depth is more than 20 times the
+// smallest.
 constexpr double farthest_inverse = .05;
-// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper ones are more often jumps.
+// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper slopes are more often jumps.
 constexpr float steepest = 4;
 // Noise grows with depth, so it is measured separately in this many equal parts of the pixels, sorted by
 // depth.
@@ -49,12 +50,12 @@ class HeightScale {
   double scale_ = 1, floor_ = 0;
 };
 
-// In units of the distance between values that occur. Depth cameras write millimetres but resolve, far away,
-// only about every tenth: two values that occur are then far apart, and noise decides which of the two a
-// depth becomes, so the uncertainty is more than half of that distance.
+// The uncertainty of a depth camera's values, in distances between neighbouring values of the image. Such
+// cameras write millimetres, but far away they resolve only about every tenth one. Noise then decides which
+// of two distant values a depth becomes, so the uncertainty is more than half of their distance.
 constexpr double sensor_steps = 1.5;
 
-// The uncertainty of values that is due to their steps: at least half a step of the file.
+// Estimates the uncertainty of values that is due to their steps: at least half a step of the file.
 class ValueSteps {
  public:
   explicit ValueSteps(const DepthImage& image) : least_(image.step / 2) {
@@ -87,7 +88,7 @@ class ValueSteps {
 
  private:
   double least_;
-  std::vector<float> values_;  // that occur, ascending
+  std::vector<float> values_;  // those that occur at least three times, ascending
 };
 
 // The standard deviation of the heights' noise, by depth. It is measured by the twist of 2 x 2 blocks, a - b
@@ -126,12 +127,13 @@ Noise measure_noise(const DepthGrid& grid) {
     noise.limit[bin] = (last - 1)->height;
     std::vector<float> sizes;
     for (auto it = first; it != last; ++it) sizes.push_back(it->twist);
-    noise.sigma[bin] = 1.4826F * median(sizes) / 2;  // median to deviation, of four values
+    noise.sigma[bin] = 1.4826F * median(sizes) / 2;  // 1.4826: median to deviation; / 2: sum of four heights
   }
   return noise;
 }
 
-// Extends the bounds of every place to the median around it: single values of a depth camera may be far off.
+// Extends the bounds of every grid point to the median around it: single values of a depth camera may be far
+// off.
 void allow_specks(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
   for (int r = 1; r + 1 < b.height; ++r)
@@ -164,8 +166,8 @@ void allow_noise(DepthGrid& grid) {
   grid.noise = double{median(open)};
 }
 
-// The mean of a square block of pixels, which becomes one place. Only pixels near the median count, so that a
-// block on an outline represents one side of it and not the mean of both.
+// The mean of a square block of pixels, which becomes one grid point. Only pixels near the median count, so
+// that a block on an outline represents one side of it and not the mean of both.
 struct Block {
   float height = 0, low = 0, high = 0;
 };
@@ -258,7 +260,7 @@ std::size_t cut_ramps(DepthGrid& grid) {
       for (int c = 0; c < b.width; ++c) {
         const std::size_t i = b.at(c, r);
         if (!b.is_known[i]) continue;
-        // On a ramp the heights before and after the place differ steeply from its own, in the same
+        // On a ramp the heights before and after the grid point differ steeply from its own, in the same
         // direction, and it is not joined to both.
         const auto is_ramp_along = [&](std::ptrdiff_t step, bool has_both, bool joins_before,
                                        bool joins_after) {

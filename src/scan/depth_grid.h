@@ -10,25 +10,26 @@ namespace relievo {
 // Heights towards the viewer, in pixels of the reduced grid, with the interval in which each one lies.
 struct DepthGrid {
   BoundedGrid bounds;         // the intervals, about the heights
-  std::vector<float> height;  // of known places
+  std::vector<float> height;  // of known grid points
   int reduction = 1;
   double noise = 0;
   std::size_t missing = 0;
   bool is_sensor = false;  // the steps of the values are coarser than the file's, as with depth cameras
 };
 
-// Returns the grid, reduced to about options.points places. The bounds account for the step of the values and
-// the noise. No places are joined yet.
+// Returns the grid, reduced to about options.points grid points. The bounds account for the step of the
+// values and the noise. No grid points are joined yet.
 DepthGrid make_grid(const DepthImage& image, const DepthOptions& options);
 
-// Joins neighbouring places unless there is a depth jump between them.
+// Joins neighbouring grid points unless there is a depth jump between them.
 void join(DepthGrid& grid);
 
-// Removes the places on ramps, which a blurred outline causes between two surfaces. Returns how many.
+// Removes the grid points on ramps, which a blurred outline causes between two surfaces. Returns their
+// number.
 std::size_t cut_ramps(DepthGrid& grid);
 
-// Removes all places behind the largest gap in depth if they are most of the image's border and the gap
-// separates two distinct groups of depths. Returns how many.
+// Removes all grid points behind the depth that best separates two groups of depths, if the groups are
+// distinct and the far one covers most of the image's border. Returns their number.
 std::size_t remove_background(DepthGrid& grid);
 
 }  // namespace relievo

@@ -10,12 +10,12 @@ namespace relievo {
 namespace {
 
 constexpr int smallest_side = 8;  // no grid is narrower than this
-constexpr int steps = 150;        // of descent on each grid, which has the long waves from the coarser one
+constexpr int steps = 150;        // of descent on each grid; the coarser grid provides the long waves
 constexpr float step_size =
     1 / 64.F;  // below 2 / the largest eigenvalue of the bending energy, 64: converges
 constexpr std::size_t rows_per_task = 16;
 
-// Returns a grid half as wide and high, in which each place represents up to four.
+// Returns a grid half as wide and high, in which each point represents up to four.
 BoundedGrid halved(const BoundedGrid& fine) {
   BoundedGrid half{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}, {}, {}, {}};
   const std::size_t n = half.at(0, half.height);
@@ -37,8 +37,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
       if (known == 0) continue;
       half.low[i] /= known, half.high[i] /= known;
       half.is_known[i] = 1;
-      // Two coarse places are joined only if both pairs of fine neighbours across are, so that no grid
-      // smooths over a jump.
+      // Two coarse points are joined only if both pairs of fine neighbours across their border are joined, so
+      // that no grid smooths over a jump.
       half.joins_right[i] = joins(fine.joins_right, 2 * c + 1, 2 * r) &&
                             (2 * r + 1 >= fine.height || joins(fine.joins_right, 2 * c + 1, 2 * r + 1));
       half.joins_down[i] = joins(fine.joins_down, 2 * c, 2 * r + 1) &&
@@ -47,7 +47,7 @@ BoundedGrid halved(const BoundedGrid& fine) {
   return half;
 }
 
-// Returns coarse heights interpolated at the places of the fine grid, linearly between joined places, clamped
+// Returns coarse heights interpolated at the points of the fine grid, linearly between joined points, clamped
 // to the bounds.
 std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, const std::vector<float>& z) {
   std::vector<float> out(fine.low.size(), 0);
@@ -59,7 +59,7 @@ std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, con
           const std::size_t i = fine.at(c, r);
           if (!fine.is_known[i]) continue;
           const std::size_t own = half.at(c / 2, r / 2);
-          // A fine place lies a quarter of the way from its coarse place to the next one on its side.
+          // A fine point lies a quarter of the way from its coarse point to the next one on its side.
           float value = z[own];
           const int dx = c % 2 ? 1 : -1, dy = r % 2 ? 1 : -1;
           const std::size_t left = dx > 0 ? own : own - 1,
@@ -130,7 +130,7 @@ class Descent {
     });
   }
 
-  // Returns half the derivative of the energy along^2 + down^2 + 2 twist^2 by the height of one place.
+  // Returns half the derivative of the energy along^2 + down^2 + 2 twist^2 by the height of one point.
   float slope_at(int c, int r, std::size_t k) const {
     float sum = -2 * (along_[k] + down_[k]) + 2 * twist_[k];
     if (c > 0) sum += along_[k - 1] - 2 * twist_[k - 1];

@@ -34,7 +34,7 @@ bool is_wide(const Surface& surface, const Triangle& t) {
 }
 
 // Returns whether one surface may continue between all corners of a triangle: whether no two normals differ
-// by more than 60 degrees, as they hardly do over 2.5 rho except across an edge of the model.
+// by more than 60 degrees. Over 2.5 rho they hardly do except across an edge of the model.
 bool look_alike(const Surface& surface, const Triangle& t) {
   const auto& n = surface.normals;
   constexpr float least_cosine = .5F;  // of 60 degrees

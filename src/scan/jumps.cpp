@@ -10,13 +10,13 @@ namespace relievo {
 namespace {
 
 // Returns how far the tangent plane rises along a step. n_z is limited to 0.1, because near the silhouette
-// the plane is too steep to tell a jump from a slope.
+// the plane is too steep to distinguish a jump from a slope.
 double rise(const Vec3f& normal, const Vec2& step) {
   const Vec3 n = normal.cast<double>();
   return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1);
 }
 
-// The factor of edges at a jump in (9). docs/decisions/jumps.md has what other values do.
+// The weight of edges at a jump in (9). docs/decisions/jumps.md shows the effect of other values.
 constexpr double least_weight = .2;
 // Shares of the longer side: the distance at which edges count fully, and the least height of a jump. Lower jumps
 // leave little misfit, and may be noise.

@@ -8,15 +8,15 @@
 namespace relievo {
 namespace {
 
-// A piece is a set of connected points that is left of a scan without its plane. It has the box of all its points, and
-// the number of those that stand high over the plane.
+// A connected set of the points that remain when the plane is left out: the box of all its points, and the
+// number of its points that are high over the plane.
 struct LeftPiece {
   Box box;
   std::size_t high = 0;
 };
 
-// Leaves out the remains of a plane: pieces that stay low over it for their size, as a depth camera bends
-// tables, and boards have ridges; and debris, pieces that are small beside the largest one.
+// Leaves out the remains of a plane: pieces that stay low over it for their size, because depth cameras bend
+// tables, and boards have ridges. Also leaves out debris: pieces that are much smaller than the largest one.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
   constexpr double low = 4;             // in tolerances

@@ -15,8 +15,8 @@ struct ShownPoints {
   std::vector<Index>& hole_fill;
 };
 
-// Removes the plane's points, and the pieces that stay low over it, from the points that are shown, and the outlines in
-// the plane from the cloud.
+// Removes from the shown points those of the plane, of pieces that stay low over it, and of debris. Removes
+// from the cloud the outlines in the plane.
 void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
                      const ShownPoints& shown);
 

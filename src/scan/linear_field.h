@@ -1,4 +1,4 @@
-// Values in the plane that vary linearly, fitted to those of scattered points by weighted least squares.
+// Fits values that vary linearly in the plane to values at scattered points, by weighted least squares.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -8,7 +8,7 @@
 
 namespace relievo {
 
-// Fits Values numbers around a place. Points count from 1 at the place to 0 at the radius.
+// Fits `Values` numbers around a place. The weight of a point falls from 1 at the place to 0 at the radius.
 template <int Values>
 class LinearField {
  public:
@@ -19,7 +19,7 @@ class LinearField {
     Eigen::Matrix<double, 2, Values> gradient = Eigen::Matrix<double, 2, Values>::Zero();
     bool is_sloped = false;  // false if the points lie too near a line: then the value is their mean
     double misfit = 0;       // root mean square of the residuals of a sloped fit
-    double count = 0;        // of points, those near the place fully
+    double count = 0;        // sum of the points' weights
   };
 
   LinearField(const Vec2& place, double radius) : place_(place), radius_(radius) {}

@@ -1,5 +1,5 @@
-// Measures of scattered points by a k-d tree that the caller has already. Tested by tests/scan/spacing_test.cpp and
-// tests/scan/curvature_test.cpp.
+// Measures scattered points with a k-d tree that the caller already has. Tested by
+// tests/scan/spacing_test.cpp and tests/scan/curvature_test.cpp.
 #pragma once
 
 #include "geometry/neighbours.h"
@@ -9,7 +9,8 @@
 
 namespace relievo {
 
-// See measure_spacing() in spacing.h. The tree is one of these points. Of no use once the progress is cancelled.
+// See measure_spacing() in spacing.h. `tree` is that of `points`. The result is not usable once the progress
+// is cancelled.
 Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points,
                         const Progress* progress = nullptr);
 

@@ -28,7 +28,7 @@ Result<void> check_numbers(const Cloud& cloud) {
   return {};
 }
 
-// Refuses clouds that are a point or a line, up to rounding.
+// Refuses clouds whose points coincide or lie on one line, up to rounding.
 Result<void> check_extent(const Cloud& cloud, const Box& box) {
   if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
   const Vec3 centre = box.centre();
@@ -65,8 +65,9 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
           "precision, or nearer to the origin"));
 }
 
-// Removes points from the order so that at most eight are left of those that coincide, which follow each other. Each
-// search around them would read all, so that many would take quadratic time. Which eight depends on the file's order.
+// Removes points from the order so that of coincident points, which follow each other there, at most eight
+// remain. Each search around many of them would read them all, which takes quadratic time. Which eight remain
+// depends on the file's order.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
   std::size_t same = 0;
@@ -97,7 +98,8 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   measured->diagonal_ = box.diagonal();
   measured->input_points_ = whole.size();
   measured->cloud_ = in_view(cloud, {});
-  // A fixed order makes the result independent of the file's, and neighbours close in memory make all searches faster.
+  // A fixed order makes the result independent of the file's order, and neighbours close in memory make all
+  // searches faster.
   std::vector<Index> order = space_curve_order(measured->cloud_.points);
   thin_out_coincident(measured->cloud_.points, order);
   RELIEVO_CHECK(check_cancelled(progress));
@@ -126,7 +128,7 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
   has_estimated_normals_ = !cloud_.has_normals();
   if (has_estimated_normals_)
-    estimate_normals(cloud_, 16, progress);  // their noise is measured when the view has given them signs
+    estimate_normals(cloud_, 16, progress);  // noise is measured once the view has given the normals signs
   else
     remove_noise(view, progress);
   RELIEVO_CHECK(check_cancelled(progress));

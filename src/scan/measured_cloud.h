@@ -13,8 +13,8 @@ namespace relievo {
 
 class MeasuredCloud {
  public:
-  // Measures the part of the cloud that the view crops, at the noise that it removes. Errors: those of find_surface() that
-  // do not depend on what is visible.
+  // Measures the part of the cloud that the view's crop keeps, after removing the noise that the view asks
+  // for. Errors: those of find_surface() that do not depend on what is visible.
   static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
                                                               Progress* progress = nullptr);
 
@@ -22,15 +22,16 @@ class MeasuredCloud {
   // depends on the direction of the view, and so do the exact outlines of a mesh.
   bool serves(const View& view) const;
 
-  // Returns the view that they were measured for.
+  // Returns the view that the cloud was measured for.
   const View& view() const { return view_; }
 
-  // The points, from the centre of their box, in the axes of the cloud and in the order of a space-filling curve, which
-  // makes all results independent of the file's order. Signs of estimated normals are arbitrary.
+  // Returns the points relative to the centre of their box, in the axes of the cloud and in the order of a
+  // space-filling curve, which makes all results independent of the file's order. Signs of estimated normals
+  // are arbitrary.
   const Cloud& cloud() const { return cloud_; }
   const Spacing& spacing() const { return spacing_; }
 
-  // Facts for the surfaces of all views.
+  // Values that the surfaces of all views share.
   const Vec3& centre() const { return centre_; }
   double diagonal() const { return diagonal_; }
   std::size_t input_points() const { return input_points_; }
@@ -61,8 +62,8 @@ class MeasuredCloud {
   mutable Guarded<std::vector<double>> curvature_;  // per point; not a number where it is not measured yet
 };
 
-// Returns the surface that a view shows, see the function of this name for a cloud. The view is one that the cloud was
-// measured for.
+// Returns the surface that a view shows; see find_surface() of a cloud. The view must be one that `measured`
+// serves.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int first_side_px = 512;  // of the image by which the number of visible pixels is estimated
 constexpr int rows_per_band = 32;
-// Interpolated normals may face away although the triangle does not; they are turned to just visible.
+// Interpolated normals may face away although the triangle does not; they are turned until they just face the
+// viewer.
 constexpr float least_corner_normal_z = .02F;
 
 // The mesh in view coordinates. All triangles are oriented so that they face the viewer.
@@ -96,8 +97,8 @@ std::size_t covered_pixels(const RasterInput& scene) {
   return covered;
 }
 
-// Returns the side of the pixels: the spacing asked for, or such that about the wanted number of pixels show
-// the mesh. Nothing if no pixel shows it.
+// Returns the side of the pixels: the spacing asked for, or a side at which about the wanted number of pixels
+// show the mesh. Returns nothing if no pixel shows it.
 std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& options) {
   const double longer = seen.box.longer_side();
   const double finest = longer / (RasterInput::most_pixels / 8.0);
@@ -114,8 +115,8 @@ std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& option
   return std::nullopt;
 }
 
-// Samples the mesh at the centres of pixels. It draws the mesh with pixels of 1 / `fine` of that side, so
-// that it knows the outline between the centres.
+// Samples the mesh at the centres of pixels. Draws it with finer pixels, of 1 / `fine` of that side, which
+// show where the outline is between the centres.
 class Sampler {
  public:
   static constexpr int fine = 5;  // odd, so that the centre of a pixel is that of a fine one

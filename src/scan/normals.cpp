@@ -34,9 +34,9 @@ Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members)
 Vec3f unit_normal(const Vec3& n) {
   if (!n.allFinite() || n.isZero(0)) return Vec3f::Zero();
   const Vec3f rounded = n.cast<float>();
-  const double rounding = 1e-6;  // of the squared length of three floats, several times what rounding makes
+  const double rounding = 1e-6;  // several times the rounding error of the squared length of three floats
   if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
-  // Scaled first because squares may overflow.
+  // n is scaled first because its squares may overflow.
   return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
 }
 

@@ -6,7 +6,8 @@
 
 namespace relievo {
 
-// The normals of a cloud before orient_normals(). Usable are outward ones, and those of a room scanned from inside.
+// The state of a cloud's normals before orient_normals(). Normals are usable if they point outwards, or if
+// all face the viewer, as in a room scanned from inside.
 enum class OriginalNormals { usable, missing, inward };
 
 // Estimates the normals of a cloud in view coordinates if it has none, and reverses them if they point

@@ -1,4 +1,4 @@
-// Elements of a contiguous list by their numbers. Tested by tests/scan/surface_test.cpp.
+// Picks elements of a contiguous list by their numbers. Tested by tests/scan/surface_test.cpp.
 #pragma once
 
 #include <ranges>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Returns the elements numbered by `order`; nothing of an empty list.
+// Returns the elements that `order` numbers; an empty list if `from` is empty.
 template <typename List>
 auto pick(const List& from, std::span<const Index> order) {
   std::vector<std::ranges::range_value_t<List>> out(from.empty() ? 0 : order.size());

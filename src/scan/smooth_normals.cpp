@@ -22,7 +22,7 @@ struct VertexStars {
     Index triangle;
     float angle;
   };
-  std::vector<std::size_t> first;  // per position, and one more
+  std::vector<std::size_t> first;  // per position; the last element is the end
   std::vector<Member> members;
 };
 

@@ -17,7 +17,8 @@ namespace {
 
 // Planes are tried on a few points, and judged on more of them.
 constexpr std::size_t tried_points = 1024, judged_points = 16384;
-// Three points of a plane with a twelfth of all are drawn by one in 1,728 tries: 6,000 miss it with probability 0.03.
+// If a plane has a twelfth of all points, one try in 1,728 draws three of its points; 6,000 tries miss it
+// with probability 0.03.
 constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
@@ -27,7 +28,7 @@ constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
 constexpr double widest_angle_deg =
     30;                               // between a plane and the normals of its points, which noise scatters
-constexpr double least_share = .08;   // of the points: less is no trouble to a relief
+constexpr double least_share = .08;   // of the points: smaller planes do no harm to a relief
 constexpr double least_figure = .02;  // of the points
 constexpr double most_behind = .1;    // of the points beside the plane
 constexpr double least_over = .7;     // of the points before the plane, over the place that it covers
@@ -138,7 +139,7 @@ std::vector<std::size_t> points_on(const Plane& plane, const Sample& sample, dou
   return on;
 }
 
-// Returns the plane of least squares through those points.
+// Returns the plane of least squares through the points `on`.
 Plane fitted(const Sample& sample, const std::vector<std::size_t>& on) {
   Vec3 mean = Vec3::Zero();
   for (const std::size_t i : on) mean += sample.points[i];

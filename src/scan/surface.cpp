@@ -50,12 +50,12 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
 struct ViewCloud {
   Cloud cloud;  // without its colours
   const MeasuredCloud& measured;
-  double sign = 1;  // of the normals, against those that were measured
+  double sign = 1;  // of the normals, relative to the measured ones
 
   const Spacing& spacing() const { return measured.spacing(); }
 };
 
-// Estimates normals from more neighbours, as noise needs them, with the signs that they have.
+// Estimates the normals again, from more neighbours because of the noise, and keeps their signs.
 void estimate_again(Cloud& cloud, double noise) {
   constexpr double neighbours = 16, more_neighbours = 48;
   const std::vector<Vec3f> before = cloud.normals;
@@ -74,7 +74,7 @@ void sign_normals(ViewCloud& viewed, Surface& surface) {
   remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);
 }
 
-// Stage 2.
+// Does stage 2: turns the cloud into the view, with signed normals and without noise.
 ViewCloud look_at(const MeasuredCloud& measured, Surface& surface) {
   ViewCloud viewed{turned(measured.cloud(), surface.view.R_view_model), measured};
   surface.rho = measured.spacing().rho;
@@ -144,7 +144,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Does stages 5 and 6, of the boundary `is_inside` alone: put_points_on_outlines() replaces the rest.
+// Does stage 5, and of stage 6 only `is_inside`: put_points_on_outlines() sets the rest of the boundary.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);

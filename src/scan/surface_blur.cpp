@@ -23,7 +23,8 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   while (count(0) * count(1) * count(2) > most_cells) side *= 1.1;
   width_ = static_cast<std::size_t>(count(0));
   parallel_for(points.size(), [&](std::size_t i) {
-    // A cell of margin is for the neighbours. It is added to whole numbers, which no sum can round up.
+    // One cell of margin makes room for the neighbours. It is added after rounding down, so that the sum
+    // cannot be rounded up to the next cell.
     const Vec3 from_corner = (points[i] - box.min) / side;
     const Vec3 cell = from_corner.array().floor() + 1, share = from_corner + Vec3::Ones() - cell;
     const auto x = static_cast<std::size_t>(cell.x()), y = static_cast<std::size_t>(cell.y());
@@ -61,8 +62,9 @@ void SurfaceBlur::each_corner(const Place& place, F&& f) const {
   }
 }
 
-// Sets each cell to the sum of itself, twice, and its neighbours in the columns a step before and after. Before the first
-// column of a row is the last of another row: both are margins, whose averages nobody reads.
+// Sets each cell to twice itself plus its neighbours in the columns `step` before and after. The column
+// before the first one of a row is the last one of another row; both are margins, whose averages nobody
+// reads.
 void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& averages) const {
   const std::size_t last = columns_.size() - 1;
   parallel_for(

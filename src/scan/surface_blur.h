@@ -38,7 +38,8 @@ class SurfaceBlur {
       high = std::max(high, to);
     }
   };
-  // The cell around a point with the smallest coordinates of the eight.
+  // Of the eight cells around a point, the one with the smallest coordinates; `share` is the point's position
+  // between it and the other ones.
   struct Place {
     Index column = 0;
     int z = 0;

@@ -15,17 +15,19 @@ namespace {
 
 using Sides = std::array<ViewGuess, 6>;
 
-// Sides with Y or Z upwards: opposite ones in turn, the front of files first.
+// The six sides of models with Y or Z upwards. Opposite sides follow each other; the side that is the front
+// in most files comes first.
 constexpr Sides y_up{{{"front", ""}, {"back", ""}, {"left", ""}, {"right", ""}, {"bottom", ""}, {"top", ""}}};
 constexpr Sides z_up{
     {{"bottom", ""}, {"top", "0,0,1"}, {"left", "0,0,1"}, {"right", "0,0,1"}, {"front", ""}, {"back", ""}}};
 
-constexpr double front_weight = 1.6;    // for the side that files have their front at
+constexpr double front_weight = 1.6;    // for the side that is the front in most files
 constexpr double beside_scan = .25;     // for sides at right angles to the direction of a scan
 constexpr double one_layer_share = .8;  // of the cells of a scan from one side; closed models stay below .45
-constexpr double same_share = .05;      // difference of such shares that says nothing
+constexpr double same_share = .05;      // smaller differences of such shares are ignored
 
-// Returns the box of the points that are lowest along an axis, as a share of the whole box seen along that axis.
+// Returns the area of the box of the lowest points along an axis, as a share of the area of the whole box,
+// both seen along that axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis) {
   constexpr double foot = .03;  // of the height
   const double least = box.min[axis] + foot * box.size()[axis];
@@ -63,7 +65,7 @@ std::size_t scanned_axis(const std::vector<CoarseVisibility>& seen) {
 }
 
 // Returns how much of a side is the outside of its model. Estimated normals do not show it, but an outside is
-// nearer in its middle than along its outline.
+// nearer to the viewer in its middle than along its outline.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   constexpr double perhaps_hollow = .5;
   if (has_signs) return seen.facing_share;

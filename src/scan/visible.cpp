@@ -19,10 +19,10 @@ constexpr double pixel_side = 0.5;  // of the depth buffer, in rho: finer than t
 constexpr double coincidence_distance = .01;
 // Connected sets of fewer visible points are taken for floating noise.
 constexpr std::size_t smallest_fragment = 32;
-// Neighbours further apart than this, in local spacings, are not connected. A disc of this radius holds 9 pi
-// = 28 points.
+// Neighbours further apart than this, in local spacings, are not connected. A disc of this radius contains 9
+// pi = 28 points.
 constexpr double connection_length = 3;
-// A fragment has at most the visible points divided by this, or all of a cloud of few points would be
+// A fragment has fewer points than the visible ones divided by this; otherwise all of a small cloud would be
 // fragments.
 constexpr std::size_t fragment_divisor = 8;
 // Hole fill points come from well sampled surfaces only, and are this far apart, in rho.

@@ -1,4 +1,4 @@
-// Points of a cloud that one point stands for. Tested by tests/scan/subsample_test.cpp and
+// A group of points of a cloud that one point represents. Tested by tests/scan/subsample_test.cpp and
 // tests/scan/repeated_points_test.cpp.
 #pragma once
 

@@ -11,20 +11,20 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_repeats = 64;    // of a place
-constexpr std::size_t points_judged = 400;  // that are looked at, from all over the cloud
-// The share of points scattered at random that by chance have a gap around them as wide as that after
+constexpr std::size_t most_repeats = 64;    // of one point
+constexpr std::size_t points_judged = 400;  // evenly taken from the whole cloud
+// The share of randomly scattered points around which there is by chance a gap as wide as that around
 // repeats.
 constexpr double gap_by_chance = .002;
-// Marching cubes put two or three vertices close together without repeating any: at a fifth of the places
-// nearer than a tenth of the distance to others, at a fiftieth nearer than a hundredth.
+// Marching cubes put two or three vertices close together without repeating any. At a fifth of the places
+// these are nearer than a tenth of the distance to other vertices, at a fiftieth nearer than a hundredth.
 constexpr std::size_t most_by_nature = 3;
-constexpr double near_share = .1, sure_share = .01;  // of that distance
+constexpr double near_share = .1, sure_share = .01;  // of the distance to other points
 constexpr double least_sure = .05,
-                 least_near = .4;  // shares of places from which on the points repeat others
-// Points are merged within three times the distance that three quarters of the repeats keep, but at most a
-// quarter of the way to other places. The other quarter may be gaps by chance, after points of several
-// places.
+                 least_near = .4;  // least shares of such points in a cloud with repeats
+// Points are merged within three times the distance that three quarters of the repeats do not exceed, but at
+// most within a quarter of the distance to other places. The remaining quarter of the repeats may be chance
+// gaps around the points of several places.
 constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
 // The distances from a point to the farthest one that repeats it, and to the nearest that does not.
@@ -33,9 +33,9 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the first wide gap after the nearest points: those farther on would be found by chance, as repeats
-// make points many and places few. Of points scattered over a surface, the m-th is nearer than a share s of
-// the distance to the next one with probability s^2m.
+// Returns the first wide gap in the distances to the nearest points. Later gaps may be there by chance,
+// because repeats make points many and their places few. Of points scattered over a surface, the m-th is
+// nearer than a share s of the distance to the next one with probability s^(2 m).
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
@@ -75,12 +75,12 @@ std::optional<double> merging_distance(const Cloud& cloud, const KdTree<Vec3>& t
                     most_of_gap * other);
 }
 
-// Puts one point for all that repeat each other into a cloud.
+// Adds to a cloud one point for each set of points that repeat each other.
 class Merging {
  public:
   Merging(const Cloud& cloud, Cloud& to) : cloud_(cloud), to_(to), is_merged_(cloud.size(), 0) {}
 
-  // Adds a point, unless it was merged with one before, with all of those around it that repeat it.
+  // Adds one point for point i, which is not merged yet, and all later points around it that repeat it.
   void add(Index i, std::span<const KdTree<Vec3>::Match> around) {
     PointGroup group;
     group.add(cloud_, i);
@@ -92,7 +92,7 @@ class Merging {
       has_one_normal = has_one_normal && (!cloud_.has_normals() || cloud_.normals[i] == cloud_.normals[j]);
     }
     to_.points.push_back(cloud_.points[i]);
-    // Rounding would make the mean of equal normals another one.
+    // Rounding would make the mean of equal normals differ from them.
     if (cloud_.has_normals())
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());

@@ -10,7 +10,8 @@
 
 namespace relievo {
 
-// See the function of this name in cloud.h. `tree` is that of the cloud. Returns nothing if hardly any points repeat others.
+// See the function of this name in cloud.h. `tree` is that of the cloud. Returns nothing if hardly any points
+// repeat others.
 std::optional<Cloud> without_repeated_points(const Cloud& cloud, const KdTree<Vec3>& tree);
 
 }  // namespace relievo

@@ -25,7 +25,8 @@ bool look_alike(const Cloud& cloud, Index a, Index b) {
   return cloud.normals[a].dot(cloud.normals[b]) > 0;
 }
 
-// Returns points in the order of the cloud, each unless a point before it is nearer than `distance`.
+// Returns points in the order of the cloud. A point is left out if an earlier one on its side is nearer than
+// `distance`.
 std::vector<Index> far_apart(const Cloud& cloud, double distance) {
   const KdTree<Vec3> tree(cloud.points);
   std::vector<std::uint8_t> is_covered(cloud.size(), 0);

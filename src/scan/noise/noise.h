@@ -7,18 +7,20 @@
 
 namespace relievo {
 
-// Returns the standard deviation of the points along their normals, in sampling distances. It is the scatter about
-// local quadratic surfaces that a quarter of the points stays below, so that details in parts of a model do not count,
-// and it is lower if the normals scatter less than such points make them. Scatter below 0.1 is taken for detail: then
-// the result is 0, and so it is for clouds of fewer than 100 points or without normals.
+// Returns the standard deviation of the points along their normals, in sampling distances. It is estimated
+// from the scatter about local quadratic surfaces, at the quarter of the points that scatter least, so that
+// details in parts of a model do not count. The result is lower if the normals scatter less than such noise
+// would make them. Less than 0.12 is taken for detail: then the result is 0, as it is for clouds of fewer
+// than 100 points or without normals.
 double measure_noise(const Cloud& cloud, const Spacing& spacing);
 
-// Turns the normals and moves the points to the surface that robust regression finds around each of them; does nothing
-// without normals. `noise`, > 0, is the standard deviation to remove, in sampling distances: more of it averages over
-// wider neighbourhoods and rounds sharper creases. Normals are fitted linearly in the tangent plane, with less weight
-// for neighbours that deviate from the last fit, which are those beyond a crease (Oeztireli, Guennebaud and Gross,
-// "Feature preserving point set surfaces based on non-linear kernel regression", 2009; there the fit is constant,
-// which flattens curved parts). Leaves the cloud as it was if the progress is cancelled.
+// Moves each point onto the surface that robust regression fits around it, and turns its normal to that of
+// this surface. Does nothing without normals. `noise`, > 0, is the standard deviation to remove, in sampling
+// distances: larger values average over wider neighbourhoods and round sharper creases. Normals are fitted
+// linearly in the tangent plane, with less weight for neighbours that deviate from the last fit, as those
+// beyond a crease do (Oeztireli, Guennebaud and Gross, "Feature preserving point set surfaces based on
+// non-linear kernel regression", 2009; there the fit is constant, which flattens curved parts). Leaves the
+// cloud as it was if the progress is cancelled.
 void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -43,7 +43,7 @@ struct LocalSurface {
 // The deviations at which neighbours lose weight.
 struct Tolerances {
   double normals_sq;  // variance of the deviation of normals
-  double heights_sq;  // and of heights, in radii^2
+  double heights_sq;  // variance of the deviation of heights, in radii^2
 };
 
 class NoiseFilter {

@@ -10,14 +10,16 @@ namespace {
 
 // Lengths in rho.
 constexpr double grid_cell = 1.5;
-constexpr double most_distant = 1.5;   // from a place to the exact outline that it stands for
+constexpr double most_distant = 1.5;   // from a place of a sampled outline to the exact outline
 constexpr double node_spacing = .25;   // nodes are dense, as they are exact
-constexpr double curve_spacing = .75;  // of the curve
-// Half the length of curve that a point is fitted to. It bridges the places that turns of the chain leave out.
+constexpr double curve_spacing = .75;  // between points of the fair curve
+// Half the length of the part of the curve that each point is fitted to. It bridges the gaps at turns of the
+// sampled outline, where no exact outline leads in the same direction.
 constexpr double exact_window = 1;
 constexpr double most_moved = .5;     // of a curve's point, back onto the exact outline
 constexpr double least_spacing = .2;  // of the curve's points after that
-// Samples of a surface without gaps are nearer to each other, even across the pixels of their grid.
+// The least length of an edge across a gap. Samples of a surface without gaps are nearer to each other, even
+// diagonally across their grid.
 constexpr double least_gap = 1.7;
 
 std::vector<Segment> plane_segments(std::span<const OutlineSegment> segments, bool is_jump) {

@@ -12,12 +12,12 @@
 namespace relievo {
 namespace {
 
-constexpr double piece_length = .5;  // of an edge whose visibility is decided at once, in pixels
+constexpr double piece_length = .5;  // of the parts of an edge that are visible or not as a whole, in pixels
 constexpr double just_beyond =
     1e-3;                         // distance from an edge at which the surface behind is looked up, in pixels
 constexpr double least_jump = 1;  // in pixels
 
-// An edge of triangles that all lie on its left, as seen.
+// An edge that has more triangles on its left than on its right, as seen.
 struct ContourEdge {
   Index from, to;
 };
@@ -27,12 +27,12 @@ bool has_area(std::span<const Vec3> points, const Triangle& t) {
   return cross(points[t[1]].head<2>() - a, points[t[2]].head<2>() - a) > 0;
 }
 
-// Returns the edges that do not have as many triangles on one side as on the other. Triangles without area, as seen,
-// have no side.
+// Returns the edges that have more triangles on one side than on the other. Triangles that have no area as
+// seen do not count.
 std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<const Triangle> triangles) {
   struct Side {
     Index higher;
-    int direction;  // 1 if the triangle's edge begins at the lower point, else -1
+    int direction;  // 1 if the triangle's edge begins at the point with the lower number, else -1
   };
   const std::vector<Index> place = first_coincident(points);
   const auto sides = grouped<Side, std::size_t>(points.size(), [&](auto&& add) {
@@ -60,7 +60,8 @@ std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<c
   return edges;
 }
 
-// Finds the nearest surface at some places: triangles in the cells of a grid that contain a place.
+// Finds the depth of the nearest surface at given places. A grid lists the triangles of each cell that
+// contains such a place.
 class DepthLookup {
  public:
   DepthLookup(std::span<const Vec3> points, std::span<const Triangle> triangles, std::span<const Vec2> places,

@@ -8,9 +8,10 @@
 
 namespace relievo {
 
-// Returns the outlines of a mesh in view coordinates: the parts of its edges where the visible surface ends before
-// nothing, or before a surface that lies farther behind than `pixel`. All triangles must be counter-clockwise as seen.
-// An outline that passes behind another surface ends within half a pixel of the true place.
+// Returns the outlines of a mesh in view coordinates: the parts of its edges where the visible surface
+// borders on nothing, or on a surface that lies more than `pixel` behind it. All triangles must be
+// counter-clockwise as seen. An outline that passes behind another surface ends within half a pixel of the
+// true place.
 std::vector<OutlineSegment> seen_outlines(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                           double pixel);
 

@@ -12,7 +12,7 @@ namespace {
 
 // Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle empty there.
 constexpr double widest_circle = 1.2;
-// A surface turns away if its normal leans more, as in outlines.cpp.
+// The length of a normal's x and y above which its surface turns away from the viewer, as in outlines.cpp.
 constexpr double least_turned = .75;
 
 double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {

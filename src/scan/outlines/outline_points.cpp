@@ -18,11 +18,11 @@ namespace {
 
 // Lengths in rho.
 constexpr double rows_end = 3.2;         // points nearer than this to an outline may be replaced
-constexpr double replaced_within = .65;  // by a point of a row that is as near
+constexpr double replaced_within = .65;  // least distance to points of rows
 constexpr double widest_gap = 1.6;       // radius of an empty circle inside the surface
 constexpr double sliver_width = .02;
-constexpr double widest_sample = 1.9;  // radius of such a circle that one point in its middle fills
-constexpr double cell_size = .7;       // of the set of new points; none in a gap is nearer to another
+constexpr double widest_sample = 1.9;  // radius of the largest such circle that one point in its middle fills
+constexpr double cell_size = .7;       // of the set of new points; also their least distance in gaps
 
 // Returns nothing for a triangle without area.
 std::optional<Vec2> circumcentre(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -49,8 +49,8 @@ void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std
   }
 }
 
-// Returns places all over the triangles inside the surface that are wider than sampling explains: their centres, then the
-// points of a hexagonal lattice of one rho.
+// Returns places for new points in those triangles inside the surface that are wider than sampling explains:
+// the centres of their circumcircles, then the points of a hexagonal lattice of one rho.
 std::vector<Vec2> places_in_gaps(const Surface& surface) {
   std::vector<Vec2> centres, lattice;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -108,7 +108,7 @@ class NewSurface {
     return segments;
   }
 
-  // Returns per point of the surface whether it lies inside, and no row takes its place.
+  // Returns per point of the surface whether it lies inside and no point of a row replaces it.
   std::vector<std::uint8_t> kept(const PointSet& rows) {
     outline_distance_.assign(surface_.points.size(), std::numeric_limits<float>::infinity());
     std::vector<std::uint8_t> is_kept(surface_.points.size(), 0);
@@ -173,7 +173,8 @@ class NewSurface {
     }
   }
 
-  // Triangles with a point of the silhouette are inside if their centre is; all others are.
+  // A triangle with a point on the silhouette, or with a long edge, is inside if its centre is. All others
+  // are inside.
   void set_boundary(Surface& surface, const std::vector<Vec2>& plane,
                     const std::vector<Place>& places) const {
     Boundary& boundary = surface.boundary;

@@ -50,7 +50,7 @@ class Pieces {
   }
 
   double area(Index t) { return area_[sets_.find(t)]; }
-  bool is_first(Index t) { return sets_.find(t) == t; }  // of its piece, for one of its triangles
+  bool is_first(Index t) { return sets_.find(t) == t; }  // true for exactly one triangle of each piece
   bool touches_hull(Index t) { return is_open_[sets_.find(t)]; }
 
  private:
@@ -67,8 +67,9 @@ class EdgeFinder {
   EdgeFinder(const Surface& surface, const PlanePoints& plane)
       : surface_(surface), plane_(plane.places), tree_(plane.tree) {}
 
-  // Returns the place where the normals around a point, continued linearly, are perpendicular to the view; the
-  // point's own, with little weight, if they do not show it or the place is farther than `farthest`.
+  // Returns the place where the normals around a point, continued linearly, become perpendicular to the view.
+  // Returns the point's own place, with little weight, if the normals do not show such a place or it is
+  // farther than `farthest`.
   CurveNode at(Index i, double farthest) const {
     const CurveNode unknown{plane_[i], uncertain};
     std::vector<KdTree<Vec2>::Match> matches;
@@ -166,8 +167,8 @@ void add_silhouettes(const Surface& surface, const EdgeFinder& finder, const Exa
   }
 }
 
-// The jumps as lines across the sides of triangles: each crossed side has a next one, with the surface in front
-// on the left.
+// The jumps as lines that cross the sides of triangles. Each crossed side is linked to the next one, with the
+// surface in front on the left.
 class JumpLines {
  public:
   JumpLines(const Surface& surface, const ExactOutlines& exact)
@@ -201,7 +202,7 @@ class JumpLines {
   }
 
  private:
-  // One number for both sides of an edge.
+  // Returns one number for both sides of an edge.
   Index edge(Index side) const {
     const Index other = sides_.twin(side);
     return other == no_index ? side : std::min(side, other);
@@ -216,7 +217,8 @@ class JumpLines {
 
   double depth(Index point) const { return surface_.points[point].z(); }
 
-  // Exact outlines show lower jumps than points do, such as the edge of a fold: normals explain its depth.
+  // Exact outlines show lower jumps than points do, such as the edge of a fold, whose depth the normals
+  // explain.
   bool is_across(Index a, Index b) const {
     const Vec3 &p = surface_.points[a], &q = surface_.points[b];
     if (is_occlusion(surface_, a, b)) return true;

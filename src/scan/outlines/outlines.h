@@ -28,21 +28,21 @@ struct PlanePoints {
   explicit PlanePoints(const Surface& surface) : places(in_plane(surface.points)), tree(places) {}
 };
 
-// Returns whether no surface with the normals of two neighbouring points of a surface connects them. The chord of a circle is
-// perpendicular to the mean of the normals at its ends. is_jump() would not do: at the edge of a surface that turns
-// away from the viewer, the normal there explains any depth.
+// Returns whether no surface connects two neighbouring points of a surface, given their normals. The test
+// uses that the chord of a circle is perpendicular to the mean of the normals at its ends. is_jump() would
+// not do: at the edge of a surface that turns away from the viewer, the normal there explains any depth.
 bool is_occlusion(const Surface& surface, Index a, Index b);
 
-// Leaves out pieces of less than 0.5 % of the surface, as crumbs of the scan, and closes holes of less than 4 rho^2:
-// changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less than 20 rho^2, which have
-// no outline, are left out. Returns whether the surface has any triangle left.
+// Leaves out pieces of less than 0.5 % of the surface, as crumbs of the scan, and closes holes of less than 4
+// rho^2: changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less than 20
+// rho^2, which are too small for an outline, are left out. Returns whether the surface has any triangle left.
 bool drop_crumbs(Surface& surface);
 
-// Returns the silhouettes first, which are closed, then the depth jumps, of a surface that has neighbours of
-// triangles. Where a surface turns away from the viewer, the curve is where its normals, continued, are
-// perpendicular to the view; elsewhere it goes through the outermost points, or at jumps between the points in
-// front and those behind. Where exact outlines are near, it goes along them instead. Outlines shorter than 4 rho are
-// left out.
+// Returns first the silhouettes, which are closed, then the depth jumps. The surface's triangulation must
+// have neighbours. Where a surface turns away from the viewer, the curve is where its normals, continued, are
+// perpendicular to the view. Elsewhere it goes through the outermost points, or at jumps between the points
+// in front and those behind. Where exact outlines are near, it goes along them instead. Silhouettes shorter
+// than 3 rho and jumps shorter than 6 rho are left out.
 std::vector<OutlineCurve> find_outlines(const Surface& surface, const PlanePoints& plane,
                                         const ExactOutlines& exact);
 

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Distances of the rows from an outline, in rho. The first is there at jumps only.
+// Distances of the rows from an outline, in rho. Only jumps have the first row.
 constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
 // Least distances, in rho, between points of rows; on outlines and in the row next to them they are less.
 constexpr double least_between_rows = .4, least_in_first_row = .28, least_on_outlines = .12;
@@ -89,7 +89,8 @@ class RowMaker {
     bool is_free;
   };
 
-  // Returns whether no outline stands between a place of a row and its own outline, or too near to it.
+  // Returns whether a place of a row is free: no outline separates it from its own outline, and none is too
+  // near to it.
   bool is_free(Index c, const Vec2& from, const Vec2& at, std::size_t row) const {
     const double distance = row_distance[row] * rho_, nearest = .9 * distance;
     if (grid_.is_crossed(from, at) || grid_.nearest(at, nearest).segment != no_index) return false;

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-constexpr double fit_radius = 2.5;     // in rho; where too few points are, up to 2.56 times as far
+constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as far where points are few
 constexpr float least_likeness = .8F;  // cosine of 37 degrees, between normals of one face
 constexpr int least_face_points = 5;
 constexpr double least_nz = .02;  // normals of the result lean at most 88.9 degrees
@@ -43,8 +43,9 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
   return interpolated(p, radius, matches);
 }
 
-// Points on an outline may belong to either side, and noise moves some points across: only those count that
-// lie on the surface of the point which is farthest from all outlines.
+// Keeps only the points on the same side as p. Points on an outline may belong to either side, and noise
+// moves some points across it. So only points count that lie on one surface with the point farthest from all
+// outlines.
 void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& matches) const {
   Index safest = no_index;
   std::erase_if(matches, [&](const auto& m) {
@@ -52,7 +53,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    const bool is_clear = std::isfinite(distance) &&  // it is not measured far from outlines, and outside
+    const bool is_clear = std::isfinite(distance) &&  // it is infinite far from outlines and outside
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;

@@ -36,8 +36,8 @@ class SideInterpolation {
     float spacing = 0;
   };
 
-  // Returns the values at a new point: normal and curvature by a linear fit to the points around that no
-  // outline separates from it, the depth by the chords to the nearest of them.
+  // Returns the values at a new point. Normal and curvature come from a linear fit to the points around it
+  // that no outline separates from it, the depth from the chords to the nearest of these points.
   Value at(const RowPoint& p) const;
 
  private:

@@ -18,7 +18,8 @@ constexpr double least_behind = .7;  // share of the jumps around it that are to
 // Edges longer than this, in rho, cross places that the scan does not show: they do not connect points.
 constexpr double connection_length = 3;
 
-// The jumps and gaps between points of a patch and others.
+// The number of jumps and gaps between points of a patch and others, and at how many of them the patch is
+// behind.
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };

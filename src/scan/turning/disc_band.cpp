@@ -17,7 +17,8 @@ constexpr float least_mean_radius = .8F;  // in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
-// Eight cells of one row: the steps to their centres from that of a disc, and how much higher its plane lies there.
+// For eight cells of one row: the squared distance of their centres from a disc's centre in the plane, and
+// how much higher the disc's plane lies there.
 struct Steps {
   Float8 distance_sq, rise;
 };

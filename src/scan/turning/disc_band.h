@@ -1,4 +1,4 @@
-// Some rows of the cells of a front, in which the discs of its points are drawn. Tested by tests/scan/turning_test.cpp.
+// A band of rows of FrontCells, into which points are drawn as discs. Tested by tests/scan/turning_test.cpp.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// A point in view coordinates, in cells from the grid's corner.
+// A point as a disc in view coordinates, in units of cells from the grid's corner.
 struct FrontDisc {
   // Radius of the discs that hide what is behind them, in spacings.
   static constexpr float hiding_radius{ScanLimits::disc_radius};
@@ -27,16 +27,16 @@ class DiscBand {
  public:
   DiscBand(int columns, int first_row, int rows);
 
-  // Raises depths to those of discs. All depths are drawn before the first normal.
+  // Raises depths to those of discs. All depths must be drawn before the first normal.
   void draw_depths(std::span<const FrontDisc> discs);
 
-  // Adds the normals of discs to the cells around, in which they are in front.
+  // Adds the normal of each disc to the cells around it in which the disc is in front.
   void add_normals(std::span<const FrontDisc> discs);
 
   // Writes depths and unit normals to the band's rows.
   void write(FrontCells& cells) const;
 
-  // The first cell of a row, counted from the band's first.
+  // Returns the first cell of a row, which is counted from the band's first row.
   float* depths(int row) { return depth_.data() + row * stride_; }
   float* normals(int axis, int row) { return normal_[static_cast<std::size_t>(axis)].data() + row * stride_; }
   int columns() const { return columns_; }

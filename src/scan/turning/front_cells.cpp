@@ -81,7 +81,7 @@ class FrontDrawing {
     return is_reversed ? Vec3f(-point.normal) : point.normal;
   }
 
-  // Returns about how much of the box the points cover, by a coarse mask of those that face the viewer.
+  // Returns approximately the area that the points cover, from a coarse mask of those that face the viewer.
   float covered_area() const {
     constexpr int side = 64;
     using Mask = std::array<std::uint8_t, static_cast<std::size_t>(side * side)>;

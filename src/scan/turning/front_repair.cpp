@@ -41,7 +41,7 @@ std::vector<Run> runs_of(const FrontCells& front) {
   return all;
 }
 
-// Joins runs with those of the row above that touch them and are like them.
+// Joins runs with those of the row above that touch them, if both are covered or both are not.
 DisjointSets joined(std::span<const Run> runs, Index width) {
   DisjointSets sets(runs.size());
   std::size_t above = 0;
@@ -70,7 +70,7 @@ struct Filling {
   Vec3f normal;
 };
 
-// Returns what the cell would be filled with; nothing without a covered neighbour.
+// Returns the mean depth and normal of a cell's covered neighbours; nothing if there are none.
 std::optional<Filling> filling_of(const FrontCells& front, Index cell) {
   const int x = static_cast<int>(cell) % front.normal.width, y = static_cast<int>(cell) / front.normal.width;
   Filling filling{cell, 0, Vec3f::Zero()};

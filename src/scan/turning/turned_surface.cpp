@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Larger scans are drawn by every second point, every third ...: 600,000 points of all sides show a relief's detail at the
-// size of a screen.
+// Of larger scans only every second, third, ... point is drawn: 600,000 points of all sides show a relief's
+// detail at the size of a screen.
 constexpr std::size_t most_drawn = 600'000;
 constexpr std::size_t cells_per_point = 12;
 constexpr std::size_t least_cells = 16;  // fewer show nothing
@@ -28,15 +28,15 @@ class CellChoice {
         hole_reach_(
             static_cast<int>(std::ceil(float{ScanLimits::hole_fill_distance} * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
-    // Points in such rows are corners of about equilateral triangles. Two columns and one row are the black fields of a
-    // chessboard.
+    // Shifted rows make nearly equilateral triangles. Steps of two columns and one row choose the black
+    // fields of a chessboard.
     const int least = cells > std::numbers::sqrt2 ? 2 : 1;
     columns_ = std::max(least, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
     rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
   }
 
-  // Returns the distance between points, in cells; and about the same in whole cells, at least 2 where cells are left
-  // out.
+  // Returns the distance between points, in cells. reach() returns about the same in whole cells, at least 2
+  // where cells are left out.
   double spacing() const { return std::sqrt(columns_ * rows_); }
   int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
@@ -77,12 +77,13 @@ class CellChoice {
   int columns_ = 1, rows_ = 1, hole_reach_;
 };
 
-// Measures the front around the centres of cells, over about as many cells as a point of the surface stands for.
+// Measures the front around the centres of cells, over about as many cells as a point of the surface
+// represents.
 class CellMeasures {
  public:
   CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}
 
-  // Returns the mean normal of the cells around that lie about as deep.
+  // Returns the mean normal of the surrounding cells at about the same depth.
   Vec3f normal(int x, int y) const {
     if (!front_.is_covered(x, y)) return Vec3f::UnitZ();
     const float depth = front_.depth.at(x, y), most = 6 * static_cast<float>(step_) * front_.cell;
@@ -126,7 +127,8 @@ Vec2f offset_in(Index cell) {
   return most * Vec2f(share(x ^ (x >> 16)), share(y ^ (y >> 13)));
 }
 
-// Returns the surface's points with their normals and curvature, in the order of a space-filling curve.
+// Sets the surface's points and normals, in the order of a space-filling curve. Returns the curvature of the
+// points.
 std::vector<double> put_points(const FrontCells& front, const CellChoice& choice, Surface& surface) {
   const int width = front.normal.width;
   const auto column = [&](Index cell) { return static_cast<int>(cell) % width; };
@@ -157,7 +159,8 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   return k;
 }
 
-// A triangle is inside where the front covers its middle and the middles of its sides, or most of them.
+// Returns the boundary. A triangle is inside if the front covers at least three of its centre and the middles
+// of its sides.
 Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, const Triangulation& mesh) {
   const auto is_covered = [&](const Vec2& p) {
     const Vec2f at = (p.cast<float>() - front.corner) / front.cell;

@@ -19,7 +19,8 @@ struct TurningScan {
   Vec3 centre = Vec3::Zero();           // see Surface
   double rho = 0, diagonal = 0;
 
-  // Returns the scan without the points on and behind the plane of `surface`, a surface of it that has one.
+  // Returns the scan without the points on and behind the plane of `surface`, which is a surface of this scan
+  // with a plane.
   TurningScan without_plane(const Surface& surface) const;
 };
 
