@@ -17,8 +17,9 @@
 namespace relievo {
 namespace {
 
-// Shares of the limit. The relief keeps the first, which leaves a thousandth for the rounding of all later
-// steps; the least squares aim at the second, because they end with a few triangles up to 0.4 % above it.
+// Shares of the limit. The relief stays below the first, which leaves a thousandth for the rounding of all
+// later steps. The least squares aim at the second, because they end with a few triangles up to 0.4 % above
+// it.
 constexpr double kept_share = .999, solved_share = .9945;
 
 double draft_deg_of(double slope) {
@@ -35,7 +36,7 @@ class Limiter {
       if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }
 
-  // Returns whether the heights keep the limit, with the thousandth to spare.
+  // Returns whether the heights stay within the limit, with the thousandth to spare.
   bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_share * options_.max_slope;
   }
@@ -73,8 +74,8 @@ class Limiter {
     return whole;
   }
 
-  // Builds the splitting at its first call. It cannot use the model's system, because it needs one in which all
-  // slopes count alike.
+  // Creates the least-squares solver at the first call. It cannot use the model's system, because it needs
+  // one in which all slopes count alike.
   Result<void> build_nearest() {
     if (nearest_) return {};
     const Surface& surface = model_->surface();
@@ -96,14 +97,14 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches the relief of a height among those that grow with x: ln u for methods with a shape, for baselines the
-// logarithm of a scale.
+// Searches the relief of a given height among reliefs that grow with x. For methods with a shape x is ln u,
+// for baselines it is the logarithm of a scale.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
       : model_(model), order_(order), limiter_(limiter), progress_(progress) {}
 
-  // `start` has the height asked for without the limit; null if none has.
+  // `start` is the relief of that height without the limit; null if there is none.
   Result<Relief> run(const Relief* start) {
     if (!start) return at_most();
     start_ = start;
@@ -124,7 +125,8 @@ class DraftSearch {
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);
   }
 
-  // A relief up to twice this much too high is scaled down, which keeps the limit.
+  // Tolerance of the search. A relief that is too high by up to twice this share is scaled down, which does
+  // not make it steeper.
   static constexpr double tolerance = .003;
 
   Result<void> make(double x) {

@@ -12,21 +12,23 @@
 
 namespace relievo {
 
-// Edges opposite to very small angles are cut here: stiffer ones would drown the others in single precision.
+// The limit for edges opposite to very small angles: larger weights would drown the others in single
+// precision.
 inline constexpr float largest_edge_weight = 1e3F;
-// Cocircular points give weights of 0; a trace of stiffness keeps the matrix positive definite whatever the
+// Cocircular points give weights of 0. This least weight keeps the matrix positive definite whatever the
 // points are.
 inline constexpr float least_edge_weight = 1e-4F;
 
-// Returns half the cotangent of a triangle's angle at `apex`: what the triangle adds to the weight of the edge
-// from a to b. The corners run counter-clockwise.
+// Returns half the cotangent of a triangle's angle at `apex`, which the triangle adds to the weight of the
+// edge from a to b. The corners run counter-clockwise.
 inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
   const Vec2 u = a - apex, v = b - apex;
   return .5 * std::clamp(u.dot(v) / std::max(cross(u, v), 1e-300), -1e6, 1e6);
 }
 
 // Returns the factor, in [0, 1], by which edge_weight() reduces a triangle with the largest half weight
-// `stiffest`: an edge is the sum of two halves, so that a triangle has half of the bound.
+// `stiffest`. The weight of an edge is the sum of two halves, so that half of the bound applies to a
+// triangle.
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));

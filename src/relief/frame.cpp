@@ -49,12 +49,12 @@ struct FrameMaker::State {
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
   SlopeInput input = slope_input(surface, model.layers(), boundary_weight);
-  double boundary_width = 0;  // that boundary_weight is for
+  double boundary_width = 0;  // for which boundary_weight was computed
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
-  Shape made = {};                              // of the last frame
+  Shape made = {};                              // shape of the last frame
   HeightSearch::Track last_height, last_steps;  // where the last locked height was found, by u or by steps
-  bool needs_steps = false;                     // whether slopes alone did not reach it
+  bool needs_steps = false;                     // whether slopes alone did not reach that height
 
   explicit State(const ReliefModel& m) : model(m) {}
 
@@ -93,7 +93,7 @@ struct FrameMaker::State {
     frame.times.after_solve_s += mapping.seconds();
   }
 
-  // Calls f(heights, style) for the frame's heights and keeps the span that they have then.
+  // Calls f(heights, style) for the frame's heights, which f may change, and stores their span afterwards.
   template <typename F>
   void change_heights(Frame& frame, F&& f) {
     const Stopwatch watch;
@@ -121,7 +121,7 @@ struct FrameMaker::State {
     });
   }
 
-  // Searches u from the last frame's on, in one or two solves as a rule. See
+  // Searches for u, starting from that of the last frame, in one or two solves as a rule. See
   // ReliefModel::make_at_height().
   void raise_to(double height, Shape shape, Frame& frame) {
     const HeightSearch search(height, frame.options.height_tolerance);
@@ -145,7 +145,8 @@ struct FrameMaker::State {
     });
   }
 
-  // A search that leaps over the height asked for ends above it, see HeightSearch::bracket().
+  // Scales the relief down if the search leapt over the height asked for and ended above it, see
+  // HeightSearch::bracket().
   static void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))

@@ -17,13 +17,15 @@ struct WeightedEdge {
 // The edges of each point, in ascending order of the other points.
 using Adjacency = Groups<WeightedEdge>;
 
-// Equation (9): the edges of points, one point after the other. A corner is 3 t + i for corner i of triangle t.
+// Computes the weighted edges of points in equation (9), one point after the other. Corner i of triangle t
+// has the number 3 t + i.
 class EdgeRows {
  public:
   EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
-  // Adds the edges of a point to `edges`: the sums of one term for each triangle.
+  // Adds the edges of a point to `edges`. The weight of an edge is the sum of one term for each of its
+  // triangles.
   void add(std::span<const Index> corners, std::vector<WeightedEdge>& edges) {
     terms_.clear();
     for (const Index corner : corners) {
@@ -71,7 +73,8 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
   });
 }
 
-// Equation (9): the matrix of its normal equations, a weighted Laplacian; boundary points, at 0, drop out.
+// Returns the matrix of the normal equations of (9), a weighted Laplacian. Boundary points have height 0 and
+// drop out.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
   const auto n = static_cast<int>(free_points.size());
@@ -102,7 +105,8 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-// Equation (9): the right-hand side of a point is the sum over its edges of weight / 2 (s_p + s_q) . (p - q).
+// Returns the coefficients of the right-hand side of (9). For point p it is the sum over its edges of weight
+// / 2 (s_p + s_q) . (p - q).
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {

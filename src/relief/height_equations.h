@@ -14,9 +14,10 @@ namespace relievo {
 struct HeightEquations {
   std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
   Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
-  // The edges of each point, in ascending order of the other points. Every point has one to itself, too, so that
-  // vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times the step from
-  // the other point; 0 at boundary points, whose heights are 0. The right-hand side is SlicedEllMatrix::divergence().
+  // The edges of each point, in ascending order of the other points. Every point has an edge to itself, too,
+  // so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times
+  // the step from the other point; it is 0 at boundary points, whose heights are 0. The right-hand side is
+  // SlicedEllMatrix::divergence().
   Groups<MatrixEntry> edges;
 };
 

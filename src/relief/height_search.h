@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// Returns the error of a height that no relief of the view has; `most_mm` is the largest.
+// Returns the error of a height that no relief of the view reaches; `most_mm` is the largest.
 inline std::unexpected<Error> out_of_reach(double most_mm, double wanted_mm) {
   return geometry_error(cat("expected a height that can be reached, at most ", most_mm,
                             " mm for this view and width, found ", wanted_mm, " mm",
@@ -27,7 +27,7 @@ class HeightSearch {
   // `tolerance` is that of ln(height).
   HeightSearch(double height, double tolerance) : height_(height), tolerance_(tolerance) {}
 
-  // The start of a secant at a point: the elasticity is the change of ln height with ln u.
+  // A limited secant step in ln u. The elasticity is the change of ln height with ln u.
   struct SecantStep {
     double gain = 1, least = -2, most = 2;
 
@@ -43,7 +43,7 @@ class HeightSearch {
   };
 
   // Searches the height of a single relief, without a guess: tries u = infinity, to see whether the height
-  // can be reached, then brackets it. Returns whether the height is reached; if not, the last relief is the
+  // can be reached, then brackets u. Returns whether the height is reached; if not, the last relief is the
   // highest one. If the heights jump past the wanted one, or all lie above it, the last relief is too high,
   // and the caller has to scale it down.
   template <typename F>
@@ -56,13 +56,13 @@ class HeightSearch {
     return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
-  // Searches it for a series of reliefs that change little: starts at the u that the last height and
-  // elasticity predict and takes secants, one or two calls as a rule. It brackets where six do not suffice:
-  // far jumps, and heights at or out of reach.
+  // Searches the height of each in a series of reliefs that change little: starts at the u that the last
+  // height and elasticity predict and takes secants, one or two calls as a rule. It brackets u where six
+  // secants do not suffice: after far jumps, and for heights at or out of reach.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
-    // Differences below it are at the noise of single precision, or near the largest height.
+    // Lower elasticities come from the noise of single precision, or occur near the largest height.
     constexpr double least_elasticity = .02;
     constexpr SecantStep step;
     double x = last.log_u;
@@ -96,7 +96,7 @@ class HeightSearch {
     constexpr int most_reliefs = 24;
     // Steps go a tenth further than the secant asks for: ending a little too high saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
-    // Walls that the limit cuts let heights grow more slowly than u, but they always grow.
+    // Where walls are cut at the limit, heights grow more slowly than u, but they always grow.
     constexpr double least_elasticity = .05, most_elasticity = 2;
     // This near to the end, the relief at the end is tried instead: if it is too low, the search is over.
     constexpr double near_last = .3;

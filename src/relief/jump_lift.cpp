@@ -15,28 +15,28 @@
 namespace relievo {
 namespace {
 
-// The distance over which the field falls by e, as a share of the longer side, and how many of these distances it extends.
-// docs/decisions/jump-lift.md has the reasons of all constants.
+// The distance over which the field falls by the factor e, as a share of the longer side, and how many such
+// distances it extends. docs/decisions/jump-lift.md gives the reasons for all constants.
 constexpr double fading_distance = .015, extent = 3;
-// Inversions below this share of the longer side are not seen.
+// Inversions below this share of the longer side are too small to be seen.
 constexpr double least_inversion = 1e-5;
 constexpr int rounds = 3, sweeps_per_round = 20;
 constexpr float over_relaxation = 1.75F;
-// The height share of the shapes that the fields are found for.
+// The height share of the shapes for which the fields are computed.
 constexpr double reference_share = .5;
 
 using Field = std::vector<float>;
 using Values = Eigen::Array4f;  // one for each knot
 
-// An edge of a triangle, and what the triangle adds to its weight.
+// An edge of a triangle, and the half weight that the triangle gives it.
 struct HalfEdge {
   Index a, b;
   float weight;
 };
 
-// Returns the edges of a triangle. Weights are those of (9): with equal weights a field would repeat how
-// uneven the triangles are. Triangles of walls are too thin for them: edges across a wall have the weight
-// that equilateral triangles give.
+// Returns the edges of a triangle with their half weights of (9): with equal weights a field would repeat how
+// uneven the triangles are. Triangles of walls are too thin for these weights: edges across a wall have the
+// weight that equilateral triangles give, its other edges have none.
 std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corners) {
   std::array<HalfEdge, 3> edges;
   const auto plane = [&](std::size_t i) { return Vec2(surface.points[corners[i % 3]].head<2>()); };
@@ -109,7 +109,7 @@ struct Band {
   Groups<Edge> edges;
 };
 
-// Returns ends of the edges that are inverted at one of the knots.
+// Returns one end of each edge across a jump that is inverted at one of the knots.
 std::vector<Vec2> inverted_places(const Surface& surface, std::span<const Field> heights) {
   const auto least = static_cast<float>(least_inversion * surface.longer_side());
   std::vector<Vec2> inverted;
@@ -127,8 +127,8 @@ std::vector<Vec2> inverted_places(const Surface& surface, std::span<const Field>
   return inverted;
 }
 
-// Finds whether points are near one of some places. Neighbouring points are asked for in turn, so that the
-// distance of one mostly decides for the next.
+// Decides whether points are near one of the places in a tree. Neighbouring points are asked for in turn, so
+// that the distance of one mostly decides for the next.
 class NearPlaces {
  public:
   NearPlaces(const KdTree<Vec2>& tree, double distance) : tree_(tree), distance_(distance) {}
@@ -150,7 +150,7 @@ class NearPlaces {
   const KdTree<Vec2>& tree_;
   double distance_;
   Vec2 asked_ = Vec2::Zero();
-  double known_ = std::numeric_limits<double>::quiet_NaN();  // distance of that point
+  double known_ = std::numeric_limits<double>::quiet_NaN();  // of asked_ to the nearest place
 };
 
 // Returns whether each point is near a jump that is inverted at one of the knots, and not on the silhouette.
@@ -184,8 +184,8 @@ Band band_of(const Surface& surface, std::span<const std::uint8_t> is_movable) {
   return band;
 }
 
-// Minimises the sum over the band's edges of weight (y_p - y_q - aim)^2, and of screen y_p^2 over its points, for all
-// knots at once.
+// Minimises, for all knots at once, the sum over the band's edges of weight (y_p - y_q - aim)^2 plus the sum
+// over its points of screen y_p^2.
 class BandFields {
  public:
   BandFields(const Band& band, std::span<const Field> heights, float screen)
@@ -250,7 +250,7 @@ JumpLift JumpLift::find(const JumpLiftInput& input) {
   const std::vector<Field> heights = reference_heights(input);
   const double distance = fading_distance * surface.longer_side();
   const Band band = band_of(surface, movable_points(surface, heights, extent * distance));
-  const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // of a point
+  const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // per point
   const auto screen = static_cast<float>(area / (distance * distance));
   JumpLift lift;
   lift.fields_ = BandFields(band, heights, screen).find();
@@ -267,7 +267,7 @@ double coarse_exponent(double u, double gamma) {
 
 }  // namespace
 
-// Inversions come from coarse layers, and another gamma changes their weight as another u does.
+// Inversions come from coarse layers. Gamma changes their weight as u does, so both are turned into one u.
 Eigen::Array4f JumpLift::shares_at(const Shape& shape) const {
   Eigen::Array4f shares = Eigen::Array4f::Zero();
   if (shape.style != Style::layered || std::isinf(shape.membrane->pull_length)) return shares;

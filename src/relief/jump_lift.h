@@ -28,17 +28,17 @@ struct JumpLiftInput {
 // Smooth fields that raise the front side of inverted jumps and lower the back side, and fade out beside them.
 class JumpLift {
  public:
-  // The values of u of the layered shapes that fields are found for, each 4 times the last one.
+  // Fields are computed for layered shapes with these values of u, each 4 times the last one.
   static constexpr std::array<double, 4> knots{.25, 1, 4, 16};
 
-  // Without fields: add_to() changes nothing.
+  // Constructs a lift without fields: add_to() changes nothing.
   JumpLift() = default;
 
   // Finds fields with which hardly any jump is inverted. Silhouettes do not move.
   static JumpLift find(const JumpLiftInput& input);
 
   // Adds the field for a layered shape, whose membrane is set, to its heights from (9), one for each point of
-  // the surface. Changes nothing where the height correction does not act, as level parts stay level there.
+  // the surface. Changes nothing if the height correction does not act, so that level parts stay level.
   template <typename Real>
   void add_to(std::span<Real> z, const Shape& shape) const {
     const Eigen::Array4f shares = shares_at(shape);

@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Returns the weighted sum of a point's layers. It handles all eight numbers at once.
+// Returns the weighted sum of a point's layers. Computes with all eight numbers of the layers at once.
 RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
   typedef std::int16_t Short8 __attribute__((vector_size(16)));
   static_assert(sizeof(Short8) == sizeof(PointLayers));

@@ -46,7 +46,7 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   return layers;
 }
 
-// Equation (6), layer by layer.
+// Applies equation (6) layer by layer.
 LayerWeights LayerWeights::of(double u, double detail, double height_share) {
   const auto kept = [&](double share) {
     return static_cast<float>(

@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// Returns for each point the corners of triangles inside that lie at it: 3 t + i for corner i of triangle t,
-// ascending.
+// Returns for each point its corners in triangles inside, ascending; corner i of triangle t has the number 3
+// t + i.
 inline Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& triangles,
                                     const Boundary& boundary) {
   return grouped<Index>(points, [&](auto&& add) {

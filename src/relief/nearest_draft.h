@@ -1,4 +1,4 @@
-// The relief under a slope limit that is nearest to another in its slopes.
+// Finds the relief within a slope limit that is nearest, by its slopes, to a given one.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@
 
 namespace relievo {
 
-// Solves, over triangles, the least squares of (slope - slope given) under |slope + slope of the base| <=
-// limit by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and Eckstein,
-// 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a system that
-// is factored once, and a dual variable carries over what each projection took until both agree. A call starts
-// from where the last one ended. Not for concurrent use.
+// Minimises, over triangles, the squares of (slope - given slope) under |slope + slope of the base| <= limit.
+// It does so by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
+// Eckstein, 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a
+// system that is factored once, and a dual variable carries over the part that each projection removed, until
+// both agree. Each call starts from the result of the last one. Not for concurrent use.
 class NearestDraft {
  public:
   // `system` is that of the surface, without jump weights; both must outlive this. `base` has a height per

@@ -26,7 +26,8 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 }
 
 struct ReliefModel::State {
-  // The parts that the surface alone decides. The system of control points may replace that of all points.
+  // The parts that depend on the surface alone. `solver` is the system of all points or that of the control
+  // points.
   struct Parts {
     std::vector<PointLayers> layers;
     StepHeights steps;
@@ -77,7 +78,7 @@ MembraneParams ReliefModel::membrane_at(double u) const {
 
 namespace {
 
-// Goes on from the system of all points, which it takes, to that of the control points.
+// Prepares the system of the control points from that of all points, which it consumes.
 Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const PointLayers> layers,
                                        HeightSystem system, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
@@ -173,7 +174,7 @@ class ReliefModel::Maker {
         input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {}
 
   // Returns the relief of that shape without the last step of its style; its height is final already. Steps
-  // at depth jumps take their share of the height asked for, or without one of that of the slopes.
+  // at depth jumps take their share of `height`; without one, of the height of slopes and steps together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, model_.with_membrane(asked)};
     relief.heights = model_.state_->solve(relief.shape, input_);

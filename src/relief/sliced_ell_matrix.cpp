@@ -36,7 +36,7 @@ RELIEVO_INLINE Pairs eight_pairs(const Vec2f* from, const Index* at) {
 }
 
 RELIEVO_INLINE Pairs pairs(const SlicedEllMatrix::Coefficients& values) {
-  // Not `auto`, with which GCC forgets that these vectors need no alignment.
+  // The type is not `auto`, with which GCC forgets that these vectors need no alignment.
   const Float8* const v = reinterpret_cast<const Float8*>(values.data());
   return {v[0], v[1]};
 }
@@ -108,7 +108,7 @@ RELIEVO_INLINE void normals_of(const Slices& slices, const float* heights, Vec3f
   for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
 }
 
-// The entries of each row, as they are given.
+// The entries of each row, as the constructors take them.
 using Rows = Groups<MatrixEntry>;
 
 SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
@@ -156,7 +156,7 @@ bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix
   return true;
 }
 
-// Returns the coefficients by slot of the pattern; none if it lacks an entry.
+// Returns the coefficients in the order of the pattern's slots; none if the pattern lacks an entry.
 std::vector<SlicedEllMatrix::Coefficients> coefficients_in(const SlicedEllMatrix::Pattern& pattern,
                                                            const Rows& rows) {
   std::vector<SlicedEllMatrix::Coefficients> coefficients(pattern.others.size());

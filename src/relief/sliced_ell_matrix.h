@@ -1,4 +1,5 @@
-// A sparse matrix of 2-vectors over points and their neighbours, and its two products that a frame needs.
+// A sparse matrix of 2-vectors over points and their neighbours, and the two products with it that a frame
+// needs.
 #pragma once
 
 #include <array>
@@ -17,9 +18,10 @@ struct MatrixEntry {
   Vec2f coefficient = Vec2f::Zero();
 };
 
-// Stored in slices of eight rows, as vector instructions read them: the first entry of all eight, then the second.
-// Rows of similar length share a slice, within windows of 256 points, so that there is little padding
-// (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums run in the order of the entries given.
+// The matrix is stored in slices of eight rows, as vector instructions read them: the first entry of all
+// eight, then the second. Rows of similar length share a slice, within windows of 256 points, so that there
+// is little padding (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums run in the order
+// of the entries given.
 class SlicedEllMatrix {
  public:
   // Copies the entries of each point.
@@ -32,7 +34,7 @@ class SlicedEllMatrix {
   // Returns the number of points.
   std::size_t size() const { return pattern_->size; }
 
-  // Bytes held, the pattern included unless it is that of `like`.
+  // Returns the bytes of memory in use, the pattern included unless it is that of `like`.
   std::size_t memory() const;
 
   // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient: the right-hand side of equation (9).

@@ -12,7 +12,8 @@
 namespace relievo {
 namespace {
 
-// Steeper slopes explain no part of a jump: near a silhouette normals say little of the depth.
+// Slopes are limited to this where they explain a part of a jump: near a silhouette normals say little about
+// the depth.
 constexpr double steepest_slope = 4;
 
 struct JumpEdge {

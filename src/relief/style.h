@@ -13,18 +13,19 @@
 
 namespace relievo {
 
-// Views a surface and the rest, which must outlive it.
+// Returns the slope input of a surface. It keeps views of all arguments, which must outlive it.
 inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayers> layers,
                               std::span<const float> boundary_weight) {
   return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
 }
 
-// Returns the rho to use in equation (7) for a boundary `width` rho wide; in (7) itself it is 2 rho wide.
+// Returns the rho to use in equation (7) for a boundary `width` rho wide. The boundary of (7) itself is 2 rho
+// wide.
 inline double boundary_rho(const Surface& surface, double width) {
   return surface.rho * width / 2;
 }
 
-// The heights of a relief in the making.
+// The heights of a relief while it is made.
 template <typename Real>
 struct RaisedHeights {
   std::span<Real> z;
@@ -56,15 +57,16 @@ struct RaisedHeights {
 // times as much.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order: slope() for every point, with w_k of weighted(); the system of heights;
-// raise(), which sets the height that the relief will have; finish(), once that is the height wanted.
+// A style is used in this order: slope() for every point, with the w_k of weighted(); solving (9) for the
+// heights; raise(), which sets the height that the relief will have; finish(), once that is the height
+// wanted.
 
 // Equations (5) to (7), and the paper's second equation (9): detail in proportion to the curvature.
 class PaperStyle {
  public:
   explicit PaperStyle(const Shape& shape) : shape_(shape) {}
 
-  // The compression whose weights w_k slope() takes.
+  // Returns the compression with whose weights w_k slope() is called.
   Compression weighted() const { return shape_.compression; }
 
   template <typename Real>
@@ -90,7 +92,7 @@ class PaperStyle {
     heights.height = static_cast<double>(heights.span.size());
   }
 
-  // The height of the relief as a share of that of raised heights.
+  // Returns the relief's height as a share of the span of its heights before finish().
   double height_share() const { return 1; }
 
   template <typename Real, typename Workspace>
@@ -126,7 +128,7 @@ class LayeredStyle {
     return weight * weights_.fine / std::sqrt(std::max(1 - t * t * sine_sq, least_gain_divisor));
   }
 
-  // The shape's membrane has to be set, as for raise().
+  // The shape's membrane must be set, as for raise().
   double height_share() const { return shape_.membrane->height_share; }
 
   template <typename Real>
@@ -135,7 +137,7 @@ class LayeredStyle {
     heights.height = height_share() * static_cast<double>(heights.span.size());
   }
 
-  // Compresses the heights to the relief's height; workspace() returns what that needs.
+  // Compresses the heights to the relief's height; workspace() returns the scratch memory for that.
   template <typename Real, typename Workspace>
   void finish(RaisedHeights<Real>& heights, const HeightCorrection& correction, Workspace&& workspace) const {
     if (std::isinf(shape_.membrane->pull_length)) return;

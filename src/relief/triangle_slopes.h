@@ -9,12 +9,12 @@
 
 namespace relievo {
 
-// The triangles inside a relief that have a corner which is not on the boundary. Slopes are (dz/dx, dz/dy).
+// The triangles inside a relief, except those with all corners on the boundary. Slopes are (dz/dx, dz/dy).
 class TriangleSlopes {
  public:
   TriangleSlopes(std::span<const Vec2> points, const Triangulation& triangulation, const Boundary& boundary);
 
-  // Number of triangles.
+  // Returns the number of triangles.
   std::size_t size() const { return triangles_.size(); }
 
   // Returns the slope of triangle t under heights, one per point.

@@ -18,7 +18,7 @@ double twice_area(std::span<const Vec2> points, const Triangle& t) {
   return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
-// Makes rows of the matrix one after the other. A corner is 3 t + i for corner i of triangle t.
+// Makes rows of the matrix one after the other. Corner i of triangle t has the number 3 t + i.
 class NormalRows {
  public:
   NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)

@@ -1,4 +1,4 @@
-// Equation (6) by table: frames look weights up, because the formula costs an exponential and a logarithm.
+// A table of equation (6): frames look weights up, because the formula costs an exponential and a logarithm.
 #pragma once
 
 #include <bit>

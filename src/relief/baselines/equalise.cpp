@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The depths as a picture: the histogram bin and the weight of each pixel. The background weighs nothing.
+// The depths as a picture: the histogram bin and the weight of each pixel. The background has weight 0.
 struct DepthPicture {
   Image<int> bin;
   Image<float> weight;

@@ -8,7 +8,8 @@
 
 namespace relievo {
 
-// Returns the relief of heights, one per point: boundary points on the base, scaled to `height`.
+// Returns the relief with these heights, one per point, after setting boundary points to 0 and scaling all to
+// `height`.
 Relief scaled_relief(std::vector<double> heights, const Surface& surface, double height);
 
 // Returns the depth of every point above the deepest one.

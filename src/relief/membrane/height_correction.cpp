@@ -16,20 +16,20 @@
 namespace relievo {
 namespace {
 
-// The width of a cell: a quarter of the bending length, so that cells resolve it, as a share of the longer
-// side; and the least width where points are too sparse for that, in sampling distances.
+// The width of a cell, as a share of the longer side: a quarter of the bending length, so that cells resolve
+// it. Where points are too sparse for that, cells have the least width, in sampling distances.
 constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of that elsewhere: next to none, but the system stays regular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// Nodes are free from the first coverage on, and have a lower limit from the second on. Nearer to the
-// silhouette the ties keep the field up; there heights rise steeply, and limits would jump from node to node.
+// The coverage from which on nodes are free, and the one from which on they have a lower limit. Nearer to the
+// silhouette the ties keep the field up. Heights rise steeply there, and limits would jump from node to node.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
-// The tension outside, as a share of that inside: the field goes on evenly there.
+// The tension outside, as a share of that inside: with it the field continues evenly outside.
 constexpr float least_tension = .1F;
-// The stiffness of ties per length in cells, where tension across a cell is 1.
+// The stiffness of a tie per length of silhouette in cells, in units of the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// The least height of the field on the silhouette, as a share of the relief's: ties give way by about as much.
+// The least height of the field on the silhouette, as a share of the relief's: ties yield by about as much.
 constexpr float least_at_silhouette = .03F;
 
 std::vector<Index> free_points(const Boundary& boundary) {
@@ -88,7 +88,7 @@ std::vector<float> tension_of(std::span<const float> weights, const Lattice& lat
   return tension;
 }
 
-// Returns the edges that only one triangle inside has.
+// Returns the edges that belong to only one triangle inside.
 std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   const auto is_inside = [&](const TriangleSide& side) {
     const Boundary& boundary = surface.boundary;
@@ -102,7 +102,8 @@ std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   return edges;
 }
 
-// Returns a tie for each cell that the silhouette crosses, in its middle there, as stiff as it is long in cells.
+// Returns a tie for each cell that the silhouette crosses. It lies in the middle of the silhouette's part in
+// the cell, and its stiffness is proportional to the length of that part.
 std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& lattice) {
   std::vector<solver::Tie> ties;
   std::vector<Index> tie_of(lattice.nodes(), no_index);
@@ -124,7 +125,8 @@ std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& 
   return ties;
 }
 
-// Returns the material, which fades where the coverage does. It is hinged at silhouettes and depth jumps.
+// Returns the bending stiffness and the tension of the nodes, which fade with the coverage. The field is
+// hinged at silhouettes and depth jumps.
 solver::Stiffness stiffness_of(const Surface& surface, std::span<const float> weights, const Lattice& lattice,
                                std::span<const float> coverage) {
   const std::vector<std::uint8_t> jump = is_at_jump(surface, lattice);
@@ -182,7 +184,8 @@ std::size_t HeightCorrection::memory() const {
   return lattice_.memory() + sheet_.memory() + bytes(ranks_) + bytes(coverage_);
 }
 
-// Returns how far heights lie above and below the lattice's own in the cells around a node.
+// Returns how far the heights of points lie above and below those interpolated from the lattice, in the cells
+// around a node.
 Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace& w) const {
   Lattice::Extent rest{infinity, -infinity};
   lattice_.each_cell(node, [&](std::size_t cell, std::size_t) {
@@ -236,8 +239,8 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   const std::span<Real> z = heights.values;
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
-  // (9) gives 0 at the silhouette, but b need not be 0 there. The few points that stay below the base would take
-  // height from all others.
+  // (9) gives 0 at the silhouette, but b need not be 0 there. Points that stay below the base are raised to
+  // it: few as they are, they would take height from all others.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));

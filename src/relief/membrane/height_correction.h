@@ -18,21 +18,21 @@ struct HeightLimits {
   double pull_length;             // MembraneParams::pull_length
   double boundary_stiffness = 1;  // (0, 1]: how stiffly the field is tied to 0 along the silhouette
 
-  // Returns the limits that membrane parameters stand for.
+  // Returns the limits for these membrane parameters.
   static HeightLimits of(double height, const MembraneParams& params);
 };
 
 // A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Of all such fields it is
 // close to the one with the least energy, which docs/method.md gives under "The height correction".
 //
-// b lives on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits
-// leave room for the heights between nodes. Along the silhouette b is tied to 0 on the curve itself, and at
-// least about 0; the lattice goes on beyond it, so that b does not depend on where the silhouette passes
-// between the nodes. Const calls may run concurrently, each with a workspace of its own; results are the same
-// bits for any number of threads.
+// b is given on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits
+// leave room for the heights between nodes. Along the silhouette b is tied to 0 on the curve itself, and kept
+// from falling below about 0. The lattice continues beyond the silhouette, so that b does not depend on where
+// it passes between the nodes. Const calls may run concurrently, each with a workspace of its own; results
+// are the same bits for any number of threads.
 class HeightCorrection {
  public:
-  // In shares of the longer side. docs/decisions/height-correction.md says what other lengths do.
+  // In shares of the longer side. docs/decisions/height-correction.md gives the effect of other lengths.
   static constexpr double bending_length = .028;
 
   // Scratch memory and the field that was found, so that calls allocate nothing.
@@ -46,12 +46,12 @@ class HeightCorrection {
     std::size_t memory() const;
   };
 
-  // Copies what it needs of the surface and of its jump_weights().
+  // Copies the data that it needs of the surface and its jump_weights().
   HeightCorrection(const Surface& surface, std::span<const float> jump_weights);
 
   Workspace make_workspace() const;
 
-  // Bytes held, workspaces not counted.
+  // Returns the bytes of memory in use, workspaces not counted.
   std::size_t memory() const;
 
   // Finds b for heights, one per point, and keeps it in the workspace. A few points may stay slightly outside
@@ -60,7 +60,7 @@ class HeightCorrection {
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 
-  // The two halves of fit(), for those who try several limits on the same heights.
+  // The two halves of fit(), for callers that try several limits on the same heights.
   template <typename Real>
   void set_heights(std::span<const Real> heights, Workspace& workspace) const;
   void solve(const HeightLimits& limits, Workspace& workspace) const;
@@ -78,9 +78,9 @@ class HeightCorrection {
     HeightLimits limits;
   };
 
-  // Adds b to the heights, clips the few highest and lowest softly (SoftClip) and scales the result to exactly
-  // the height of the limits, base included. A height of 0 changes nothing, and heights of 0 stay. For float and
-  // double.
+  // Adds b to the heights, clips the few highest and lowest softly (SoftClip) and scales the result to
+  // exactly the height of the limits, base included. Does nothing if that height is 0 or all heights are 0.
+  // For float and double.
   template <typename Real>
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 

@@ -17,22 +17,23 @@ namespace {
 
 // Search range of the height share (stated for u = 0) and of the pull length. Above 0.75, thin figures score
 // worse than histogram equalisation in shading and angle, so larger shares are used only to satisfy depth
-// order. docs/decisions/membrane-tuning.md.
+// order. See docs/decisions/membrane-tuning.md.
 constexpr double least_share = .2, usual_most_share = .75, most_share = 1, least_pull_length = .035,
                  most_pull_length = .2;
 // Numbers of bisection steps: of the pull length, and of the share in the first, coarse search and in the
 // second. Each search starts with a calibration.
 constexpr int pull_steps = 4;
 constexpr std::array<int, 2> share_steps{3, 6};
-// Safety margin over the gradient-domain baseline. Covers the residual error of the calibration and the
-// interpolation error between knots. docs/decisions/membrane-tuning.md.
+// Safety margin over the gradient-domain baseline. It covers the residual error of the calibration and the
+// interpolation error between knots. See docs/decisions/membrane-tuning.md.
 constexpr Scores margin{.0003, .002};
 // The rate at which the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are compressed
 // less.
 constexpr double growth = .25;
 // The largest sampling distance, of the longer side, at which the coarsest detail of the metrics is sampled.
 constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / ReliefMetrics::longer_side_px;
-// The search starts here, between the extremes of the range, and ends here where nothing can be measured.
+// The parameters at which the search starts, between the extremes of the range. They are also the result
+// where nothing can be measured.
 constexpr MembraneParams initial{.5};
 // From one knot to the next the compressed height grows by this factor at least.
 constexpr double least_height_growth = 1.1;
@@ -134,14 +135,16 @@ class TuningSearch {
     return {high, bound};
   }
 
-  // Starts from the best known candidate so that hopeless ones are rejected early. A shorter pull length keeps
-  // more of the order and less of the detail. If nothing satisfies both, returns the smallest violation.
+  // Starts from the best known candidate so that hopeless ones are rejected early. A shorter pull length
+  // keeps more of the order and less of the detail. If nothing satisfies both, returns the candidate with the
+  // smallest violation.
   MembraneParams strongest_by_estimate(std::optional<MembraneParams> best) {
     double low = least_pull_length, high = most_pull_length, length = most_pull_length;
     for (int i = 0; i <= pull_steps; ++i) {
       const auto [share, bound] = least_share_with(length, best ? best->height_share : most_share);
       if (share && (!best || *share < best->height_share)) best = MembraneParams{*share, length};
-      // If both are violated, a shorter length does not help; but from the longest one can only go shorter.
+      // If both are violated, a shorter length does not help; but the first length is the longest, so that
+      // the search can only go shorter.
       const bool is_shorter_better = bound.order && (share || !bound.detail || i == 0);
       if (i == 0 && !is_shorter_better) break;
       (is_shorter_better ? high : low) = length;
@@ -155,7 +158,7 @@ class TuningSearch {
   int steps_ = 0;
   HeightCorrection::Workspace workspace_;
   std::vector<double> initial_heights_;  // before compression
-  Image<float> drawn_;                   // the same, drawn
+  Image<float> drawn_;                   // the same heights as an image
   Scores required_;
   MembraneParams nearest_;
   double least_shortfall_ = 0;
@@ -184,7 +187,7 @@ MembraneParams MembraneTuning::at(double u) const {
   const auto k = std::min(static_cast<std::size_t>(at), knots.size() - 2);
   const double part = at - static_cast<double>(k);
   const MembraneParams &before = params[k], &after = params[k + 1];
-  // The membrane's energy contains 1 / pull_length^2.
+  // The membrane's energy contains 1 / pull_length^2, so this is interpolated.
   const auto pull = [](const MembraneParams& p) { return 1 / (p.pull_length * p.pull_length); };
   return {std::lerp(before.height_share, after.height_share, part),
           1 / std::sqrt(std::lerp(pull(before), pull(after), part))};

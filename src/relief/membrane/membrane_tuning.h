@@ -13,14 +13,15 @@ namespace relievo {
 // The membrane's parameters over u, interpolated between four knots.
 class MembraneTuning {
  public:
-  // u, each 2.5 times the last one.
+  // Values of u, each 2.5 times the last one.
   static constexpr std::array<double, 4> knots{.25, .625, 1.5625, 3.90625};
 
-  // Starts with the default parameters, which stay where nothing can be measured.
+  // Starts with the default parameters, which remain where nothing can be measured.
   MembraneTuning();
 
-  // Returns the parameters at u in [0, infinity]: between the knots the share and the pull, 1 / pull_length^2,
-  // are linear in ln u. The share tends to 1 with u, and the height it compresses (9) to grows with u.
+  // Returns the parameters at u in [0, infinity]: between the knots the share and the pull, 1 /
+  // pull_length^2, are linear in ln u. The share tends to 1 as u grows, and the height to which (9) is
+  // compressed grows with u.
   MembraneParams at(double u) const;
 
   std::array<MembraneParams, knots.size()> params;

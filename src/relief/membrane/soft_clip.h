@@ -46,7 +46,7 @@ class SoftClip {
 
   Real bin() const { return (highest_ - lowest_) / static_cast<Real>(bins); }
 
-  // A parabola with slope 1 at 0 and the least slope at `length`.
+  // Returns the value at z of a parabola with slope 1 at 0 and the least slope at `length`.
   static Real bent(Real z, Real length) {
     return z - static_cast<Real>((1 - least_slope) / 2) * z * z / length;
   }

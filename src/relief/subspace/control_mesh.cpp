@@ -28,7 +28,7 @@ class Walker {
   }
 
  private:
-  // Returns the edge that has p farthest on its outer side, -1 if none has.
+  // Returns the edge with p farthest on its outer side; -1 if p is on the inner side of all edges.
   int edge_towards(const Vec2& p) const {
     int found = -1;
     double least = 0;
@@ -68,8 +68,8 @@ std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surfac
   return is_inside;
 }
 
-// Returns which points are at height 0: those on the surface's boundary and in no inside triangle; in pieces
-// without any, which exist because the mesh cuts corners, those at the edge of the piece.
+// Returns which points have height 0: those on the surface's boundary, and those in no inside triangle. A
+// connected piece may have neither, because the mesh cuts corners; then the points at its edge have height 0.
 std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boundary_points) {
   const std::size_t n = mesh.points.size();
   std::vector<std::uint8_t> is_fixed(n, 0), is_used(n, 0), is_at_edge(n, 0), has_fixed(n, 0);

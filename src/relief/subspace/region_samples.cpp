@@ -9,8 +9,9 @@
 namespace relievo {
 namespace {
 
-// Returns, per point, its share of the area of the relief, times 6. Scans have more points per area of the view
-// plane where the surface is steep, so an unweighted mean over points would make slopes too steep.
+// Returns, per point, 6 times the area of the relief that belongs to it, a third of each triangle. Scans have
+// more points per area of the view plane where the surface is steep, so an unweighted mean over points would
+// make slopes too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {

@@ -56,7 +56,7 @@ struct SubspaceModel::Workspace::Storage {
   std::vector<Vec2f> slopes;
   std::vector<float> heights, ratios, offsets;  // of the control points
   SplineFunction ratio, offset;
-  std::vector<float> pair;  // of their nodes
+  std::vector<float> pair;  // the nodes of both, interleaved
   MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
 
@@ -148,8 +148,8 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c
 }
 
-// Below a thousandth of the height z0_c is too small to divide by: there the ratio fades to that of all
-// control points.
+// Below a thousandth of the height range the reference height is too small to divide by: there the ratio
+// fades to that of all control points together.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, boundary_weight, workspace);
@@ -162,7 +162,8 @@ void SubspaceModel::set_reference(double max_slope, std::span<const float> bound
   }
 }
 
-// With weights z0_c^2 the fit of the ratio r minimises z_c - r z0_c.
+// The weights of the ratio's fit are the squares of z_ref at the control points: then the fit of the ratio r
+// minimises z_c - r z_ref.
 void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
   std::vector<float> weights;
   for (const float z_ref : control_reference_) weights.push_back(z_ref * z_ref);
