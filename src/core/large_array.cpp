@@ -20,7 +20,7 @@ LargeArray make_large_array(std::size_t floats) {
     throw std::bad_alloc();
   }
 #if defined(__linux__)
-  // Only a request: whether the system grants it affects the speed alone.
+  // This is only a request: whether the system grants it affects the speed alone.
   if (alignment == page) static_cast<void>(madvise(array, rounded, MADV_HUGEPAGE));
 #endif
   return LargeArray(static_cast<float*>(array));

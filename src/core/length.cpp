@@ -17,7 +17,8 @@ void skip_spaces(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
 }
 
-// Nobody can tell whether "1,234" has a decimal comma or a thousand; "0,125" has a comma.
+// Returns whether the comma may be a decimal comma or separate thousands, as in "1,234". In "0,125" it is a
+// decimal comma.
 bool is_ambiguous(std::string_view number) {
   const std::size_t comma = number.find(',');
   if (comma == std::string_view::npos || number.size() - comma != 4) return false;
@@ -25,8 +26,9 @@ bool is_ambiguous(std::string_view number) {
   return has_digits_only && number.find_first_of("123456789") < comma;
 }
 
-// Removes a number without a sign from the beginning of the text and returns it; nothing if there is no finite number.
-// parse_double() does not depend on the locale, in which a comma might be the only decimal point.
+// Removes a number without a sign from the beginning of the text and returns it; returns nothing if there is
+// no finite number. parse_double() does not depend on the locale, in which a comma might be the only decimal
+// point.
 std::optional<double> take_number(std::string_view& text) {
   std::string digits(text);
   std::ranges::replace(digits, ',', '.');
@@ -38,7 +40,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-// Removes a number or a fraction of two.
+// Removes a number, or a fraction of two numbers, and returns its value.
 std::optional<double> take_fraction(std::string_view& text) {
   const std::optional<double> value = take_number(text);
   if (!value || !text.starts_with('/')) return value;
@@ -58,7 +60,7 @@ std::size_t whole_part(std::string_view text) {
   return is_mixed && text[slash] == '/' ? fraction : 0;
 }
 
-// Removes a number, a fraction of two, or a whole number and a fraction.
+// Removes a number, a fraction of two, or a whole number and a fraction, and returns its value.
 std::optional<double> take_term(std::string_view& text) {
   const std::size_t whole = whole_part(text);
   const std::optional<double> number = whole > 0 ? take_number(text) : std::optional(0.0);
@@ -67,7 +69,7 @@ std::optional<double> take_term(std::string_view& text) {
   return number && fraction ? std::optional(*number + *fraction) : std::nullopt;
 }
 
-// Removes a sum, such as "-3 + 1/2 - 0.5".
+// Removes a sum, such as "-3 + 1/2 - 0.5", and returns its value.
 std::optional<double> take_sum(std::string_view& text) {
   double sum = 0;
   for (bool is_first = true;; is_first = false) {

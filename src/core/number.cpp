@@ -51,7 +51,8 @@ void take_exponent(const char*& at, const char* last, Decimal& number) {
   at = digit;
 }
 
-// Both factors are exact, so that the one operation rounds correctly (Clinger, 1990).
+// Returns whether the digits and the power of ten are both exact as doubles, so that one operation rounds
+// correctly (Clinger, 1990).
 bool is_exact(const Decimal& number) {
   return number.significant <= 18 && number.digits <= (std::uint64_t{1} << 53) &&
          std::abs(number.exponent) <= 22;

@@ -12,11 +12,11 @@ struct ParsedNumber {
   std::errc error = {};       // as std::from_chars() reports it
 };
 
-// Does what std::from_chars() does for a double, also where the standard library has it for integers alone.
+// Parses a double as std::from_chars() does, even where the standard library has it for integers alone.
 ParsedNumber parse_double(std::string_view text);
 
 namespace detail {
-// The implementation for such a library, which tests compare with std::from_chars().
+// The implementation for standard libraries without it. Tests compare it with std::from_chars().
 ParsedNumber parse_double_by_hand(std::string_view text);
 }  // namespace detail
 

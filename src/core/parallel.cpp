@@ -14,8 +14,8 @@ namespace {
 
 struct Job;
 
-// The block that a thread works on; no job between blocks. A nested parallel call works alone at once, as the other threads
-// have blocks of their own.
+// The block that a thread works on; no job between blocks. A nested parallel call runs at once and on this
+// thread alone, because the other threads have blocks of their own.
 struct BlockAtWork {
   const Job* job = nullptr;
   std::size_t block = 0;
@@ -33,9 +33,10 @@ struct Job {
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> first_failed = std::numeric_limits<std::size_t>::max();
   std::mutex failing{};               // guards what follows
-  std::exception_ptr exception = {};  // of that block
+  std::exception_ptr exception = {};  // of block first_failed
 
-  // An exception that left the caller's block at once would leave the others working on what no longer exists.
+  // The job keeps an exception until the end: if it left the caller's block at once, the other threads would
+  // go on with a job that no longer exists.
   void work() noexcept {
     while (work_on_next()) {
     }
@@ -55,7 +56,8 @@ struct Job {
     return true;
   }
 
-  // All blocks before the first that fails have begun, and so it is the same with any number of threads.
+  // Keeps the exception of the first block that fails. All blocks before it have begun, so it is the same
+  // block with any number of threads.
   void fail(std::size_t block) {
     const std::lock_guard lock(failing);
     next = blocks;
@@ -64,12 +66,13 @@ struct Job {
     exception = std::current_exception();
   }
 
-  // Returns whether a block would wait in vain if what it waits for is not done: with one thread it would not have begun.
+  // Returns whether an earlier block has failed. Then this block may wait in vain for one that never begins;
+  // with a single thread this block would not have begun.
   bool has_failed_before(std::size_t block) const { return first_failed < block; }
 };
 
-// The worker threads, which sleep between jobs. They do one job at a time. A caller that comes meanwhile works on its own
-// alone until they are free: a picture must not wait for a job that takes half a second.
+// The worker threads, which sleep between jobs. They do one job at a time. A caller that comes meanwhile
+// works alone on its job until they are free: a picture must not wait for a job that takes half a second.
 class Pool {
  public:
   static Pool& instance() {
@@ -91,7 +94,8 @@ class Pool {
     start(threads - 1);
   }
 
-  // The caller works, too. It returns only when every worker has left the job, which lives on its stack.
+  // The caller works, too. It returns only when every worker has left the job, which is on the caller's
+  // stack.
   void run(std::size_t blocks, detail::BlockFunction f, void* context) {
     Job job{f, context, blocks};
     work_on(job);
@@ -141,7 +145,7 @@ class Pool {
     workers_.clear();
   }
 
-  // `seen` is the last generation of jobs that the worker knows: it makes each worker take each job once.
+  // `seen` is the last generation of jobs that the worker has seen: it makes each worker take each job once.
   void loop(std::size_t seen) {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -192,7 +196,7 @@ void BlockFlags::wait(std::size_t block) const {
     }
 }
 
-// Lives until the thread has ended, as the destructor of BackgroundLoop joins it.
+// Exists until the thread has ended, because the destructor of BackgroundLoop joins the thread.
 struct BackgroundLoop::State {
   std::function<bool()> step;
   std::mutex mutex;

@@ -36,7 +36,7 @@ RELIEVO_AVX2 decltype(auto) call_with_avx2(F&& f) {
 #define RELIEVO_WIDE(...) \
   (uses_avx2() ? call_with_avx2([&]() __attribute__((always_inline)) { return __VA_ARGS__; }) : (__VA_ARGS__))
 
-// For tests: turns them off, or on again if the processor has AVX2.
+// For tests: turns AVX2 off, or on again if the processor has it.
 void allow_avx2(bool is_allowed);
 
 }  // namespace relievo

@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// WebAssembly has no locales, on which std::snprintf() depends elsewhere; the tables of std::to_chars() for a given number
-// of digits are a tenth of the module there.
+// std::to_chars() does not depend on a locale, as std::snprintf() does. WebAssembly has no locales, and the
+// tables of std::to_chars() for a given number of digits would be a tenth of the module there.
 void append(std::string& out, double number) {
   char digits[32];
 #if defined(__wasm__)

@@ -9,11 +9,13 @@
 namespace relievo {
 namespace {
 
-// Lines that are averaged together: side by side in memory, so that columns use whole cache lines.
+// The number of lines that are averaged together. They are side by side in memory, so that columns use whole
+// cache lines.
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 
-// A box average along `lines` <= lanes lines of n values; steps are the distances of values and of lines.
+// Up to `lanes` lines of n values for a box average. `step` is the distance between values, `line_step` the
+// one between lines.
 struct Strip {
   float* values;
   std::size_t n, step, lines, line_step;

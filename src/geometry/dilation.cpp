@@ -92,12 +92,13 @@ RELIEVO_INLINE float lowest_of(const Sums& sums) {
   return lowest;
 }
 
-// A row of a window around a block: `away` rows from its middle.
+// A row of a window around a block, `away` rows from the window's middle.
 struct WindowRow {
   int x, y, away, width;
 };
 
-// Returns how far to the sides values of the row, minus the shape, may exceed `lowest`; -1 if none does.
+// Returns the distance to the sides up to which values of the row, minus the shape, may exceed `lowest`; -1
+// if no value may.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -108,7 +109,8 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// Returns how many rows away from the block values, minus the shape, may exceed `lowest`; -1 if none does.
+// Returns the distance in rows from the block up to which values, minus the shape, may exceed `lowest`; -1 if
+// no value may.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;
@@ -128,8 +130,8 @@ RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowR
   for (int dx = -width; dx <= width; ++dx) take(sums, middle + dx, profile.at(std::abs(dx), row.away));
 }
 
-// Computes the block of samples that begins at x, y of the framed grid. It looks from the middle outwards, so that soon
-// nothing farther away can be the largest.
+// Computes the block of samples that begins at x, y of the framed grid. Goes from the middle outwards, so
+// that soon no value farther away can be the largest.
 RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
   Sums sums;
   for (Float8& v : sums.v) v = Float8{} + least;

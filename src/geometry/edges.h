@@ -22,8 +22,9 @@ struct TriangleSide {
   }
 };
 
-// Calls f(sides) for each edge, in the order of its lower and then its higher end. `sides` are those on the edge for
-// which is_wanted(side) holds, in the order of their triangles; an edge without any is passed over.
+// Calls f(sides) for each edge, in the order of its lower and then its higher end. `sides` are the sides on
+// the edge that is_wanted(side) accepts, in the order of their triangles; an edge without such a side is
+// skipped.
 template <typename IsWanted, typename F>
 void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f) {
   std::vector<TriangleSide> sides;
@@ -43,7 +44,7 @@ void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f)
   }
 }
 
-// The same for all sides.
+// Does the same with all sides.
 template <typename F>
 void each_edge(std::span<const Triangle> triangles, F&& f) {
   each_edge(

@@ -1,8 +1,8 @@
 // Exact arithmetic on doubles. A number is represented as a sum of doubles, an expansion.
 //
 // J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
-// Exact as long as nothing overflows or underflows, doubles round to nearest even, and the compiler neither
-// contracts nor reassociates (-ffp-contract=off, no -ffast-math).
+// The arithmetic is exact as long as nothing overflows or underflows, doubles round to nearest even, and the
+// compiler neither contracts nor reassociates (-ffp-contract=off, no -ffast-math).
 #pragma once
 
 #include <array>

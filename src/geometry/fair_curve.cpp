@@ -17,7 +17,8 @@ struct Sample {
   double weight;
 };
 
-// Samples in the order of their length; those of a closed curve repeat after `period`, which is 0 for open ones.
+// Samples in the order of their length along the curve. Those of a closed curve repeat after the length of
+// the curve.
 class Course {
  public:
   Course(std::vector<Sample> samples, double begin, double end, bool is_closed)
@@ -57,7 +58,8 @@ struct Corner {
   double turn;
 };
 
-// The part of a course that a fit may use: up to its corners, or all of it. It ends in these corners, if it has any.
+// The part of a course that a fit may use: up to its corners, where the part ends, or all of it if there are
+// none.
 struct Piece {
   double from = -1e300, to = 1e300;
   const Corner *begin = nullptr, *end = nullptr;
@@ -140,8 +142,8 @@ std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   return line;
 }
 
-// Returns the course of the same samples by length along a line that was drawn from it. A sample whose place is
-// far from the line counts little.
+// Returns a course of the same samples, with lengths along a line that was drawn from the old course. A
+// sample whose place is far from the line gets little weight.
 Course along(const std::vector<Vec2>& line, const Course& course, const FairCurveOptions& options) {
   const std::size_t n = line.size(), edges = course.is_closed() ? n : n - 1;
   std::vector<double> length(edges + 1, 0);
@@ -205,8 +207,8 @@ Side side_of(const Course& course, double at, double from, double to) {
           std::sqrt(misfit / spread / static_cast<double>(count - 2))};
 }
 
-// Returns the corner between two sides that reach equally far, with turn 0 if there is none: the sides turn by more
-// than their curvature and the scatter of their samples explain.
+// Returns the corner between two sides of equal length, with turn 0 if there is none. At a corner the sides
+// turn by more than their curvature and the scatter of their samples explain.
 Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
   constexpr double least_turn = std::numbers::pi / 4, sure = 3;  // standard deviations
   const double skip = .5 * options.spacing, roughest = .6 * options.spacing;

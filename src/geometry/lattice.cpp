@@ -51,7 +51,7 @@ void Lattice::set_places(std::span<const Vec3> points, double cell) {
   });
 }
 
-// refine() runs in every frame; listing the cells with points saves it the others.
+// Lists the cells with points, so that refine(), which runs in every frame, skips the others.
 void Lattice::set_first_nodes() {
   std::vector<std::uint8_t> is_first(nodes());
   for (const SplinePlace& p : places_) is_first[p.node] = 1;

@@ -63,8 +63,8 @@ class KdTree {
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor, double, Index>,
                                           Adaptor, dimension, Index>;
 
-  // Once k points lie at the query itself, nothing is nearer. nanoflann would still visit all other points that do, so
-  // that clouds with many coincident points would take quadratic time.
+  // Once k points lie at the query itself, nothing is nearer. nanoflann would still visit all other points
+  // there, so that clouds with many coincident points would take quadratic time.
   struct NearestSet : nanoflann::KNNResultSet<double, Index> {
     using Base = nanoflann::KNNResultSet<double, Index>;
     using Base::Base;

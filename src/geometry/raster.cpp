@@ -11,8 +11,8 @@ namespace {
 
 constexpr int steps_per_pixel = 256;
 
-// Rounds a coordinate, at least -1 pixel; truncation is faster than rounding but right for positive numbers
-// only.
+// Rounds a coordinate, which is at least -1 pixel. Truncation is faster than rounding but right for positive
+// numbers only, hence the shift by 1 pixel.
 int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
@@ -100,8 +100,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether no centre lies between the triangle's corners. Most triangles of a fine scan end here, so
-// that few bytes of each are read.
+// Returns whether no pixel centre lies between the triangle's corners in x or in y. Most triangles of a fine
+// scan end here, so that few bytes of each are read.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -114,8 +114,8 @@ bool Rasterizer::is_facing(const Triangle& triangle) const {
   return cross < 0;  // y points down: what is counter-clockwise to the viewer is negative here
 }
 
-// Returns the rows with centres between the triangle's corners. A centre at its lowest corner belongs to
-// another triangle.
+// Returns the rows with centres between the triangle's corners. A centre at the triangle's lowest corner
+// belongs to another triangle.
 Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   const auto [top, bottom] =
       std::minmax({cells_[triangle[0]].row, cells_[triangle[1]].row, cells_[triangle[2]].row});

@@ -48,7 +48,8 @@ class Rasterizer {
   struct Corner {
     int x, y;  // in 1/256 pixel
   };
-  // The first column and row of centres that are at a corner, right of it or below; from 0 to the picture's width and height.
+  // The first column and the first row whose centres are not left of a corner and not above it; from 0 to the
+  // picture's width and height.
   struct Cell {
     std::uint16_t column, row;
   };
@@ -82,7 +83,8 @@ void draw_bands(const RasterInput& scene, int band_rows, F&& use) {
       rasterizer.bands(), [&](std::size_t b) { use(rasterizer.draw(b)); }, 1);
 }
 
-// Weights of the triangle's corners at a place in the picture; not negative, also for places outside.
+// Returns the weights of the triangle's corners at a place in the picture. They are not negative, even for
+// places outside the triangle.
 Vec3f corner_weights(const RasterInput& scene, Index triangle, double x, double y);
 
 }  // namespace relievo

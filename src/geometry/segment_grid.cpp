@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// A closed grid has at most this many cells a side; larger curves get larger cells.
+// A grid has at most this many cells a side; larger curves get larger cells.
 constexpr double most_cells = 4096;
 
 }  // namespace

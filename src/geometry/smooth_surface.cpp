@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// A slope may be farther from the mean of the triangles around its point than these are, by this factor; the
-// second is for points at an edge of the surface.
+// The factors by which a point's slope may be farther from the mean slope of the triangles around it than
+// their own slopes are: inside the surface, and at an edge of it.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -78,7 +78,8 @@ Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   return share / (1 + excess * excess) * change;
 }
 
-// Returns the middle point of a third that gives the slope across the edge a-b that value in the middle of the edge.
+// Returns the middle point of a third for which the slope in the middle of the edge a-b deviates from the
+// mean of its ends by middle_deviation().
 template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
@@ -98,7 +99,7 @@ SmoothSurface::SmoothSurface(std::span<const Vec3> points, std::span<const Trian
   find_slopes();
 }
 
-// The triangles around a point, which share it.
+// The triangles around a point, and their slopes.
 struct SmoothSurface::Fan {
   std::span<const Index> triangles;
   std::vector<Vec2>& slopes;
@@ -106,9 +107,9 @@ struct SmoothSurface::Fan {
   bool is_closed = false;  // they enclose the point
 };
 
-// Returns a slope among those of the triangles, or a little beyond: slopes from the other side of a bend
-// would make the surface swing to and fro beside it. Where the triangles do not enclose the point, a slope
-// may lie as far beyond as the point does.
+// Limits a slope to the range of the triangles' slopes, or a little beyond: slopes from the other side of a
+// bend would make the surface swing to and fro beside it. Where the triangles do not enclose the point, the
+// slope may be farther beyond, because it is extrapolated there.
 Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   const double off = (slope - fan.mean).norm();
   if (!(off > 0)) return slope;

@@ -9,11 +9,12 @@
 
 namespace relievo {
 
-// Heights over the plane that interpolate those of points, with a continuous slope inside each sheet: a set of
-// triangles marked as smooth that share edges. Other triangles stay plane, so that the surface has a crease along
-// their edges. Each smooth triangle is a Clough-Tocher element: three cubics, quadratic surfaces are reproduced. The slope
-// at a point comes from the quadratic that fits the heights of up to two rings of smooth triangles around it, and lies
-// among those of the triangles that it touches, or a little beyond.
+// Heights over the plane that interpolate those of points. Their slope is continuous inside each sheet, a set
+// of triangles marked as smooth that share edges. Other triangles stay plane, so that the surface has a
+// crease along their edges. Each smooth triangle is a Clough-Tocher element of three cubics, which reproduces
+// quadratic surfaces. The slope at a point comes from the quadratic that fits the heights of up to two rings
+// of smooth triangles around it. It is limited to the slopes of the triangles that the point touches, or a
+// little beyond.
 class SmoothSurface {
  public:
   // The height and slope of the surface at a place.

@@ -26,8 +26,8 @@ struct HalfEdge {
   Index twin;  // the same side seen from the neighbour
 };
 
-// Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2; the fourth slot is unused and buys cheap arithmetic
-// and triangles that never straddle a cache line.
+// Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2. The fourth slot is unused: it makes the arithmetic
+// cheap, and no triangle straddles a cache line.
 constexpr Index next(Index e) {
   return (e & 3) == 2 ? e - 2 : e + 1;
 }
@@ -55,7 +55,8 @@ class Builder {
   void add_triangle(Index a, Index b, Index c);
   Index split(Index e, Index p);
   void flip(Index e);
-  // Triangles around the newest point have it at slot 2. Returns the next one's slot 0 for the slot 0 of one.
+  // Returns slot 0 of the next triangle around the newest point, given slot 0 of one. These triangles have
+  // the newest point at slot 2.
   Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
 
   std::vector<Index> number_triangles() const;

@@ -11,20 +11,20 @@
 namespace relievo {
 
 namespace detail {
-// Returns a coordinate's bits; adding 0 makes 0 of -0.
+// Returns a coordinate's bits; adding 0 turns -0 into 0.
 inline std::uint64_t bits_of(double coordinate) {
   return std::bit_cast<std::uint64_t>(coordinate + 0.0);
 }
 }  // namespace detail
 
-// A hash table of the numbers of points that differ from each other, which the caller keeps. Points coincide if their
+// A hash table of the numbers of distinct points, which the caller stores. Points coincide if their
 // coordinates have the same bits, where 0 and -0 are the same.
 class PointTable {
  public:
   // Takes the number of different points to expect; more of them make the table grow.
   explicit PointTable(std::size_t expected);
 
-  // Each coordinate changes all high bits, which determine the place in the table.
+  // Returns a hash in which each coordinate changes all high bits, which determine the place in the table.
   static std::uint64_t hash_of(const Vec3& point) {
     constexpr std::uint64_t factor = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
     std::uint64_t hash = 0;
@@ -45,8 +45,7 @@ class PointTable {
 
  private:
   struct Slot {
-    std::uint32_t
-        check;  // bits of the hash: most other points are told apart without reading their coordinates
+    std::uint32_t check;  // bits of the hash, which distinguish most points without reading their coordinates
     Index number;
   };
 
@@ -54,7 +53,7 @@ class PointTable {
   void grow(const Vec3* points);
 
   std::vector<Slot> slots_;
-  int shift_ = 0;  // bits of a hash that do not tell its place
+  int shift_ = 0;  // low bits of a hash, which do not determine its place
   std::size_t used_ = 0;
 };
 

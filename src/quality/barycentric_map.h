@@ -30,7 +30,7 @@ class BarycentricMap {
   // Returns no_index where the pixel is outside the hull.
   Index triangle(std::size_t pixel) const { return places_[pixel].triangle; }
 
-  // Returns values given per point, interpolated; `outside` where no triangle is.
+  // Returns value(point) interpolated at a pixel; `outside` where there is no triangle.
   template <typename Value>
   float at(std::size_t pixel, Value&& value, float outside) const {
     const Place& p = places_[pixel];

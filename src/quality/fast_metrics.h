@@ -29,7 +29,8 @@ class FastMetrics {
  public:
   explicit FastMetrics(const Surface& surface);
 
-  // Returns the number of pixels that are measured: those whose four pixels ReliefMetrics measures.
+  // Returns the number of measured pixels. A pixel is measured if ReliefMetrics measures all four pixels that
+  // it is made of.
   std::size_t pixels() const { return where_.pixels.size(); }
 
   // Draws heights, one per point, in pixels.
@@ -54,8 +55,8 @@ class FastMetrics {
   Image<float> depth_, curvature_, exact_curvature_;  // of the model
 };
 
-// Samples two of the four pixels, on a diagonal. These pixels are twice as wide, so heights in pixels are
-// half as large.
+// Samples two of the four pixels, on a diagonal. Pixels of half the resolution are twice as wide, so heights
+// in pixels are half as large.
 template <typename F>
 Image<float> FastMetrics::draw_smooth(F&& height) const {
   Image<float> half = filled_image(where_.mask.width, where_.mask.height, 0.F);

@@ -11,7 +11,7 @@ namespace relievo {
 
 // Some pixels of an image: those that are measured.
 struct PixelMask {
-  Image8 mask;                // never in the first and last row and column
+  Image8 mask;                // never set in the first and last row and column
   std::vector<Index> pixels;  // their indices
 
   PixelMask() = default;

@@ -139,7 +139,7 @@ struct ReliefMetrics::Reference : ModelPicture {
     return smoothed;
   }
 
-  // Fills in the measures of the pixels that the others leave out.
+  // Sets the measures that cover the pixels which the other measures leave out.
   void guard(const Image<float>& z, const NormalMap& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
     const float steep = static_cast<float>(std::cos(to_radians(80)));

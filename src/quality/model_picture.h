@@ -1,4 +1,4 @@
-// A model drawn for reliefs to be measured against it: its normals and depths, and where to look.
+// Images of a model against which reliefs are measured: its normals and depths, and the pixels to measure.
 #pragma once
 
 #include "quality/barycentric_map.h"
@@ -10,12 +10,12 @@ struct NormalMap {
   Image<float> x, y, z;
 };
 
-// The normals of heights in pixels by central differences, level at the picture's rim.
+// Returns the normals of heights in pixels by central differences, level at the picture's rim.
 NormalMap normals_of(const Image<float>& z);
 
-// The model as the scan's own normals and depths say, level outside.
+// Images of the scan's own normals and depths, level outside the relief.
 struct ModelPicture {
-  static constexpr int safe_distance_px = 5;  // from silhouette and jumps; the reach of SSIM's window, too
+  static constexpr int safe_distance_px = 5;  // from silhouette and jumps; also the radius of SSIM's window
 
   BarycentricMap grid;
   std::vector<std::uint8_t> is_inside;  // per pixel: on the relief

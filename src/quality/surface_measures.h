@@ -11,7 +11,7 @@ namespace relievo {
 // Measures how even the triangles of a relief are. Const calls may run concurrently.
 class SurfaceMeasures {
  public:
-  // Views the surface, which must outlive it.
+  // Keeps a view of the surface, which must outlive it.
   explicit SurfaceMeasures(const Surface& surface);
 
   struct Fray {

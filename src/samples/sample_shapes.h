@@ -12,7 +12,7 @@ namespace relievo::field {
 
 inline constexpr double pi = std::numbers::pi;
 
-// The samples: upright (+Y), the front towards +Z, about two units wide.
+// Return the samples: upright (+Y), the front towards +Z, about two units wide.
 Solid shell();
 Solid still_life();
 Solid green_man();

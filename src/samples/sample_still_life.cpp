@@ -6,7 +6,7 @@
 namespace relievo::field {
 namespace {
 
-// The distance in the half-plane of a surface of revolution, given the radius and the height.
+// Distances in the half-plane of a surface of revolution, at a given radius and height.
 struct Turned {
   double r, y;
   double ellipse(double centre, double radius, double half_height) const {

@@ -43,9 +43,9 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
   return sweep;
 }
 
-// Returns the direction in which the positions spread most: the principal axis of their covariance. Separators across
-// it are mostly short. Where all directions are alike, rounding decides, but as sums, quotients and square roots have
-// the same bits everywhere, so has the direction.
+// Returns the direction in which the positions spread most: the principal axis of their covariance.
+// Separators across it are mostly short. If all directions are alike, rounding decides. The direction is
+// still the same everywhere, because sums, quotients and square roots have the same bits everywhere.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2f& p : positions) mean += p.cast<double>();
@@ -176,8 +176,8 @@ Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> p
 
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   Bisection cut = cut_along(graph, positions, widest_sweep(positions));
-  // A planar graph has a separator of about sqrt(n) vertices (Lipton and Tarjan 1979). One of four times that
-  // size tells that the positions do not fit the graph.
+  // A planar graph has a separator of about sqrt(n) vertices (Lipton and Tarjan 1979). A separator of four
+  // times that size shows that the positions do not fit the graph.
   if (cut.separator > 4 * std::sqrt(static_cast<double>(graph.size())) || cut.first == 0 || cut.second == 0) {
     Bisection other = cut_by_distance(graph, positions);
     if (cost(other) < cost(cut)) return other;

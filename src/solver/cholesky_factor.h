@@ -1,4 +1,4 @@
-// The data of a Cholesky: the structure of the factor cut into tasks, its values, and the matrix.
+// The data of a Cholesky object: the structure of the factor cut into tasks, its values, and the matrix.
 // Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 
@@ -58,7 +58,7 @@ struct Cholesky::Factor {
   std::vector<Task> tasks;   // children before parents
   std::vector<Index> children;
   std::vector<Index> boundary;   // columns
-  std::vector<Index> to_parent;  // its row in the parent's work vector
+  std::vector<Index> to_parent;  // row of each boundary column in the parent's work vector
   std::vector<NodeSize> nodes;
   std::vector<std::uint16_t> rows;  // work rows of the supernodes in subtrees, see Subtree
   LargeArray values;                // the panels of W, task after task

@@ -239,8 +239,7 @@ Index Multifrontal::run() {
   factor_.values = make_large_array(factor_.value_count);
   contribution_.resize(n);
   failed_.assign(n, no_index);
-  // Tasks are in an order in which children precede parents, so a task that waits never waits for one not
-  // started.
+  // Children precede parents in the order of the tasks, so a task only waits for tasks that have started.
   BlockFlags done(n);
   parallel_for(
       n,

@@ -114,7 +114,7 @@ void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& st
       1);
 }
 
-// Subtracts the rows of a task of the product A x from r.
+// Subtracts from r the rows of the product A x that belong to a task.
 void subtract_product(const TaskMatrix& A, const Task& task, std::span<const double> x, std::span<double> r) {
   for (Index j = task.first_column; j < task.end_column; ++j) {
     double sum = A.diagonal[j] * x[j];

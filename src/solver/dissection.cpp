@@ -11,7 +11,7 @@
 namespace relievo::solver {
 namespace {
 
-// For pieces of at most this many vertices minimum degree finds a better order than another cut, and faster.
+// For parts of at most this many vertices minimum degree finds a better order than another cut, and faster.
 constexpr Index leaf_size = 120;
 
 struct Part {
@@ -47,9 +47,9 @@ class Dissection {
   Dissection(const Graph& graph, std::vector<Index>& order)
       : graph_(graph), order_(order), slots_(graph.size(), no_index) {}
 
-  // Bisects level by level while parts are large, so that the parts of a level are cut concurrently, and orders the
-  // many small parts concurrently afterwards. Which way a part goes depends on sizes alone, so that the
-  // result does not depend on the number of threads.
+  // Bisects level by level while parts are large, so that the parts of a level are cut concurrently, and
+  // orders the many small parts concurrently afterwards. Whether a part is large depends on sizes alone, so
+  // that the result does not depend on the number of threads.
   void run(Part whole) {
     const Index small = std::max<Index>(2048, whole.graph.size() / 32);
     std::vector<Part> large, pieces;
@@ -108,7 +108,8 @@ class Dissection {
   std::vector<Index> slots_;
 };
 
-// A substitute for the angle of a vector that needs no arc tangent: it grows with the angle, from 0 to 4.
+// Returns a substitute for the angle of a vector. It grows with the angle, from 0 to 4, and needs no arc
+// tangent.
 float pseudo_angle(const Eigen::Vector2f& step) {
   const float sum = std::abs(step.x()) + std::abs(step.y());
   const float turn = sum > 0 ? step.x() / sum : 0;

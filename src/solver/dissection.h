@@ -5,10 +5,10 @@
 
 namespace relievo::solver {
 
-// Returns the vertices in an elimination order that causes little fill: recursively, separators last and the
-// two sides before them; small pieces by minimum degree. `positions` (finite, one per vertex) only guide the
-// search: bad ones cost fill, never correctness. It is faster if nearby vertices have similar numbers. The
-// result is the same for any number of threads.
+// Returns the vertices in an elimination order that causes little fill. The order is made recursively:
+// separators come last, after the two sides; small parts are ordered by minimum degree. `positions` (finite,
+// one per vertex) only guide the search: bad ones cost fill, never correctness. The search is faster if
+// nearby vertices have similar numbers. The result is the same for any number of threads.
 std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
 }  // namespace relievo::solver

@@ -110,7 +110,8 @@ void subtract_product(const Product& p) {
   RELIEVO_WIDE(subtract(p));
 }
 
-// A multiple of `narrow`, so that only the last block of columns is incomplete.
+// Returns about half of the width, as a multiple of `narrow`, so that only the last block of columns is
+// incomplete.
 Index first_half(Index width) {
   return (width / 2 + narrow - 1) / narrow * narrow;
 }
@@ -128,8 +129,8 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
   return std::min(failed, failed_later);
 }
 
-// With columns [La; Lb; Ld] on the left and [Lc; Le] on the right, already inverted to [Wc; We]: the rows
-// below La become [Wc Lb; Ld + We Lb], and then the left is inverted on its own.
+// The columns are [La; Lb; Ld] on the left and [Lc; Le] on the right, where the right ones become [Wc; We]
+// first. Then the rows below La become [Wc Lb; Ld + We Lb], and the left columns are inverted on their own.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;

@@ -170,7 +170,7 @@ inline float ObstacleSolver::Level::move(Index n, const Springs& springs, const 
   return change;
 }
 
-// Moves a node beside ties, and updates the values there.
+// Moves a node of cells with ties, and updates the values at these ties.
 inline void ObstacleSolver::Level::move_tied(const TiedNode& tied, const Springs& springs, Fields& f) const {
   float* at_ties = f.at_ties.data();
   Slope slope;

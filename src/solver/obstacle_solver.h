@@ -35,10 +35,10 @@ struct Stiffness {
 // Finds approximately the field b with lowest <= b <= highest that minimises
 //   1/2 sum bending (lap b)^2 + 1/2 sum tension (b_i - b_j)^2 + 1/2 sum springs b^2 - sum wanted b
 //   + 1/2 sum ties (tie_stiffness b^2 + stop_stiffness min(b - least_at_ties, 0)^2),
-// a thin plate under tension on springs, with `wanted` as its load, tied down at places between its nodes. lap b
-// is the sum of the four neighbours minus 4 b. Nodes on the lattice's rim must be fixed. Projected successive
-// over-relaxation on lattices with cells of 8, 4, 2 and 1, each starting from the solution of the coarser one.
-// Const calls may run concurrently, each with a workspace of its own.
+// a thin plate under tension on springs, with `wanted` as its load, tied down at places between its nodes.
+// lap b is the sum of the four neighbours minus 4 b. Nodes on the lattice's rim must be fixed. The method is
+// projected successive over-relaxation on lattices with cells of 8, 4, 2 and 1, each starting from the
+// solution of the coarser one. Const calls may run concurrently, each with a workspace of its own.
 class ObstacleSolver {
  public:
   static constexpr std::size_t levels = 4;
@@ -111,8 +111,8 @@ class ObstacleSolver {
     };
     struct TiedNode {
       Index node;
-      // A cell without a tie has a share of weight 0. Its value is one that no other node has: with a common one, each
-      // node would have to wait until the one before had written it.
+      // A cell without a tie has a share of weight 0, with a value that no other node uses: if nodes shared
+      // one, each would have to wait until the one before had written it.
       std::array<Share, 4> shares;
     };
     struct Colour {
@@ -133,7 +133,7 @@ class ObstacleSolver {
     // The free nodes in five colours. Nodes of one colour are so far apart that none changes what another
     // reads, so the processor can overlap their updates: 2.6 times as fast as row by row.
     std::array<Colour, 5> colours_;
-    std::vector<float> diagonal_;  // per node: of the energy's Hessian without springs
+    std::vector<float> diagonal_;  // per node: diagonal of the energy's Hessian without springs
   };
 
   std::array<Level, levels> levels_;

@@ -152,7 +152,7 @@ class Fundamental {
 
   const Graph& graph_;
   std::vector<Index> order_, column_parent_, children_, mark_, owner_;
-  // The supernodes whose parent is a column, as a linked list.
+  // Per column, the supernodes whose parent is this column, as a linked list.
   std::vector<Index> first_child_, next_sibling_;
   Supernodes result_;
 };

@@ -25,8 +25,8 @@ struct Supernodes {
   }
 };
 
-// Returns the supernodes of eliminating `graph` in the given order, or one that causes the same fill. Columns
-// of equal structure form a supernode; supernodes are merged, storing some zeros, where that makes a
+// Returns the supernodes of eliminating `graph` in the given order, or in one that causes the same fill.
+// Columns of equal structure form a supernode; supernodes are merged, storing some zeros, where that makes a
 // substitution cheaper.
 Supernodes analyse(const Graph& graph, std::span<const Index> order);
 

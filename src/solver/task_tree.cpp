@@ -34,8 +34,9 @@ class TaskTreeBuilder {
   }
 
  private:
-  // Marks the supernodes whose subtree is too large for one task. A single one with too many rows counts as
-  // too large, as its products would not fit on the stack; so do all its ancestors.
+  // Marks the supernodes whose subtree is too large for one task. A single supernode with too many rows
+  // counts as too large, too, because its products would not fit on the stack. All ancestors of marked
+  // supernodes are marked.
   void mark_supernodes_above() {
     const Index n = nodes_.size();
     std::vector<Index> columns(n, 0);
@@ -89,9 +90,9 @@ class TaskTreeBuilder {
     return task_of;
   }
 
-  // Threads take tasks in this order. Tasks of one height do not depend on each other, so that the many
-  // leaves keep all threads busy and a task rarely waits for its children. Stable, for the same order every
-  // time.
+  // Sorts the tasks by height, which is the order in which threads take them. Tasks of one height do not
+  // depend on each other, so that the many leaves keep all threads busy and a task rarely waits for its
+  // children. The sort is stable, so that the order is the same every time.
   void sort_by_height() {
     const std::vector<Index> task_of = tasks_of_nodes();
     std::vector<Index> height(tasks_.size(), 0), sequence(tasks_.size());
@@ -124,7 +125,8 @@ class TaskTreeBuilder {
 
   // Assigns each task its part of the shared arrays: the boundary, the work vector and the values.
   void assign_storage() {
-    // All boundaries first: where a row stands in the parent's work vector depends on the parent's boundary.
+    // All boundaries are found first: where a row stands in the parent's work vector depends on the parent's
+    // boundary.
     for (Task& task : result_->tasks) find_boundary(task);
     for (Task& task : result_->tasks) {
       find_rows_in_parent(task);
@@ -132,8 +134,8 @@ class TaskTreeBuilder {
       // A supernode above the subtrees needs a copy of its columns, padded to vectors of eight.
       const Index scratch = task.is_subtree ? 0 : task.own() + 8;
       task.work_begin = result_->work_count;
-      // Whole cache lines of 16 floats and at least eight floats of padding: no two threads write to one
-      // line.
+      // The size is in whole cache lines of 16 floats, with at least eight floats of padding, so that no two
+      // threads write to one line.
       result_->work_count += (task.own() + task.boundary + scratch + 23) / 16 * 16;
       task.values = result_->value_count;
       for (Index s = task.first_node; s < task.end_node; ++s)
@@ -160,7 +162,8 @@ class TaskTreeBuilder {
           work_row(*result_, result_->tasks[task.parent], result_->boundary[task.first_boundary + i]));
   }
 
-  // Lists the work rows of each supernode of a subtree, padded with its first one as the products need it.
+  // Lists the work rows of each supernode of a subtree, padded with the supernode's first row as the products
+  // need it.
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
     std::vector<std::uint16_t>& rows = result_->rows;

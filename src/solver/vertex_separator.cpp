@@ -23,9 +23,9 @@ class PathFlow {
     queue_.reserve(level_.size());
   }
 
-  // A greedy start for maximise(). Each path begins at the uppermost unused start and always takes the
-  // leftmost turn. A vertex that such a walk has left behind lies above it, where no lower path of a planar
-  // graph can come without crossing it, so no vertex is visited twice.
+  // Finds first paths greedily, before maximise(). Each path begins at the uppermost unused start and always
+  // takes the leftmost turn. A vertex that such a walk has left behind lies above it. In a planar graph no
+  // lower path gets there without crossing the walk, so no vertex is visited twice.
   void take_uppermost_paths() {
     std::vector<std::uint8_t> is_seen(graph_.size(), 0);
     for (const Index start : starts_from_above())
@@ -41,8 +41,9 @@ class PathFlow {
     }
   }
 
-  // Reads the separator off the final flow, after maximise(): what can still be reached is on the near side,
-  // and a vertex whose entrance can be reached but not its exit is saturated, hence in the separator.
+  // Reads the separator off the final flow, after maximise(): vertices that can still be reached are on the
+  // near side. A vertex with a reachable entrance and an unreachable exit is saturated, hence in the
+  // separator.
   std::vector<Side> cut(Side near, Side far) const {
     std::vector<Side> side(graph_.size(), far);
     for (Index v = 0; v < graph_.size(); ++v) {
@@ -54,7 +55,7 @@ class PathFlow {
     return side;
   }
 
-  // Reads the same flow from the other end.
+  // Turns the flow around, so that it is read from the other end.
   void reverse() {
     std::swap(starts_, ends_);
     std::swap(previous_, next_);
@@ -139,7 +140,7 @@ class PathFlow {
   }
 
   // Writes to level_ the distances from the start in the residual network. Returns whether the far end can be
-  // reached; the search stops there, so that then not all levels are known.
+  // reached. If so, the search stops there, and not all levels are known.
   bool find_levels() {
     std::fill(level_.begin(), level_.end(), no_index);
     queue_.clear();
