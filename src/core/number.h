@@ -8,7 +8,7 @@ namespace relievo {
 
 struct ParsedNumber {
   double value = 0;
-  const char* end = nullptr;  // of the number in the text
+  const char* end = nullptr;  // end of the number in the text
   std::errc error = {};       // as std::from_chars() reports it
 };
 

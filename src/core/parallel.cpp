@@ -32,8 +32,8 @@ struct Job {
   std::size_t blocks = 0;
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> first_failed = std::numeric_limits<std::size_t>::max();
-  std::mutex failing{};               // guards what follows
-  std::exception_ptr exception = {};  // of block first_failed
+  std::mutex failing{};               // guards the exception
+  std::exception_ptr exception = {};  // exception of block first_failed
 
   // The job keeps an exception until the end: if it left the caller's block at once, the other threads would
   // go on with a job that no longer exists.
@@ -162,7 +162,7 @@ class Pool {
 
   std::mutex resizing_;
   std::vector<std::thread> workers_;  // changes only while no parallel call runs
-  std::mutex mutex_;                  // guards what follows
+  std::mutex mutex_;                  // guards the members below
   std::condition_variable wake_, done_;
   Job* job_ = nullptr;
   std::size_t busy_ = 0, generation_ = 0;

@@ -13,7 +13,7 @@ namespace relievo {
 // One side of a triangle, by the triangle's corners in their order.
 struct TriangleSide {
   Index from, to, apex;
-  Index triangle;  // its number
+  Index triangle;  // number of the triangle
 
   Index low() const { return std::min(from, to); }
   Index high() const { return std::max(from, to); }

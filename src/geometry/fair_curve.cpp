@@ -174,8 +174,8 @@ Course along(const std::vector<Vec2>& line, const Course& course, const FairCurv
 // A straight line through samples.
 struct Side {
   Vec2 point, direction;
-  double misfit = 1e300;  // root mean square
-  double curvature = 0;   // of the samples beside the line
+  double misfit = 1e300;  // root mean square distance of the samples from the line
+  double curvature = 0;   // curvature of the samples beside the line
   double turn_error = 0;  // standard deviation of the direction, in radians
 };
 
@@ -210,7 +210,7 @@ Side side_of(const Course& course, double at, double from, double to) {
 // Returns the corner between two sides of equal length, with turn 0 if there is none. At a corner the sides
 // turn by more than their curvature and the scatter of their samples explain.
 Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
-  constexpr double least_turn = std::numbers::pi / 4, sure = 3;  // standard deviations
+  constexpr double least_turn = std::numbers::pi / 4, sure = 3;  // `sure` is in standard deviations
   const double skip = .5 * options.spacing, roughest = .6 * options.spacing;
   const Side before = side_of(course, at, at - reach, at - skip),
              after = side_of(course, at, at + skip, at + reach);

@@ -14,7 +14,7 @@ struct CurveNode {
 };
 
 struct FairCurveOptions {
-  double spacing = 1;  // of the curve's points
+  double spacing = 1;  // spacing of the curve's points
   double window = 4;   // half the length of curve that a point is fitted to; more is smoother
 };
 

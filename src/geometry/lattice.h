@@ -122,9 +122,9 @@ class Lattice {
   void for_cells(F&& f) const;
 
   std::size_t width_ = 0;
-  std::vector<SplinePlace> places_;  // of all points
-  std::vector<Index> first_nodes_;   // of the 4 x 4 nodes around each cell with points, each once
-  std::vector<Counted> counted_;     // by cell
+  std::vector<SplinePlace> places_;  // places of all points
+  std::vector<Index> first_nodes_;   // first of the 4 x 4 nodes around each cell with points
+  std::vector<Counted> counted_;     // counted points, cell by cell
   std::vector<Index> begin_;         // per cell, where its points begin in counted_
   std::vector<float> share_;         // per node: 1 / the sum of the squared weights, 0 if that is 0
 };

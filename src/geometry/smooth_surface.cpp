@@ -68,7 +68,7 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared
-  constexpr double most_share = 1.5;   // of the change; more is noise, and counts less
+  constexpr double most_share = 1.5;   // largest share of the change; larger ones are noise and count less
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
   const double change_along = change.dot(edge);
   const double divisor =
@@ -104,7 +104,7 @@ struct SmoothSurface::Fan {
   std::span<const Index> triangles;
   std::vector<Vec2>& slopes;
   Vec2 mean = Vec2::Zero();
-  bool is_closed = false;  // they enclose the point
+  bool is_closed = false;  // whether they enclose the point
 };
 
 // Limits a slope to the range of the triangles' slopes, or a little beyond: slopes from the other side of a

@@ -49,7 +49,7 @@ class SmoothSurface {
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   std::span<const std::uint8_t> is_smooth_;
-  std::vector<Vec2> slopes_;  // per point; 0 where no smooth triangle is
+  std::vector<Vec2> slopes_;  // per point; 0 at points of no smooth triangle
 };
 
 }  // namespace relievo

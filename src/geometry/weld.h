@@ -61,7 +61,7 @@ class PointTable {
 // is requested a few points ahead.
 template <typename Point, typename Resolve>
 void for_each_hashed(const PointTable& table, std::size_t n, const Point& point, const Resolve& resolve) {
-  constexpr std::size_t ahead = 32;  // of 8 to 64 points, measured with 3 million corners of an STL file
+  constexpr std::size_t ahead = 32;  // fastest of 8 to 64, measured with 3 million corners of an STL file
   std::uint64_t hashes[ahead];
   for (std::size_t i = 0; i < n + ahead; ++i) {
     if (i >= ahead) resolve(i - ahead, hashes[i % ahead]);

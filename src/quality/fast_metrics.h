@@ -52,7 +52,7 @@ class FastMetrics {
   ModelPicture picture_;  // at the full resolution of ReliefMetrics
   PixelMask where_;
   MaskedGaussian smoothing_, exact_smoothing_;
-  Image<float> depth_, curvature_, exact_curvature_;  // of the model
+  Image<float> depth_, curvature_, exact_curvature_;  // images of the model
 };
 
 // Samples two of the four pixels, on a diagonal. Pixels of half the resolution are twice as wide, so heights

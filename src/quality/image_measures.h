@@ -12,7 +12,7 @@ namespace relievo {
 // Some pixels of an image: those that are measured.
 struct PixelMask {
   Image8 mask;                // never set in the first and last row and column
-  std::vector<Index> pixels;  // their indices
+  std::vector<Index> pixels;  // indices of these pixels
 
   PixelMask() = default;
   explicit PixelMask(Image8 image);

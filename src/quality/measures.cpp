@@ -58,7 +58,7 @@ struct ReliefMetrics::Reference : ModelPicture {
   SurfaceMeasures surface_measures;
   std::vector<Shading> shadings;
   std::vector<MaskedGaussian> smoothing;  // per scale of the detail
-  std::array<Image<float>, 3> curvature;  // smoothed
+  std::array<Image<float>, 3> curvature;  // smoothed curvature, per scale
   Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t half_window = 12;  // of the moving mean, in triangles
+constexpr std::size_t half_window = 12;  // half the width of the moving mean, in triangles
 constexpr double smooth_turn_deg = 10;   // between the model's normals at both ends of an edge
 constexpr double quantile_of_facets = .99;
 

@@ -92,7 +92,7 @@ class Limiter {
   const ReliefModel* model_;
   DraftOptions options_;
   std::vector<Vec2> plane_;
-  std::vector<Triangle> triangles_;  // of the relief; around it is the base
+  std::vector<Triangle> triangles_;  // triangles of the relief; the base lies around it
   std::optional<HeightSystem> system_;
   std::optional<NearestDraft> nearest_;
 };

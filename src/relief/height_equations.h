@@ -12,7 +12,7 @@
 namespace relievo {
 
 struct HeightEquations {
-  std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
+  std::vector<Index> free_points;  // point of each unknown; points on the boundary have none
   Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
   // The edges of each point, in ascending order of the other points. Every point has an edge to itself, too,
   // so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times

@@ -150,7 +150,7 @@ class NearPlaces {
   const KdTree<Vec2>& tree_;
   double distance_;
   Vec2 asked_ = Vec2::Zero();
-  double known_ = std::numeric_limits<double>::quiet_NaN();  // of asked_ to the nearest place
+  double known_ = std::numeric_limits<double>::quiet_NaN();  // distance of asked_ to the nearest place
 };
 
 // Returns whether each point is near a jump that is inverted at one of the knots, and not on the silhouette.
@@ -236,7 +236,7 @@ class BandFields {
   }
 
   const Band& band_;
-  std::vector<Values> heights_, y_;  // with one element more, for all points outside
+  std::vector<Values> heights_, y_;  // with one more element for all points outside
   std::vector<Values> aims_;         // per edge
   std::vector<Values> pulls_;        // per point: the sum of weight times aim over its edges
   std::vector<float> weights_;       // per point: the screen and the sum over its edges
@@ -250,7 +250,7 @@ JumpLift JumpLift::find(const JumpLiftInput& input) {
   const std::vector<Field> heights = reference_heights(input);
   const double distance = fading_distance * surface.longer_side();
   const Band band = band_of(surface, movable_points(surface, heights, extent * distance));
-  const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // per point
+  const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // area per point
   const auto screen = static_cast<float>(area / (distance * distance));
   JumpLift lift;
   lift.fields_ = BandFields(band, heights, screen).find();

@@ -53,8 +53,8 @@ class JumpLift {
   // Returns how much of the field of each knot a shape gets.
   Eigen::Array4f shares_at(const Shape& shape) const;
 
-  std::vector<Index> points_;           // those that move
-  std::vector<Eigen::Array4f> fields_;  // of each of them, for each knot
+  std::vector<Index> points_;           // the points that move
+  std::vector<Eigen::Array4f> fields_;  // field of each of these points, for each knot
 };
 
 }  // namespace relievo

@@ -45,14 +45,14 @@ class SlicedEllMatrix {
   void normals(std::span<const float> heights, std::span<Vec3f> normals) const;
 
   static constexpr std::size_t lanes = 8;
-  static constexpr std::size_t window = 256;  // points
+  static constexpr std::size_t window = 256;  // number of points
 
   using Others = std::array<Index, lanes>;
   using Coefficients = std::array<float, 2 * lanes>;  // x and y of one lane after the other
 
   struct Pattern {
     std::size_t size = 0;
-    std::vector<std::uint8_t> points;  // of the lanes, in their window; lanes left over repeat the last point
+    std::vector<std::uint8_t> points;  // by lane, numbered in the window; surplus lanes repeat the last point
     std::vector<Index> begin;          // slots of slice s: others[begin[s]] up to others[begin[s + 1]]
     std::vector<Others> others;
 

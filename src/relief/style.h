@@ -31,8 +31,8 @@ struct RaisedHeights {
   std::span<Real> z;
   const SlopeInput& input;
   std::vector<HeightSpan<Real>>& spans;  // scratch memory, so that frames allocate nothing
-  HeightSpan<Real> span = {};            // of z, set by raise() and finish()
-  double height = 0;                     // of the relief, set by raise() and finish()
+  HeightSpan<Real> span = {};            // span of z, set by raise() and finish()
+  double height = 0;                     // height of the relief, set by raise() and finish()
 
   // Calls change(i, z) for every height, which may change it, and returns the span of the results.
   template <typename Change>

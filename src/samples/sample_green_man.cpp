@@ -92,7 +92,7 @@ void grow(const Wreath& wreath, std::vector<Leaf>& leaves) {
     const double a = pi * step;
     const Vec3 out(std::sin(a), std::cos(a), 0);
     const Vec3 root(wreath.radius * 0.50 * out.x(), wreath.radius * 0.64 * out.y(), wreath.z);
-    const double sway = std::fmod(0.618 * (i + 1), 1.0) - 0.5;  // no two alike
+    const double sway = std::fmod(0.618 * (i + 1), 1.0) - 0.5;  // different for each leaf
     const bool is_central = out.x() < 0.01;
     const double turn = is_central ? 0 : 0.30 * sway;
     const Vec3 towards(out.x() + turn * out.y(), 0.9 * out.y() - turn * out.x(), wreath.forward);

@@ -6,7 +6,7 @@ namespace relievo::field {
 namespace {
 
 constexpr double drooping = 0.22;         // height of the rim below the mid-rib, in half widths
-constexpr double highest_carving = 0.05;  // above the blade
+constexpr double highest_carving = 0.05;  // height above the blade
 constexpr double gentle =
     0.68;  // scales the field by the slope of the carving, so that it stays a distance bound
 
@@ -16,7 +16,7 @@ struct Place {
   double vein;    // the same along the slanted side veins, which lead to the lobes
   double lobe;    // 0 in a notch, 1 in the middle of a lobe
   double beat;    // 0 to 1 through each lobe
-  double across;  // from the mid-rib, in half widths
+  double across;  // distance from the mid-rib, in half widths
 };
 
 Place locate(const Leaf& leaf, double x, double v) {

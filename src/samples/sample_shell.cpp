@@ -4,7 +4,7 @@ namespace relievo::field {
 namespace {
 
 // Raup's model: a tube whose cross-section grows by a constant factor each turn, measured in rim radii.
-constexpr double expansion = 1.92;  // per turn
+constexpr double expansion = 1.92;  // growth of the radius per turn
 constexpr double section_centre = 0.735, section_half_width = 0.265, section_half_depth = 0.215;
 constexpr double ribs_per_turn = 30;
 
@@ -30,7 +30,7 @@ struct Wave {
 
 struct Ornament {
   double height;
-  double slope;  // of the height, per radian of phase
+  double slope;  // slope of the height, per radian of phase
 };
 
 // Returns the relief of the shell: ribs that fork between the inner and the outer flank, a knob at each fork,

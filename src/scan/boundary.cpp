@@ -74,7 +74,7 @@ class BoundaryFinder {
 
   std::span<const Vec2> points_;
   const Triangulation& mesh_;
-  std::vector<double> radius_;  // of the empty circles, in sampling distances
+  std::vector<double> radius_;  // radii of the empty circles, in sampling distances
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double cells_along_diagonal = 160;
 struct Cell {
   Index front = no_index;
   double front_z = 0, back_z = 0;
-  Vec3f normal = Vec3f::Zero();  // of the front point, turned into the view
+  Vec3f normal = Vec3f::Zero();  // normal of the front point, turned into the view
 
   bool is_empty() const { return front == no_index; }
 
@@ -124,7 +124,7 @@ class Grid {
   }
 
   Box box_;
-  double width_ = 1;  // of a cell
+  double width_ = 1;  // width of a cell
   std::size_t columns_ = 1, rows_ = 1;
   std::vector<Cell> cells_;
 };

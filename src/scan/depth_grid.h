@@ -9,8 +9,8 @@ namespace relievo {
 
 // Heights towards the viewer, in pixels of the reduced grid, with the interval in which each one lies.
 struct DepthGrid {
-  BoundedGrid bounds;         // the intervals, about the heights
-  std::vector<float> height;  // of known grid points
+  BoundedGrid bounds;         // the intervals in which the heights lie
+  std::vector<float> height;  // heights of known grid points
   int reduction = 1;
   double noise = 0;
   std::size_t missing = 0;

@@ -10,9 +10,9 @@ namespace relievo {
 namespace {
 
 constexpr int smallest_side = 8;  // no grid is narrower than this
-constexpr int steps = 150;        // of descent on each grid; the coarser grid provides the long waves
+constexpr int steps = 150;        // steps of descent on each grid; the coarser grid provides the long waves
 constexpr float step_size =
-    1 / 64.F;  // below 2 / the largest eigenvalue of the bending energy, 64: converges
+    1 / 64.F;  // converges: smaller than 2 / 64, where 64 is the largest eigenvalue of the bending energy
 constexpr std::size_t rows_per_task = 16;
 
 // Returns a grid half as wide and high, in which each point represents up to four.

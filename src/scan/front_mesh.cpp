@@ -37,7 +37,7 @@ bool is_wide(const Surface& surface, const Triangle& t) {
 // by more than 60 degrees. Over 2.5 rho they hardly do except across an edge of the model.
 bool look_alike(const Surface& surface, const Triangle& t) {
   const auto& n = surface.normals;
-  constexpr float least_cosine = .5F;  // of 60 degrees
+  constexpr float least_cosine = .5F;  // cosine of 60 degrees
   return std::min({n[t[0]].dot(n[t[1]]), n[t[1]].dot(n[t[2]]), n[t[2]].dot(n[t[0]])}) > least_cosine;
 }
 

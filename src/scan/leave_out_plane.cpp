@@ -19,11 +19,11 @@ struct LeftPiece {
 // tables, and boards have ridges. Also leaves out debris: pieces that are much smaller than the largest one.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
-  constexpr double low = 4;             // in tolerances
-  constexpr double flat = .05;          // of the diagonal of their box
-  constexpr double connected = 3;       // in local spacings, as for floating noise: see visible.cpp
-  constexpr double high_share = .1;     // of a figure's points
-  constexpr double debris_share = .03;  // of the points of the largest piece
+  constexpr double low = 4;             // height, in tolerances
+  constexpr double flat = .05;          // height, as a share of the diagonal of the piece's box
+  constexpr double connected = 3;       // distance, in local spacings, as for floating noise: see visible.cpp
+  constexpr double high_share = .1;     // least share of high points in a figure
+  constexpr double debris_share = .03;  // least size of a piece, as a share of the largest piece
   std::vector<std::uint8_t> is_left(cloud.size(), 0);
   for (const Index i : visible) is_left[i] = 1;
   DisjointSets sets(cloud.size());
@@ -33,7 +33,7 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
         sets.join(i, j);
   std::vector<LeftPiece> pieces;
-  std::vector<Index> numbers(cloud.size(), no_index);  // of the pieces, by their representatives
+  std::vector<Index> numbers(cloud.size(), no_index);  // number of each piece, by its representative
   const auto piece_of = [&](Index i) -> LeftPiece& {
     Index& number = numbers[sets.find(i)];
     if (number == no_index) {

@@ -15,7 +15,7 @@ class LinearField {
   using Value = Eigen::Matrix<double, Values, 1>;
 
   struct Fit {
-    Value value = Value::Zero();  // at the place
+    Value value = Value::Zero();  // the fitted value at the place
     Eigen::Matrix<double, 2, Values> gradient = Eigen::Matrix<double, 2, Values>::Zero();
     bool is_sloped = false;  // false if the points lie too near a line: then the value is their mean
     double misfit = 0;       // root mean square of the residuals of a sloped fit

@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-constexpr int first_side_px = 512;  // of the image by which the number of visible pixels is estimated
+constexpr int first_side_px = 512;  // side of the image by which the number of visible pixels is estimated
 constexpr int rows_per_band = 32;
 // Interpolated normals may face away although the triangle does not; they are turned until they just face the
 // viewer.
@@ -24,7 +24,7 @@ constexpr float least_corner_normal_z = .02F;
 struct SeenMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<std::array<Vec3f, 3>> normals;  // of the corners, not yet of unit length
+  std::vector<std::array<Vec3f, 3>> normals;  // normals of the corners, not yet of unit length
   Box box;
 };
 
@@ -119,7 +119,7 @@ std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& option
 // show where the outline is between the centres.
 class Sampler {
  public:
-  static constexpr int fine = 5;  // odd, so that the centre of a pixel is that of a fine one
+  static constexpr int fine = 5;  // odd, so that the centre of a pixel is also that of a fine one
 
   Sampler(const Mesh& mesh, const SeenMesh& seen, double pixel)
       : mesh_(mesh),
@@ -227,7 +227,7 @@ class Sampler {
   const SeenMesh& seen_;
   double fine_pixel_;
   RasterInput scene_;
-  int columns_, rows_;  // of the pixels
+  int columns_, rows_;  // numbers of pixels
   Image<Index> along_rows_, along_columns_;
 };
 

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_neighbours = 64;  // for arrays on the stack
+constexpr std::size_t most_neighbours = 64;  // size of arrays on the stack
 
 // Returns the direction of least variance of the members, or (0, 0, 1) if they coincide.
 Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members) {

@@ -12,12 +12,12 @@ struct ScanLimits {
   static constexpr double least_spacing = .25, largest_spacing = 4;
   // A point is visible if it lies behind the front by at most this, in local spacings / n_z.
   static constexpr double depth_tolerance = 2;
-  static constexpr double least_facing = .1;  // limits the tolerance where a surface is seen edge on, as n_z
+  static constexpr double least_facing = .1;  // least n_z in the tolerance, for surfaces seen edge on
   // Hole fill points are at least this far from the nearest visible point in the view plane, in rho.
   static constexpr double hole_fill_distance = 3;
   // Radius in rho. A hole inside the silhouette is closed if no larger empty circle fits into it.
   static constexpr double largest_hole = 5;
-  static constexpr double crumb_share = .005;  // of what is seen: smaller pieces are crumbs
+  static constexpr double crumb_share = .005;  // share of the visible surface; smaller pieces are crumbs
 };
 
 }  // namespace relievo

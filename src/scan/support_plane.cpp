@@ -22,20 +22,20 @@ constexpr std::size_t tried_points = 1024, judged_points = 16384;
 constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
-    .01;  // of the visible points' diagonal: the noise of a depth camera across a table
+    .01;  // share of the visible points' diagonal: the noise of a depth camera across a table
 // The tolerance is limited, because each fit widens it where the points do not gather about a plane.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
 constexpr double widest_angle_deg =
     30;                               // between a plane and the normals of its points, which noise scatters
 constexpr double least_share = .08;   // of the points: smaller planes do no harm to a relief
-constexpr double least_figure = .02;  // of the points
-constexpr double most_behind = .1;    // of the points beside the plane
-constexpr double least_over = .7;     // of the points before the plane, over the place that it covers
+constexpr double least_figure = .02;  // share of the points before the plane in all points
+constexpr double most_behind = .1;    // share of the points behind the plane in those beside it
+constexpr double least_over = .7;     // share of the points before the plane that stand over its points
 // A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals and letters
 // rise by less.
 constexpr double least_rise = .2;
-constexpr double least_plane_facing = .1;  // normal's z: a plane that is seen edge on covers nothing
+constexpr double least_plane_facing = .1;  // z of the normal: a plane that is seen edge on covers nothing
 constexpr double steepest_table_deg =
     65;  // between a table and the view's up direction: cameras look down on tables
 

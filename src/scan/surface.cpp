@@ -50,7 +50,7 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
 struct ViewCloud {
   Cloud cloud;  // without its colours
   const MeasuredCloud& measured;
-  double sign = 1;  // of the normals, relative to the measured ones
+  double sign = 1;  // sign of the normals, relative to the measured ones
 
   const Spacing& spacing() const { return measured.spacing(); }
 };

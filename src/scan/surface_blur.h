@@ -27,7 +27,7 @@ class SurfaceBlur {
  private:
   // The cells of one x and y whose z is in [low, high). Those of the next column follow in memory.
   struct Column {
-    std::size_t first = 0;  // its cell at `low`
+    std::size_t first = 0;  // number of the cell at `low`
     int low = 0, high = 0;
 
     bool is_empty() const { return low == high; }
@@ -55,7 +55,7 @@ class SurfaceBlur {
 
   std::size_t width_ = 0;  // columns in a row
   std::vector<Place> places_;
-  std::vector<Column> columns_;  // and an empty one, which begins behind the last cell
+  std::vector<Column> columns_;  // the last one is empty and begins behind the last cell
 };
 
 }  // namespace relievo

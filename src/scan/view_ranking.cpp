@@ -21,15 +21,15 @@ constexpr Sides y_up{{{"front", ""}, {"back", ""}, {"left", ""}, {"right", ""}, 
 constexpr Sides z_up{
     {{"bottom", ""}, {"top", "0,0,1"}, {"left", "0,0,1"}, {"right", "0,0,1"}, {"front", ""}, {"back", ""}}};
 
-constexpr double front_weight = 1.6;    // for the side that is the front in most files
-constexpr double beside_scan = .25;     // for sides at right angles to the direction of a scan
-constexpr double one_layer_share = .8;  // of the cells of a scan from one side; closed models stay below .45
+constexpr double front_weight = 1.6;    // factor of the side that is the front in most files
+constexpr double beside_scan = .25;     // factor of sides at right angles to the direction of a scan
+constexpr double one_layer_share = .8;  // least one_layer of one-sided scans; closed models stay below .45
 constexpr double same_share = .05;      // smaller differences of such shares are ignored
 
 // Returns the area of the box of the lowest points along an axis, as a share of the area of the whole box,
 // both seen along that axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis) {
-  constexpr double foot = .03;  // of the height
+  constexpr double foot = .03;  // share of the height
   const double least = box.min[axis] + foot * box.size()[axis];
   Box low;
   for (const Vec3& p : cloud.points)

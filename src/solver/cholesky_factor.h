@@ -22,12 +22,12 @@ namespace relievo::solver {
 struct Task {
   Index first_column = 0, end_column = 0;
   Index first_node = 0, end_node = 0;      // supernodes
-  Index parent = no_index;                 // a task of a higher number
+  Index parent = no_index;                 // a task with a higher number
   Index first_child = 0, end_child = 0;    // in `children`
   Index first_boundary = 0, boundary = 0;  // in `boundary` and `to_parent`
-  std::size_t work_begin = 0;              // of its work vector in the workspace
-  std::size_t values = 0, end_values = 0;  // its values
-  std::size_t rows = 0, end_rows = 0;      // its part of `rows`
+  std::size_t work_begin = 0;              // where its work vector begins in the workspace
+  std::size_t values = 0, end_values = 0;  // range of its values
+  std::size_t rows = 0, end_rows = 0;      // range of its part of `rows`
   bool is_subtree = false;
 
   Index own() const { return end_column - first_column; }

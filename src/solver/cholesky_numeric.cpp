@@ -42,7 +42,7 @@ class Multifrontal {
   const WeightedGraph& A_;
   Cholesky::Factor& factor_;
   std::vector<Index> position_;
-  std::vector<Packed> contribution_;  // per task, on the rows of its boundary
+  std::vector<Packed> contribution_;  // per task, the block on the rows of its boundary
   std::vector<Index> failed_;         // per task, the column whose pivot failed
 };
 
@@ -169,7 +169,7 @@ class Multifrontal::Subtree {
 
   void eliminate() {
     const std::uint16_t* rows = outer_.factor_.rows.data() + task_.rows;
-    Index first = 0;  // of the supernode's columns in the work vector
+    Index first = 0;  // the supernode's first column in the work vector
     for (Index s = task_.first_node; s < task_.end_node; ++s) {
       const auto [width, below] = outer_.factor_.nodes[s];
       eliminate_node(first, width, {rows, width + below});
@@ -180,7 +180,7 @@ class Multifrontal::Subtree {
 
  private:
   struct Pending {
-    std::span<const std::uint16_t> rows;  // in the work vector; the parent owns the first
+    std::span<const std::uint16_t> rows;  // positions in the work vector; the parent owns the first
     std::size_t begin;
   };
 

@@ -12,7 +12,7 @@ struct Cholesky::Workspace::Storage {
   std::vector<float> work_vectors;
   BlockFlags done;
   std::vector<double> solution, residual;  // in elimination order
-  std::vector<double> largest;             // element of the residual, per task
+  std::vector<double> largest;             // largest element of the residual, per task
 };
 
 Cholesky::Workspace::Workspace(std::unique_ptr<Storage> storage) : storage_(std::move(storage)) {}

@@ -17,7 +17,7 @@ constexpr Index leaf_size = 120;
 struct Part {
   Graph graph;
   std::vector<Eigen::Vector2f> positions;
-  std::vector<Index> vertices;  // in the whole graph
+  std::vector<Index> vertices;  // numbers of the vertices in the whole graph
   Index begin = 0;              // where this part begins in the elimination order
 };
 

@@ -50,7 +50,7 @@ RELIEVO_INLINE void subtract_strip(const Product& p, Index j, Index from, Index 
 }
 
 RELIEVO_INLINE void subtract(const Product& p) {
-  const Index block = 128;  // of the depth: this many columns of A stay in the cache
+  const Index block = 128;  // depth of a block: this many columns of A stay in the cache
   for (Index from = 0; from < p.depth; from += block) {
     const Index to = std::min(p.depth, from + block);
     Index j = 0;

@@ -102,12 +102,12 @@ class ObstacleSolver {
 
    private:
     struct Slope {
-      float first = 0, second = 0;  // derivatives of the energy by the value of a node
+      float first = 0, second = 0;  // first and second derivative of the energy by the value of a node
     };
     // The share that one node of a tie's cell has in it.
     struct Share {
       Index tie;
-      float weight = 0, stiffness = 0;  // of the node; of the tie, times the weight
+      float weight = 0, stiffness = 0;  // weight of the node; stiffness of the tie times this weight
     };
     struct TiedNode {
       Index node;

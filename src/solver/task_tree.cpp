@@ -180,7 +180,7 @@ class TaskTreeBuilder {
 
   const Supernodes& nodes_;
   Index limit_;
-  std::vector<Index> begin_;  // per supernode, the first one of its subtree
+  std::vector<Index> begin_;  // per supernode, the first supernode of its subtree
   std::vector<std::uint8_t> is_above_;
   std::vector<Task> tasks_;
   Index last_parent_ = no_index;

@@ -50,7 +50,7 @@ struct Violation {
 
 struct LeastShare {
   std::optional<double> share;
-  Violation bound;  // of the next smaller share
+  Violation bound;  // violation at the next smaller share
 };
 
 // Searches the parameters for one u. All shares in here are those for u = 0.

@@ -9,7 +9,7 @@
 namespace relievo {
 
 struct PointGroup {
-  Vec3f normal = Vec3f::Zero();  // the sum
+  Vec3f normal = Vec3f::Zero();  // sum of the normals
   std::array<std::uint32_t, 3> colour{};
   std::uint32_t members = 0;
 

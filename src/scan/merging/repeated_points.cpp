@@ -11,15 +11,15 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_repeats = 64;    // of one point
-constexpr std::size_t points_judged = 400;  // evenly taken from the whole cloud
+constexpr std::size_t most_repeats = 64;    // largest number of repeats of one point
+constexpr std::size_t points_judged = 400;  // number of judged points, evenly taken from the whole cloud
 // The share of randomly scattered points around which there is by chance a gap as wide as that around
 // repeats.
 constexpr double gap_by_chance = .002;
 // Marching cubes put two or three vertices close together without repeating any. At a fifth of the places
 // these are nearer than a tenth of the distance to other vertices, at a fiftieth nearer than a hundredth.
 constexpr std::size_t most_by_nature = 3;
-constexpr double near_share = .1, sure_share = .01;  // of the distance to other points
+constexpr double near_share = .1, sure_share = .01;  // shares of the distance to other points
 constexpr double least_sure = .05,
                  least_near = .4;  // least shares of such points in a cloud with repeats
 // Points are merged within three times the distance that three quarters of the repeats do not exceed, but at

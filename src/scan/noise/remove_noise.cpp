@@ -13,10 +13,10 @@
 namespace relievo {
 namespace {
 
-constexpr int fits = 3;                              // each with the weights of the one before
+constexpr int fits = 3;                              // each weighted by the deviations from the one before
 constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 noise)
 constexpr double least_deviation = to_radians(8),
-                 more_deviation = to_radians(30);  // of normals that count, per noise
+                 more_deviation = to_radians(30);  // of normals: the least, and the one per unit of noise
 constexpr double facing = .2;      // cosine of the angle at which a neighbour counts as another side
 constexpr double stiffness = .01;  // keeps the field almost constant where neighbours lie on a line
 

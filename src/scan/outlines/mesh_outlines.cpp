@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-constexpr double piece_length = .5;  // of the parts of an edge that are visible or not as a whole, in pixels
+constexpr double piece_length = .5;  // length of the parts of an edge, each visible or hidden, in pixels
 constexpr double just_beyond =
     1e-3;                         // distance from an edge at which the surface behind is looked up, in pixels
 constexpr double least_jump = 1;  // in pixels
@@ -70,7 +70,7 @@ class DepthLookup {
     if (places.empty()) return;
     Vec2 low = places[0], high = low;
     for (const Vec2& p : places) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    constexpr double most_cells = 4096;  // a side
+    constexpr double most_cells = 4096;  // cells along one side of the grid
     cell_ = std::max(cell_, (high - low).maxCoeff() / most_cells);
     low_ = low;
     width_ = static_cast<int>((high.x() - low.x()) / cell_) + 1;

@@ -19,7 +19,7 @@ namespace {
 // Lengths in rho.
 constexpr double rows_end = 3.2;         // points nearer than this to an outline may be replaced
 constexpr double replaced_within = .65;  // least distance to points of rows
-constexpr double widest_gap = 1.6;       // radius of an empty circle inside the surface
+constexpr double widest_gap = 1.6;       // radius of the largest empty circle inside the surface
 constexpr double sliver_width = .02;
 constexpr double widest_sample = 1.9;  // radius of the largest such circle that one point in its middle fills
 constexpr double cell_size = .7;       // of the set of new points; also their least distance in gaps
@@ -221,7 +221,7 @@ class NewSurface {
   const PointMeasures& measures_;
   const std::vector<OutlineCurve>& outlines_;
   SegmentGrid grid_, silhouettes_;
-  std::vector<float> outline_distance_;  // of the old points, infinity far from all outlines
+  std::vector<float> outline_distance_;  // of each old point; infinity far from all outlines
   std::vector<Vec3> points_;
   std::vector<Vec3f> normals_;
   std::vector<Colour> colours_;

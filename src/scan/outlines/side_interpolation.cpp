@@ -53,7 +53,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    const bool is_clear = std::isfinite(distance) &&  // it is infinite far from outlines and outside
+    const bool is_clear = std::isfinite(distance) &&  // infinity far from outlines and outside
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;

@@ -20,10 +20,10 @@ class SideInterpolation {
  public:
   struct Input {
     const Surface& surface;
-    const PlanePoints& plane;  // of the surface
+    const PlanePoints& plane;  // the points of the surface
     const PointMeasures& measures;
     const SegmentGrid& grid;
-    std::span<const float> outline_distance;  // of each point to the nearest outline
+    std::span<const float> outline_distance;  // distance of each point from the nearest outline
   };
   explicit SideInterpolation(const Input& input);
 

@@ -13,7 +13,7 @@ namespace {
 
 // Patches of fewer points are small: rows of points, which reach 3 rho from each side, leave nothing of them.
 constexpr std::size_t least_patch = 60;
-constexpr double least_behind = .7;  // share of the jumps around it that are to nearer surfaces
+constexpr double least_behind = .7;  // share of the jumps around a patch at which it lies behind
 
 // Edges longer than this, in rho, cross places that the scan does not show: they do not connect points.
 constexpr double connection_length = 3;

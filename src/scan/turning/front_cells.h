@@ -16,15 +16,15 @@ namespace relievo {
 // A point as it is drawn, in the axes of the scan.
 struct FrontPoint {
   Vec3f place, normal;
-  float spacing;  // of the points around it
+  float spacing;  // spacing of the points around it
 };
 
 // Cells are in rows from below upwards.
 struct FrontCells {
   static constexpr float no_depth = -std::numeric_limits<float>::infinity();
 
-  Vec2f corner = Vec2f::Zero();  // of the first cell
-  float cell = 1;                // its side
+  Vec2f corner = Vec2f::Zero();  // lower left corner of the first cell
+  float cell = 1;                // side of a cell
   Image<float> depth;            // at the centre of the cell; no_depth where no point covers it
   Image<Vec3f> normal;           // mean of the visible points around, unit length; zero where there are none
   Image8 is_behind;              // whether a point that faces away lies in the cell

@@ -13,9 +13,9 @@ namespace {
 
 // Neighbouring cells of one row that are all covered, or all not.
 struct Run {
-  Index begin, end;  // their numbers
+  Index begin, end;  // numbers of the first cell and of the one after the last
   bool is_covered;
-  std::size_t piece_size = 0;  // cells of the piece that they belong to
+  std::size_t piece_size = 0;  // number of cells in the piece that the run belongs to
 };
 
 std::vector<Run> runs_of_row(const FrontCells& front, int y) {

@@ -18,7 +18,7 @@ namespace {
 // detail at the size of a screen.
 constexpr std::size_t most_drawn = 600'000;
 constexpr std::size_t cells_per_point = 12;
-constexpr std::size_t least_cells = 16;  // fewer show nothing
+constexpr std::size_t least_cells = 16;  // fewer cells show nothing
 
 // Chooses the cells whose centres are the points of a surface.
 class CellChoice {

@@ -26,7 +26,7 @@ struct TurningScan {
 
 struct TurnedSurface {
   Surface surface;   // its points are centres of cells
-  FrontCells front;  // of all points of the scan
+  FrontCells front;  // drawn from all points of the scan
 };
 
 // Returns a surface of about `points` points in that view: one for every few cells, more along silhouettes
