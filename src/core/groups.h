@@ -23,9 +23,9 @@ struct Groups {
   }
 };
 
-// Returns the items that each_item(add) passes to add(group, item), grouped; items of a group keep their order.
-// each_item is called twice, to count and to fill, and must pass the same items both times. Groups are 0 to
-// `groups` - 1.
+// Returns the items that each_item(add) passes to add(group, item), grouped; items of a group keep their
+// order. each_item is called twice, to count and to fill, and must pass the same items both times. Groups are
+// 0 to `groups` - 1.
 template <typename Item, typename Offset = Index, typename EachItem>
 Groups<Item, Offset> grouped(std::size_t groups, EachItem&& each_item) {
   Groups<Item, Offset> result;

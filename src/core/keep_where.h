@@ -6,8 +6,8 @@
 
 namespace relievo {
 
-// Keeps the elements values[i] for which is_kept(i) holds, in their order. Calls is_kept() once for each i, from 0
-// upwards.
+// Keeps the elements values[i] for which is_kept(i) holds, in their order. Calls is_kept() once for each i,
+// from 0 upwards.
 template <typename T, typename IsKept>
 void keep_where(std::vector<T>& values, IsKept&& is_kept) {
   std::size_t kept = 0;

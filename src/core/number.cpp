@@ -13,7 +13,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// A decimal number: sign, digits without their point, and a power of ten. It is exact if there are at most 18 digits.
+// A decimal number: sign, digits without their point, and a power of ten. It is exact if there are at most 18
+// digits.
 struct Decimal {
   bool is_negative = false;
   std::uint64_t digits = 0;

@@ -115,7 +115,8 @@ class Pool {
     job_ = nullptr;
   }
 
-  // Starts that many workers, or fewer if the system or its memory allows no more. Results do not depend on their number.
+  // Starts that many workers, or fewer if the system or its memory allows no more. Results do not depend on
+  // their number.
   void start(int workers) {
     is_stopping_ = false;
     try {

@@ -31,7 +31,8 @@ auto median(Values&& values) {
   return value_of_rank(std::span(values), std::size(values) / 2);
 }
 
-// Returns for each value the share of the values that are smaller: 0 for the smallest, below 1 for the largest.
+// Returns for each value the share of the values that are smaller: 0 for the smallest, below 1 for the
+// largest.
 inline std::vector<double> ranks(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end()), result(values.size());
   std::ranges::sort(sorted);

@@ -1,4 +1,5 @@
-// The edges of triangles, each with the sides of triangles that lie on it. Tested by tests/geometry/edges_test.cpp.
+// The edges of triangles, each with the sides of triangles that lie on it. Tested by
+// tests/geometry/edges_test.cpp.
 #pragma once
 
 #include <algorithm>

@@ -80,8 +80,8 @@ Vec2 nearest_place(const Course& course, double at) {
   return place;
 }
 
-// Returns the value at `at` of the quadratic that fits the samples around best, or the nearest sample if there are none
-// around, as between two corners.
+// Returns the value at `at` of the quadratic that fits the samples around best, or the nearest sample if
+// there are none around, as between two corners.
 Vec2 fitted(const Course& course, double at, const Piece& piece, double window) {
   constexpr std::size_t enough = 5;
   Mat3 moments;
@@ -233,8 +233,8 @@ Corner corner_at(const Course& course, double at, const FairCurveOptions& option
   return {at, {}, 0};
 }
 
-// Returns the corners in the order of their length: the sharpest within a window, each at the length of the drawn
-// curve that is nearest to it.
+// Returns the corners in the order of their length: the sharpest within a window, each at the length of the
+// drawn curve that is nearest to it.
 std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
   std::vector<Corner> found, corners;

@@ -1,4 +1,5 @@
-// A smooth curve through measured places that scatter around it. Tested by tests/geometry/fair_curve_test.cpp.
+// A smooth curve through measured places that scatter around it. Tested by
+// tests/geometry/fair_curve_test.cpp.
 #pragma once
 
 #include <span>

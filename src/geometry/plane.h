@@ -7,14 +7,14 @@
 
 namespace relievo {
 
-// Returns the area of the parallelogram of a and b: positive if b lies to the left of a, else negative. For two
-// edges of a triangle that leave the same corner it is twice the triangle's signed area.
+// Returns the area of the parallelogram of a and b: positive if b lies to the left of a, else negative. For
+// two edges of a triangle that leave the same corner it is twice the triangle's signed area.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Returns the gradients of a triangle's three hat functions; each is 1 at its corner, 0 at the others and linear
-// in between. `twice_area` is that of the triangle, signed.
+// Returns the gradients of a triangle's three hat functions; each is 1 at its corner, 0 at the others and
+// linear in between. `twice_area` is that of the triangle, signed.
 inline std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& corners, double twice_area) {
   std::array<Vec2, 3> gradients;
   for (std::size_t i = 0; i < 3; ++i) {

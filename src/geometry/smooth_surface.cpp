@@ -22,8 +22,8 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// Returns the slope at `centre` of the quadratic through it that fits its neighbours best; `fallback` if they are
-// too few.
+// Returns the slope at `centre` of the quadratic through it that fits its neighbours best; `fallback` if they
+// are too few.
 Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
                   const Vec2& fallback) {
   if (neighbours.size() < 6) return fallback;
@@ -49,8 +49,8 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
   return slope.allFinite() ? slope : fallback;
 }
 
-// Returns the weights of a, b and s at a place of the triangle a, b, s; those at the nearest place of the side a-b if
-// the place lies outside or the triangle is too thin to tell.
+// Returns the weights of a, b and s at a place of the triangle a, b, s; those at the nearest place of the
+// side a-b if the place lies outside or the triangle is too thin to tell.
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
   const Vec2 side = b - a;
   const Vec3 areas =
@@ -61,10 +61,10 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
   return {1 - share, share, 0};
 }
 
-// Returns how much the slope in the middle of an edge differs from the mean of its ends; `change` is the slope at the
-// second end less that at the first. The heights along the edge give one component. As most surfaces bend in
-// one direction more than in the other, the slope is taken to lie on the line through those of the ends:
-// bends across rows of points then do not depend on the triangles between these.
+// Returns how much the slope in the middle of an edge differs from the mean of its ends; `change` is the
+// slope at the second end less that at the first. The heights along the edge give one component. As most
+// surfaces bend in one direction more than in the other, the slope is taken to lie on the line through those
+// of the ends: bends across rows of points then do not depend on the triangles between these.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared
@@ -165,8 +165,8 @@ void SmoothSurface::measure(Fan& fan) const {
   if (areas > 0) fan.mean /= areas;
 }
 
-// The Bezier points of the three cubics over a triangle; cubic i lies between the side opposite to corner i and the
-// centre.
+// The Bezier points of the three cubics over a triangle; cubic i lies between the side opposite to corner i
+// and the centre.
 struct SmoothSurface::Element {
   std::array<Vec2, 3> corners;
   Vec2 centre;
@@ -221,8 +221,8 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
                       weights_in(p[a], p[b], e.centre, place), {p[a], p[b], e.centre});
 }
 
-// Evaluates one cubic: six points of a quadratic, then three of a plane, which give height and slope. `inner` are its
-// Bezier points next to the centre, on the lines from a and b, and at it.
+// Evaluates one cubic: six points of a quadratic, then three of a plane, which give height and slope. `inner`
+// are its Bezier points next to the centre, on the lines from a and b, and at it.
 SmoothSurface::Sample SmoothSurface::de_casteljau(const Third& t, const Vec3& inner, const Vec3& share,
                                                   const std::array<Vec2, 3>& corners) {
   const double u = share.x(), v = share.y(), w = share.z();

@@ -23,8 +23,8 @@ class SmoothSurface {
     Vec2 slope = Vec2::Zero();
   };
 
-  // Keeps views of the points and triangles, counter-clockwise, which must outlive it; `is_smooth` has a flag per
-  // triangle.
+  // Keeps views of the points and triangles, counter-clockwise, which must outlive it; `is_smooth` has a flag
+  // per triangle.
   SmoothSurface(std::span<const Vec3> points, std::span<const Triangle> triangles,
                 std::span<const std::uint8_t> is_smooth);
 

@@ -5,8 +5,8 @@
 namespace relievo {
 namespace {
 
-// Central differences at half the resolution smooth twice as much, so the Gaussian is a little narrower than the 2
-// pixels that 4 pixels of the full picture would be.
+// Central differences at half the resolution smooth twice as much, so the Gaussian is a little narrower than
+// the 2 pixels that 4 pixels of the full picture would be.
 constexpr double sigma_px = 1.87;
 constexpr int radius_px = 6;
 // A tenth of the pairs of ReliefMetrics: the order is then within 0.005 of the exact one.

@@ -1,5 +1,5 @@
-// Fast estimates (2 to 3 ms, half resolution) of two of the measures of ReliefMetrics, coarse detail and depth
-// order, and their exact versions. The height correction is tuned with them.
+// Fast estimates (2 to 3 ms, half resolution) of two of the measures of ReliefMetrics, coarse detail and
+// depth order, and their exact versions. The height correction is tuned with them.
 #pragma once
 
 #include <span>

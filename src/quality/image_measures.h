@@ -18,7 +18,8 @@ struct PixelMask {
   explicit PixelMask(Image8 image);
 };
 
-// Returns div (x, y) at measured pixels, whatever their neighbours are, 0 elsewhere. y points up, rows run down.
+// Returns div (x, y) at measured pixels, whatever their neighbours are, 0 elsewhere. y points up, rows run
+// down.
 Image<float> divergence(const Image<float>& x, const Image<float>& y, const PixelMask& where);
 
 // Gaussian blur over measured pixels alone (normalised convolution).
@@ -33,8 +34,8 @@ class MaskedGaussian {
   Image<float> weight_;  // the part of the kernel that lies on measured pixels
 };
 
-// Parameters of ReliefMetrics: the standard deviations of the detail, in pixels, and the number of random pairs of
-// the order.
+// Parameters of ReliefMetrics: the standard deviations of the detail, in pixels, and the number of random
+// pairs of the order.
 inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
 inline constexpr std::size_t order_pairs = 200000;
 

@@ -96,7 +96,8 @@ struct ReliefMetrics::Reference : ModelPicture {
     return s;
   }
 
-  // Returns the structural similarity of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and window.
+  // Returns the structural similarity of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and
+  // window.
   double similarity(const Shading& a, const Shading& b) const {
     constexpr double c1 = .01 * .01, c2 = .03 * .03;
     Image<float> ab = product(a.light, b.light);

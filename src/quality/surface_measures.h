@@ -18,12 +18,12 @@ class SurfaceMeasures {
     double silhouette_deg = 0, jump_deg = 0;  // 0 without such an outline
   };
 
-  // Returns how much the tilt of the triangles beside an outline scatters along it: the standard deviation of their
-  // angles across and along the outline from the means of 25 neighbours. Heights are one per point.
+  // Returns how much the tilt of the triangles beside an outline scatters along it: the standard deviation of
+  // their angles across and along the outline from the means of 25 neighbours. Heights are one per point.
   Fray fray(std::span<const double> heights) const;
 
-  // Returns the angle between neighbouring triangles that 99 % of the pairs do not exceed, in degrees, where the
-  // normals of the model turn by less than 10 degrees from one end of their edge to the other.
+  // Returns the angle between neighbouring triangles that 99 % of the pairs do not exceed, in degrees, where
+  // the normals of the model turn by less than 10 degrees from one end of their edge to the other.
   double facet_angle_deg(std::span<const double> heights) const;
 
   // Returns the longest side of the relief's triangles in the view plane, in sampling distances.

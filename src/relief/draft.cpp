@@ -85,8 +85,8 @@ class Limiter {
     return {};
   }
 
-  // The least squares can end far from the limit, as with walls a hundred times too steep. Heights are then lowered
-  // before limit_slopes() tries again, this often at most.
+  // The least squares can end far from the limit, as with walls a hundred times too steep. Heights are then
+  // lowered before limit_slopes() tries again, this often at most.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;
@@ -118,8 +118,9 @@ class DraftSearch {
   // Beyond u = e^4.5 the weights of (6) are nearly 1, in all layers unless detail is large.
   static constexpr double largest_log_u = 4.5;
 
-  // At 64 times the height that the steepest slope reaches on half of the relief, the reliefs of baselines consist of walls.
-  // This scale does not depend on the height asked for, so that the largest height is the same for all of them.
+  // At 64 times the height that the steepest slope reaches on half of the relief, the reliefs of baselines
+  // consist of walls. This scale does not depend on the height asked for, so that the largest height is the
+  // same for all of them.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);

@@ -25,7 +25,8 @@ struct JumpLiftInput {
   const HeightSystem& system;
 };
 
-// Smooth fields that raise the front side of inverted jumps and lower the back side, and fade out beside them.
+// Smooth fields that raise the front side of inverted jumps and lower the back side, and fade out beside
+// them.
 class JumpLift {
  public:
   // Fields are computed for layered shapes with these values of u, each 4 times the last one.

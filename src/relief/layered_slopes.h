@@ -23,8 +23,8 @@ RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights&
          Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
 }
 
-// make_slopes() computes with one number or with eight. A Float8 is not a template argument itself, because GCC
-// then forgets that it needs no alignment.
+// make_slopes() computes with one number or with eight. A Float8 is not a template argument itself, because
+// GCC then forgets that it needs no alignment.
 template <typename Real>
 struct OneNumber {
   using Values = Real;
@@ -38,10 +38,10 @@ struct EightFloats {
   }
 };
 
-// Turns the weighted layers (x, y) of points into their target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2)) with t the
-// height share, which anticipates the tilt that the height correction leaves. At t = 1 that is the slope of the normal
-// with this x and y; near 0, where surfaces end up almost level, it is (x, y) itself. Slopes are shortened to at most
-// `max_slope`.
+// Turns the weighted layers (x, y) of points into their target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2))
+// with t the height share, which anticipates the tilt that the height correction leaves. At t = 1 that is the
+// slope of the normal with this x and y; near 0, where surfaces end up almost level, it is (x, y) itself.
+// Slopes are shortened to at most `max_slope`.
 template <typename Numbers, typename Real>
 RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::Values& y,
                                 Real height_share_sq, Real max_slope) {

@@ -21,8 +21,8 @@ inline Groups<Index> corners_inside(std::size_t points, const std::vector<Triang
   });
 }
 
-// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in ascending
-// order, and add(entries) appends the entries of that row.
+// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in
+// ascending order, and add(entries) appends the entries of that row.
 template <typename Entry, typename Make>
 Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
   Groups<Entry> all{std::vector<Index>(rows + 1), {}};

@@ -6,15 +6,15 @@
 namespace relievo {
 namespace {
 
-// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds, 20 to
-// 60.
+// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds,
+// 20 to 60.
 constexpr float penalty = 10, relaxation = 1.7F;
 // Given slopes are shortened to this many times the limit, because walls at depth jumps, which may be
 // arbitrarily steep, would pull everything else along with them.
 constexpr float steepest_given = 2;
 
-// The splitting stops when at most 1 in 5,000 triangles exceeds the limit by more than 0.4 %; limit_slopes() fixes
-// these locally.
+// The splitting stops when at most 1 in 5,000 triangles exceeds the limit by more than 0.4 %; limit_slopes()
+// fixes these locally.
 constexpr float good_excess = 1.004F;
 constexpr std::size_t good_divisor = 5000;
 

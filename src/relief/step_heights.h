@@ -1,5 +1,5 @@
-// The heights of depth jumps. Equation (9) sees slopes alone, so a form that lies in steps, such as letters on a
-// plate, would vanish. The relief of such a form takes these heights in addition.
+// The heights of depth jumps. Equation (9) sees slopes alone, so a form that lies in steps, such as letters
+// on a plate, would vanish. The relief of such a form takes these heights in addition.
 #pragma once
 
 #include <cmath>

@@ -26,9 +26,9 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat function;
-  // 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without jump
-  // weights.
+  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat
+  // function; 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without
+  // jump weights.
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:

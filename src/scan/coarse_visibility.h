@@ -1,5 +1,5 @@
-// A fast, coarse estimate of what is visible of a cloud, to rank views and check normals. It is too coarse for reliefs.
-// Tested by tests/scan/view_ranking_test.cpp and tests/scan/normals_test.cpp.
+// A fast, coarse estimate of what is visible of a cloud, to rank views and check normals. It is too coarse
+// for reliefs. Tested by tests/scan/view_ranking_test.cpp and tests/scan/normals_test.cpp.
 #pragma once
 
 #include <span>

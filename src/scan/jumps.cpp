@@ -18,8 +18,8 @@ double rise(const Vec3f& normal, const Vec2& step) {
 
 // The weight of edges at a jump in (9). docs/decisions/jumps.md shows the effect of other values.
 constexpr double least_weight = .2;
-// Shares of the longer side: the distance at which edges count fully, and the least height of a jump. Lower jumps
-// leave little misfit, and may be noise.
+// Shares of the longer side: the distance at which edges count fully, and the least height of a jump. Lower
+// jumps leave little misfit, and may be noise.
 constexpr double full_weight_distance = .008, least_jump_height = .02;
 
 double depth_range(const Surface& surface, const Triangle& t) {

@@ -1,4 +1,5 @@
-// Leaves out the table or background that a figure stands on or before. Tested by tests/scan/support_plane_test.cpp.
+// Leaves out the table or background that a figure stands on or before. Tested by
+// tests/scan/support_plane_test.cpp.
 #pragma once
 
 #include <vector>

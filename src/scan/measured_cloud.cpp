@@ -42,7 +42,8 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
-// Returns the step between numbers of single precision at the largest coordinate; 0 if some coordinate has more digits.
+// Returns the step between numbers of single precision at the largest coordinate; 0 if some coordinate has
+// more digits.
 double step_of_digits(const Cloud& cloud) {
   float largest = 0;
   for (const Vec3& p : cloud.points)
@@ -136,8 +137,8 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   return {};
 }
 
-// Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the scan: where
-// several scans overlap, points without noise lie closer together than the surface is sampled.
+// Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the
+// scan: where several scans overlap, points without noise lie closer together than the surface is sampled.
 void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
   removed_noise_ = view.noise_to_remove(measured_noise_);

@@ -1,5 +1,5 @@
-// Measures of a cloud that do not depend on the view, made once and used for every view: order, spacing, normals without
-// noise, curvature. Tested by tests/scan/measured_cloud_test.cpp.
+// Measures of a cloud that do not depend on the view, made once and used for every view: order, spacing,
+// normals without noise, curvature. Tested by tests/scan/measured_cloud_test.cpp.
 #pragma once
 
 #include <memory>
@@ -41,8 +41,8 @@ class MeasuredCloud {
   double measured_noise() const { return measured_noise_; }
   double removed_noise() const { return removed_noise_; }
 
-  // Returns the mean curvature at points, for normals that point outwards. Values are kept, so that each point is
-  // measured once. May be called concurrently.
+  // Returns the mean curvature at points, for normals that point outwards. Values are kept, so that each
+  // point is measured once. May be called concurrently.
   std::vector<double> curvature(std::span<const Index> points, const Progress* progress) const;
 
  private:

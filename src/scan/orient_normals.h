@@ -14,11 +14,13 @@ enum class OriginalNormals { usable, missing, inward };
 // inwards. `cloud` is the same cloud in its own frame. Returns what its normals were like before.
 OriginalNormals orient_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud);
 
-// Gives the estimated normals of a cloud in view coordinates consistent signs, such that the visible ones face the viewer.
+// Gives the estimated normals of a cloud in view coordinates consistent signs, such that the visible ones
+// face the viewer.
 void give_signs(Cloud& viewed, const Spacing& spacing);
 
-// Returns whether the cloud was scanned from the viewer's side, as a depth image of a room is. Such a scan looks as if its
-// normals pointed inwards, but if they were reversed, all of them would face away from the viewer.
+// Returns whether the cloud was scanned from the viewer's side, as a depth image of a room is. Such a scan
+// looks as if its normals pointed inwards, but if they were reversed, all of them would face away from the
+// viewer.
 bool all_face_viewer(const Cloud& viewed);
 
 }  // namespace relievo

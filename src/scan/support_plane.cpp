@@ -32,8 +32,8 @@ constexpr double least_share = .08;   // of the points: smaller planes do no har
 constexpr double least_figure = .02;  // share of the points before the plane in all points
 constexpr double most_behind = .1;    // share of the points behind the plane in those beside it
 constexpr double least_over = .7;     // share of the points before the plane that stand over its points
-// A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals and letters
-// rise by less.
+// A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals
+// and letters rise by less.
 constexpr double least_rise = .2;
 constexpr double least_plane_facing = .1;  // z of the normal: a plane that is seen edge on covers nothing
 constexpr double steepest_table_deg =
@@ -103,8 +103,8 @@ SideCounts sides_of(const Plane& plane, const Sample& sample, double tolerance) 
   return sides;
 }
 
-// Tries planes that have nearly all other points before them, and returns the one with most points: random sample
-// consensus, after Fischler and Bolles 1981, with normals as in Schnabel, Wahl and Klein 2007.
+// Tries planes that have nearly all other points before them, and returns the one with most points: random
+// sample consensus, after Fischler and Bolles 1981, with normals as in Schnabel, Wahl and Klein 2007.
 std::optional<Plane> best_plane(const Sample& sample, double tolerance) {
   struct Best {
     std::size_t on = 0;

@@ -64,7 +64,8 @@ void estimate_again(Cloud& cloud, double noise) {
     if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
 }
 
-// Gives estimated normals the signs that the view suggests, and removes the noise, which can only be measured then.
+// Gives estimated normals the signs that the view suggests, and removes the noise, which can only be measured
+// then.
 void sign_normals(ViewCloud& viewed, Surface& surface) {
   give_signs(viewed.cloud, viewed.spacing());
   surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());

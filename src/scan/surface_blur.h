@@ -12,8 +12,8 @@ namespace relievo {
 
 // A blur with a Gaussian of one width, prepared for given points. Their values are distributed to a grid of
 // cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values are
-// interpolated back. Only cells around the points are kept: in each column of the grid along z, those from the lowest to
-// the highest point around it.
+// interpolated back. Only cells around the points are kept: in each column of the grid along z, those from
+// the lowest to the highest point around it.
 class SurfaceBlur {
  public:
   // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.

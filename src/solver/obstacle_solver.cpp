@@ -149,8 +149,8 @@ void ObstacleSolver::Level::start(Fields& f) const {
 }
 
 // One step of projected over-relaxation: moves a node to the minimum of the energy along it, overshooting by
-// the factor above, clamps it to its bounds and updates the moments of the node and its neighbours. Returns by how much
-// the node moved.
+// the factor above, clamps it to its bounds and updates the moments of the node and its neighbours. Returns
+// by how much the node moved.
 inline float ObstacleSolver::Level::move(Index n, const Springs& springs, const Slope& ties,
                                          Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;

@@ -55,8 +55,8 @@ class ObstacleSolver {
   // One element per level, from fine to coarse.
   using Workspace = std::array<Fields, levels>;
 
-  // The lattice has `width` nodes per row and as many rows as the stiffness has elements for. A cell has at most one
-  // tie.
+  // The lattice has `width` nodes per row and as many rows as the stiffness has elements for. A cell has at
+  // most one tie.
   ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties = {});
 
   Workspace make_workspace() const;

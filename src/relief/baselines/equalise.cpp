@@ -60,8 +60,8 @@ Histogram histogram_around(const DepthPicture& picture, int column, int row, int
   return counts;
 }
 
-// Turns counts into the equalising curve: clips bins at the limit, spreads the excess over all bins, and sums up
-// to values in [0, 1] at the bins' upper ends. Without any weight the curve is the identity.
+// Turns counts into the equalising curve: clips bins at the limit, spreads the excess over all bins, and sums
+// up to values in [0, 1] at the bins' upper ends. Without any weight the curve is the identity.
 void equalise(Histogram& counts, double clip) {
   const auto bins = static_cast<double>(counts.size());
   double total = 0, cut = 0;

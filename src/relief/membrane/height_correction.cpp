@@ -51,8 +51,8 @@ struct Scale {
   }
 };
 
-// Returns per node the share of the lattice around it that the surface covers: 1/2 on the silhouette, smoothly rising
-// to 1 within two cells from it, wherever it passes between the nodes.
+// Returns per node the share of the lattice around it that the surface covers: 1/2 on the silhouette,
+// smoothly rising to 1 within two cells from it, wherever it passes between the nodes.
 std::vector<float> coverage_of(const Surface& surface, const Lattice& lattice) {
   std::vector<float> coverage(lattice.nodes());
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -77,8 +77,8 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
-// Returns the tension per node: the harmonic mean of the jump weights used in (9). More tension would smear the
-// misfit, which (9) concentrates at depth jumps.
+// Returns the tension per node: the harmonic mean of the jump weights used in (9). More tension would smear
+// the misfit, which (9) concentrates at depth jumps.
 std::vector<float> tension_of(std::span<const float> weights, const Lattice& lattice) {
   std::vector<float> compliance(weights.size()), tension(lattice.nodes());
   for (std::size_t i = 0; i < compliance.size(); ++i) compliance[i] = 1 / weights[i];
@@ -151,7 +151,8 @@ std::size_t HeightCorrection::Workspace::memory() const {
 }
 
 // Strong compression needs all of the height, so the relief may then stand off the base at the silhouette:
-// the stiffness falls from 1 at a share of 1 to 0.1 at 0.775. docs/decisions/height-correction.md has the measurements.
+// the stiffness falls from 1 at a share of 1 to 0.1 at 0.775. docs/decisions/height-correction.md has the
+// measurements.
 HeightLimits HeightLimits::of(double height, const MembraneParams& params) {
   constexpr double least = .1, fall = 4;
   return {height, params.pull_length, std::max(1 - fall * (1 - params.height_share), least)};

@@ -1,5 +1,5 @@
-// The height correction: a smooth field that compresses the heights of a layered relief to the height asked for.
-// Other names in the code call it the membrane.
+// The height correction: a smooth field that compresses the heights of a layered relief to the height asked
+// for. Other names in the code call it the membrane.
 #pragma once
 
 #include <span>

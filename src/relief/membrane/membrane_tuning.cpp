@@ -27,8 +27,8 @@ constexpr std::array<int, 2> share_steps{3, 6};
 // Safety margin over the gradient-domain baseline. It covers the residual error of the calibration and the
 // interpolation error between knots. See docs/decisions/membrane-tuning.md.
 constexpr Scores margin{.0003, .002};
-// The rate at which the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are compressed
-// less.
+// The rate at which the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are
+// compressed less.
 constexpr double growth = .25;
 // The largest sampling distance, of the longer side, at which the coarsest detail of the metrics is sampled.
 constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / ReliefMetrics::longer_side_px;

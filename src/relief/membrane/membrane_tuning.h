@@ -1,5 +1,5 @@
-// Chooses, per model, how strongly the membrane compresses heights: as strongly as possible while coarse detail
-// and depth order stay at least as good as with gradient-domain compression.
+// Chooses, per model, how strongly the membrane compresses heights: as strongly as possible while coarse
+// detail and depth order stay at least as good as with gradient-domain compression.
 #pragma once
 
 #include <array>
@@ -27,11 +27,11 @@ class MembraneTuning {
   std::array<MembraneParams, knots.size()> params;
 };
 
-// Searches the parameters at the knots by bisection (for layered_shape(); reused for other shapes). Candidates
-// are scored with FastMetrics; each search is calibrated with full reliefs. If nothing satisfies both
-// constraints, takes the candidate with the smallest violation. The share is capped at 0.75 (for u = 0) unless
-// depth order needs more; it is lowered where the height would otherwise fall as u grows. Returns the default
-// if the scan is too sparse to measure. Takes 0.2 s for 180k points. Errors: kind cancelled.
+// Searches the parameters at the knots by bisection (for layered_shape(); reused for other shapes).
+// Candidates are scored with FastMetrics; each search is calibrated with full reliefs. If nothing satisfies
+// both constraints, takes the candidate with the smallest violation. The share is capped at 0.75 (for u = 0)
+// unless depth order needs more; it is lowered where the height would otherwise fall as u grows. Returns the
+// default if the scan is too sparse to measure. Takes 0.2 s for 180k points. Errors: kind cancelled.
 Result<MembraneTuning> tune_membrane(const TuningInput& input, const Progress* progress = nullptr);
 
 }  // namespace relievo

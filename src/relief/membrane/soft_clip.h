@@ -1,5 +1,5 @@
-// Soft clipping of the highest and the deepest points of a relief, so that a few of them do not take the height
-// that all others need.
+// Soft clipping of the highest and the deepest points of a relief, so that a few of them do not take the
+// height that all others need.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace relievo {
 
 // A monotone curve over heights: the identity between two limits, each with a share of `clipped_share` of the
-// points beyond it. The limits never cross 0, the base. Beyond them the slope falls from 1 to `least_slope` at
-// the extremes.
+// points beyond it. The limits never cross 0, the base. Beyond them the slope falls from 1 to `least_slope`
+// at the extremes.
 template <typename Real>
 class SoftClip {
  public:

@@ -16,8 +16,8 @@ struct ControlMesh {
 };
 
 // Returns the mesh of a surface's control points. A triangle is inside if most of its area is covered by
-// inside triangles of the surface, so that holes and concavities stay outside. The boundary points are those of
-// the surface; every connected piece has at least one.
+// inside triangles of the surface, so that holes and concavities stay outside. The boundary points are those
+// of the surface; every connected piece has at least one.
 ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control);
 
 }  // namespace relievo

@@ -29,7 +29,8 @@ class ChosenPoints {
     first = i;
   }
 
-  // Returns whether a chosen point is nearer to point i than the radius, which is at most that of the constructor.
+  // Returns whether a chosen point is nearer to point i than the radius, which is at most that of the
+  // constructor.
   bool has_within(Index i, double radius) const {
     const std::size_t c = column(i), r = row(i);
     for (std::size_t y = r - (r > 0); y <= std::min(r + 1, rows_ - 1); ++y)

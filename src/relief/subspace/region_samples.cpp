@@ -36,8 +36,8 @@ std::vector<Index> nearest_control_points(const Surface& surface, const ControlP
   return nearest;
 }
 
-// Picks the points at the middles of equal parts of the region's area. Points are in an order in which neighbours
-// follow each other, so the parts are compact.
+// Picks the points at the middles of equal parts of the region's area. Points are in an order in which
+// neighbours follow each other, so the parts are compact.
 void sample(std::span<const Index> region, std::span<const double> share, std::span<Index> samples) {
   double total = 0, sum = 0;
   for (const Index i : region) total += share[i];

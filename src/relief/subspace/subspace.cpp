@@ -19,8 +19,8 @@ namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-// Ratio and offset share their lattices, whose cells go from 12 radii of the control points down to 3/4 of one.
-// The ratio is fitted on the coarsest two, the offset on the others.
+// Ratio and offset share their lattices, whose cells go from 12 radii of the control points down to 3/4 of
+// one. The ratio is fitted on the coarsest two, the offset on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {

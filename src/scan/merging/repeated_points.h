@@ -1,5 +1,5 @@
-// Points that repeat others, as in a scan that was exported twice and merged, or in a mesh whose faces each wrote their
-// own corners. They would hide the surroundings of a point from every search for neighbours.
+// Points that repeat others, as in a scan that was exported twice and merged, or in a mesh whose faces each
+// wrote their own corners. They would hide the surroundings of a point from every search for neighbours.
 // Tested by tests/scan/repeated_points_test.cpp.
 #pragma once
 

@@ -21,8 +21,8 @@ constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours
 // root of the same quantile of chi square over its about 15 degrees of freedom.
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho: clean scans of fine details scatter by up to this
-// The least scatter of normals where the points scatter by one sampling distance: that of normals estimated from 16
-// neighbours, measured on spheres and planes.
+// The least scatter of normals where the points scatter by one sampling distance: that of normals estimated
+// from 16 neighbours, measured on spheres and planes.
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {

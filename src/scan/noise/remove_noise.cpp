@@ -25,7 +25,8 @@ struct NearPoint {
   Vec3 n;  // its unit normal
 };
 
-// The surface around a point: its normals, linear in the tangent plane, and its height above the point in radii.
+// The surface around a point: its normals, linear in the tangent plane, and its height above the point in
+// radii.
 struct LocalSurface {
   Vec3 axis, t1, t2;
   Eigen::Matrix<double, 3, 2> field = Eigen::Matrix<double, 3, 2>::Zero();

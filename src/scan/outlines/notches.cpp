@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle empty there.
+// Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle
+// empty there.
 constexpr double widest_circle = 1.2;
 // The length of a normal's x and y above which its surface turns away from the viewer, as in outlines.cpp.
 constexpr double least_turned = .75;

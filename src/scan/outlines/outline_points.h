@@ -7,12 +7,12 @@
 
 namespace relievo {
 
-// Finds the outlines of a triangulated surface, and replaces the points up to 3 rho from them by rows of evenly
-// spaced ones, whose normals, depths and measures are interpolated from the points on the same side. Rows lie on
-// the silhouette, on both sides of each jump, and parallel to them. Adds points where sampling leaves gaps inside
-// the surface, and leaves out points outside. Then triangulates anew and sets the boundary: the silhouette's
-// points are on it. Outlines that are known exactly, in view coordinates, take the place of those found near them. Changes
-// nothing if there is no silhouette.
+// Finds the outlines of a triangulated surface, and replaces the points up to 3 rho from them by rows of
+// evenly spaced ones, whose normals, depths and measures are interpolated from the points on the same side.
+// Rows lie on the silhouette, on both sides of each jump, and parallel to them. Adds points where sampling
+// leaves gaps inside the surface, and leaves out points outside. Then triangulates anew and sets the
+// boundary: the silhouette's points are on it. Outlines that are known exactly, in view coordinates, take the
+// place of those found near them. Changes nothing if there is no silhouette.
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines = {});
 

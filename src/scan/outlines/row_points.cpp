@@ -36,8 +36,8 @@ class RowMaker {
   }
 
  private:
-  // Returns the unit vector to the left of an outline at one of its points, longer at corners, so that a parallel
-  // through its end has the distance 1.
+  // Returns the unit vector to the left of an outline at one of its points, longer at corners, so that a
+  // parallel through its end has the distance 1.
   Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
@@ -59,8 +59,8 @@ class RowMaker {
     }
   }
 
-  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Points of odd rows lie between those
-  // of even ones.
+  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Points of odd rows lie between
+  // those of even ones.
   void add_row(Index c, std::size_t row, double side) {
     const OutlineCurve& outline = outlines_[c];
     const std::vector<Vec2>& p = outline.curve.points;

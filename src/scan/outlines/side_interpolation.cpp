@@ -99,8 +99,8 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   return value;
 }
 
-// Returns the mean of the depths that the nearest points predict. The chord of a circle is perpendicular to the
-// mean of the normals at its ends, which makes this exact where curvature is constant.
+// Returns the mean of the depths that the nearest points predict. The chord of a circle is perpendicular to
+// the mean of the normals at its ends, which makes this exact where curvature is constant.
 double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const {
   const std::size_t count = std::min<std::size_t>(6, matches.size());
   double depths = 0, weights = 0;

@@ -10,8 +10,8 @@ namespace relievo {
 namespace {
 
 constexpr int lanes = 8;
-// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the places
-// between scattered points uncovered.
+// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the
+// places between scattered points uncovered.
 constexpr float mean_radius = 1.5F;
 constexpr float least_mean_radius = .8F;  // in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};

@@ -1,5 +1,5 @@
-// The front of a cloud on a grid of square cells over the view plane: a quick picture of depths and normals, from which
-// reliefs are made while the model is turned. Tested by tests/scan/turning_test.cpp.
+// The front of a cloud on a grid of square cells over the view plane: a quick picture of depths and normals,
+// from which reliefs are made while the model is turned. Tested by tests/scan/turning_test.cpp.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
-// Clears crumbs of fronts that were drawn, closes their small holes, and marks where the surface ends. Declared in
-// front_cells.h, tested by tests/scan/turning_test.cpp.
+// Clears crumbs of fronts that were drawn, closes their small holes, and marks where the surface ends.
+// Declared in front_cells.h, tested by tests/scan/turning_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -54,7 +54,8 @@ DisjointSets joined(std::span<const Run> runs, Index width) {
   return sets;
 }
 
-// Returns the runs with the sizes of their pieces, which are connected cells that are all covered, or all not.
+// Returns the runs with the sizes of their pieces, which are connected cells that are all covered, or all
+// not.
 std::vector<Run> pieces_of(const FrontCells& front) {
   std::vector<Run> runs = runs_of(front);
   DisjointSets sets = joined(runs, static_cast<Index>(front.normal.width));
@@ -140,7 +141,8 @@ class EdgeSearch {
   }
 
  private:
-  // Returns whether no surface spans the cell and its neighbour (u, v) in the same row (axis 0) or column (axis 1).
+  // Returns whether no surface spans the cell and its neighbour (u, v) in the same row (axis 0) or column
+  // (axis 1).
   bool is_edge_between(int x, int y, int u, int v, int axis) const {
     if (!front_.is_covered(u, v)) return true;
     const float rise = std::max(rises_.at(x, y)[axis], rises_.at(u, v)[axis]);

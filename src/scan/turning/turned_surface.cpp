@@ -118,8 +118,8 @@ float lowest_depth(const FrontCells& front) {
   return lowest;
 }
 
-// Returns a small offset from a cell's centre, in cells. Points in exact rows would be corners of triangles without area on
-// the hull.
+// Returns a small offset from a cell's centre, in cells. Points in exact rows would be corners of triangles
+// without area on the hull.
 Vec2f offset_in(Index cell) {
   constexpr float most = .2F;
   const std::uint32_t x = cell * 2654435761U, y = (x ^ (x >> 15)) * 2246822519U;
