@@ -49,8 +49,8 @@ std::optional<double> take_fraction(std::string_view& text) {
   return parts && *parts > 0 ? std::optional(*value / *parts) : std::nullopt;
 }
 
-// Returns how long the whole number of "1 1/8" is, with the spaces behind it; 0 where no such number begins
-// the text.
+// Returns the length of the whole number in texts such as "1 1/8", with the spaces behind it; 0 if no such
+// number begins the text.
 std::size_t whole_part(std::string_view text) {
   constexpr std::string_view digits = "0123456789";
   const std::size_t spaces = std::min(text.find_first_not_of(digits), text.size());

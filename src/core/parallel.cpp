@@ -14,8 +14,8 @@ namespace {
 
 struct Job;
 
-// The block that a thread works on; no job between blocks. A nested parallel call runs at once and on this
-// thread alone, because the other threads have blocks of their own.
+// The block that a thread works on; `job` is null between blocks. A nested parallel call runs at once and on
+// this thread alone, because the other threads have blocks of their own.
 struct BlockAtWork {
   const Job* job = nullptr;
   std::size_t block = 0;

@@ -1,5 +1,6 @@
-// Vectors of a fixed width, the same on every processor, and the choice of instructions at run time. Tested
-// by tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
+// Vectors of a fixed width, the same on every processor, and the choice of instructions at run time.
+// Tested by tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp,
+// HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 
 #include <cstring>
@@ -11,8 +12,8 @@ namespace relievo {
 
 // Vectors of eight or four floats, or four doubles. Code written with them compiles to AVX2 inside
 // RELIEVO_WIDE() and to pairs of SSE2 instructions elsewhere; both give the same bits, because products and
-// sums are never contracted. The vectors need no alignment and may alias other types: as typedefs, for clang
-// ignores the alignment of a using-declaration.
+// sums are never contracted. The vectors need no alignment and may alias other types. They are typedefs,
+// because clang ignores the alignment of a using-declaration.
 typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));
 typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
@@ -32,8 +33,8 @@ RELIEVO_AVX2 decltype(auto) call_with_avx2(F&& f) {
   return f();
 }
 
-// Evaluates a call of a function marked RELIEVO_INLINE. It is compiled twice, to AVX2 and to what every
-// processor has.
+// Evaluates a call of a function marked RELIEVO_INLINE. It is compiled twice, to AVX2 and to instructions
+// that every processor has.
 #define RELIEVO_WIDE(...) \
   (uses_avx2() ? call_with_avx2([&]() __attribute__((always_inline)) { return __VA_ARGS__; }) : (__VA_ARGS__))
 

@@ -11,7 +11,8 @@ namespace relievo {
 // Heights of a shape, symmetric in x and y, over offsets of whole samples.
 class Profile {
  public:
-  // Calls height(x, y) for 0 <= x, y <= reach. It is infinite outside the shape, and never falls with x or y.
+  // Calls height(x, y) for 0 <= x, y <= reach. The height is infinite outside the shape, and never falls with
+  // x or y.
   template <typename F>
   Profile(int reach, F&& height) : reach_(reach) {
     for (int y = 0; y <= reach; ++y)

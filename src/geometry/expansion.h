@@ -37,8 +37,8 @@ inline TwoDoubles split(double a) {
   return {high, a - high};
 }
 
-// Returns a * b exactly. (Dekker and Veltkamp; theorem 18) Not std::fma: without hardware for it, as in
-// WebAssembly, it is slower by an order of magnitude.
+// Returns a * b exactly. (Dekker and Veltkamp; theorem 18) Does not use std::fma: without hardware for it, as
+// in WebAssembly, it is slower by an order of magnitude.
 inline TwoDoubles two_product(double a, double b) {
   const double product = a * b;
   const TwoDoubles x = split(a), y = split(b);

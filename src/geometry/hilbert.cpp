@@ -62,8 +62,8 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) entries[i] = i;
 
-  // Cells with more points than this are sorted along a curve of their own, until none is left; an explicit
-  // stack replaces recursion, whose depth clusters within clusters could make large.
+  // Cells with more points than this are sorted along a curve of their own, until there are none. The stack
+  // replaces recursion, which clusters within clusters could make deep.
   constexpr std::ptrdiff_t most_in_a_cell = 8;
   std::vector<Entries> todo;
   if (!entries.empty()) todo.emplace_back(entries);

@@ -34,7 +34,7 @@ class Lattice {
   // Returns whether a counted point has a weight at the node.
   bool is_reached(std::size_t node) const { return share_[node] > 0; }
 
-  // Returns the bytes held.
+  // Returns the bytes of memory in use.
   std::size_t memory() const;
 
   // Values at 5 x 5 places of a cell, its edges included.
@@ -57,8 +57,8 @@ class Lattice {
   // Returns where a point lies, in cells: node n is at (n % width(), n / width()).
   Vec2 place(std::size_t point) const;
 
-  // Adds an amount to the 4 x 4 nodes around a place, in cells, in the shares that cubic B-splines have
-  // there: sums over a region then hardly depend on where the nodes are.
+  // Adds an amount to the 4 x 4 nodes around a place, in cells, weighted by the cubic B-splines there: sums
+  // over a region then hardly depend on where the nodes are.
   void spread(const Vec2& place, float amount, std::span<float> nodes) const;
 
   // Sets marks[n] to 1 for each node n inside a triangle of points, which must be counter-clockwise. `marks`

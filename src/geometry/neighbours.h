@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-// nanoflann prints a line of its own before it throws std::bad_alloc, but the library prints nothing.
+// nanoflann prints a line before it throws std::bad_alloc. The macro silences it, because the library prints
+// nothing.
 #define fprintf(...) static_cast<void>(0)
 #include <nanoflann.hpp>
 #undef fprintf

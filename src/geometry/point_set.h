@@ -10,12 +10,13 @@
 
 namespace relievo {
 
-// Points in the square cells of a grid without bounds. Queries reach one cell far.
+// Points in the square cells of a grid without bounds. Queries look into the neighbouring cells, too.
 class PointSet {
  public:
   explicit PointSet(double cell) : cell_(cell) {}
 
-  // Adds a point unless one of the set is nearer than `distance`, at most a cell. Returns whether it did.
+  // Adds a point unless one of the set is nearer than `distance`, which is at most the width of a cell.
+  // Returns whether it was added.
   bool add(const Vec2& p, double distance) {
     if (is_near(p, distance)) return false;
     cells_[key(cell_of(p.x()), cell_of(p.y()))].push_back(p);

@@ -79,8 +79,8 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  // The stages of Shewchuk's incircle(): exact with the rounded differences, which settles it if none was
-  // rounded; with a first-order correction; fully exact.
+  // Shewchuk's incircle() in three stages: exact with the rounded differences, which decides if none was
+  // rounded; then with a first-order correction; then fully exact.
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();

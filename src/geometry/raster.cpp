@@ -29,9 +29,9 @@ std::uint16_t cell_of(int steps, int most) {
 }
 
 // A linear function of the pixel, not negative inside the triangle. Its numbers are integers below 2^53, so
-// exact.
+// they are exact.
 struct EdgeFunction {
-  double value;  // at the centre of column 0 of the row in work
+  double value;  // at the centre of column 0 of the current row
   double per_column, per_row;
 };
 
@@ -50,7 +50,7 @@ struct Columns {
   int begin, end;
 };
 
-// Returns the columns of the row in work where no edge is negative. The quotients cannot be rounded across an
+// Returns the columns of the current row where no edge is negative. The quotients cannot be rounded across an
 // integer: they are at least 2^-31 away from one, or equal to it, and below 2^15.
 Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
@@ -68,7 +68,7 @@ Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   return {floor < first ? floor + 1 : floor, static_cast<int>(last) + 1};
 }
 
-// Height over the picture: the triangle's plane, never above or below its corners, so that slivers cannot
+// The height over the picture: the triangle's plane, never above or below its corners, so that slivers cannot
 // spike.
 struct DepthPlane {
   double value = 0, per_column = 0, per_row = 0;  // value at the picture's corner
@@ -139,7 +139,7 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<std::vector<InBands>> covering_in(blocks);
-  // Per block and band: the number of triangles, then the place of the next.
+  // Per block and band: first the number of triangles, then the position of the next one.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     covering_in[begin / block] = covering(begin, end);

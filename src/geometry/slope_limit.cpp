@@ -66,8 +66,8 @@ class SlopeLimiter {
       if (visits > most_visits * field_.triangles.size() + most_sweeps) return false;
       const bool is_scaling = sweep % sweeps_to_scaling == sweeps_to_scaling - 1;
       const double wanted = max_slope_ * (1 - std::min(most_spare, least_spare * (1 + sweep / 10)));
-      // One after the other, not concurrently: each projection uses the moves of those before, which
-      // converges faster and gives the same result for any number of threads.
+      // Triangles are projected one after the other, not concurrently: each projection uses the moves of
+      // those before, which converges faster and gives the same result for any number of threads.
       for (const Index t : steep)
         if (is_steep(t)) project(field_.triangles[t], wanted, is_scaling);
       steep = steep_around(steep, stars);

@@ -22,8 +22,8 @@ enum class Rounding { none, single_precision };
 // Returns the slope (dz/dx, dz/dy) of a triangle; it is not finite if the triangle has no area.
 Vec2 triangle_slope(const PlaneMesh& field, const Triangle& triangle, std::span<const double> heights);
 
-// Returns the steepest slope of all triangles, as rise over run; infinite if one that is not level has no
-// area or is clockwise. 0 without triangles.
+// Returns the steepest slope of all triangles, as rise over run. It is infinite if a triangle that is not
+// level has no area or is clockwise, and 0 without triangles.
 double steepest_of(const PlaneMesh& field, std::span<const double> heights);
 
 // Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: each

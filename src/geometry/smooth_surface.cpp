@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// The factors by which a point's slope may be farther from the mean slope of the triangles around it than
-// their own slopes are: inside the surface, and at an edge of it.
+// Limits of the distance of a point's slope from the mean slope of the triangles around it, relative to the
+// largest distance of their own slopes: inside the surface, and at an edge of it.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -50,7 +50,7 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
 }
 
 // Returns the weights of a, b and s at a place of the triangle a, b, s; those at the nearest place of the
-// side a-b if the place lies outside or the triangle is too thin to tell.
+// side a-b if the place lies outside or the triangle is too thin.
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
   const Vec2 side = b - a;
   const Vec3 areas =
@@ -62,9 +62,10 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 }
 
 // Returns how much the slope in the middle of an edge differs from the mean of its ends; `change` is the
-// slope at the second end less that at the first. The heights along the edge give one component. As most
-// surfaces bend in one direction more than in the other, the slope is taken to lie on the line through those
-// of the ends: bends across rows of points then do not depend on the triangles between these.
+// slope at the second end less that at the first. The heights along the edge give one component. For the
+// other, the slope is taken to lie on the line through the slopes of the ends, because most surfaces bend in
+// one direction more than in the other. Bends across rows of points then do not depend on the triangles
+// between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared

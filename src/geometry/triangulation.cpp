@@ -141,8 +141,8 @@ bool Builder::circle_contains(Index e, const Vec2& p) const {
   return side > 0 || (side == 0 && (p - from).dot(p - to) < 0);
 }
 
-// Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one of them is flat
-// until the flips, as p is inside the circle beyond that side.
+// Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one triangle is
+// flat. The flips remove it, because p is inside the circle beyond that side.
 Index Builder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
@@ -246,8 +246,9 @@ Triangulation delaunay(std::span<const Vec2> points) {
   Builder builder(sorted, order);
   if (!builder.start()) return {};
 
-  // Every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even sample.
-  // The curve alone would build long slivers first, and pay for it in flips where points lie on few lines.
+  // Inserts every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even
+  // sample. The curve alone would build long slivers first, and pay for it in flips where points lie on few
+  // lines.
   std::size_t step = 1, coarser = points.size();
   while (step * 4 < points.size()) step *= 4;
   for (; step > 0; coarser = step, step /= 4) {

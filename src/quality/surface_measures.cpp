@@ -42,7 +42,7 @@ struct Residuals {
   double deviation() const { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0; }
 };
 
-// Joins sides of triangles to chains.
+// Joins sides of triangles into chains.
 template <typename Rim>
 std::vector<std::vector<Rim>> chains_of(const std::vector<Rim>& rims, std::size_t points) {
   std::vector<Index> next(points, no_index);
@@ -118,7 +118,7 @@ SurfaceMeasures::Fray SurfaceMeasures::fray(std::span<const double> heights) con
       residuals.add(across);
       residuals.add(along);
     }
-    // Both components together: the mean of their squares has half the count.
+    // Both components belong to one angle, so the sum of their squares counts once, not twice.
     return std::sqrt(2.) * residuals.deviation();
   };
   return {deviation(silhouettes_), deviation(jumps_)};

@@ -152,7 +152,7 @@ class DraftSearch {
     return is_found ? scaled() : at_most();
   }
 
-  // Returns the highest relief that there is, if it is high enough.
+  // Makes the highest relief and returns it scaled to the height asked for, or an error if it is too low.
   Result<Relief> at_most() {
     const double end =
         has_shape(order_.method) ? std::numeric_limits<double>::infinity() : largest_log_scale();

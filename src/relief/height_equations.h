@@ -21,7 +21,7 @@ struct HeightEquations {
   Groups<MatrixEntry> edges;
 };
 
-// Returns the equations. `weights` as for HeightSystem::build().
+// Returns the equations. `weights` are those of HeightSystem::build().
 HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
                                  const Boundary& boundary, std::span<const float> weights = {});
 

@@ -98,7 +98,8 @@ class HeightSearch {
     constexpr SecantStep step{1.1, .01, 1.5};
     // Where walls are cut at the limit, heights grow more slowly than u, but they always grow.
     constexpr double least_elasticity = .05, most_elasticity = 2;
-    // This near to the end, the relief at the end is tried instead: if it is too low, the search is over.
+    // Within this distance of the end, the relief at the end is tried instead: if it is too low, the search
+    // is over.
     constexpr double near_last = .3;
     const auto excess_at = [&](double x) { return excess_of(height_at(x)) - tolerance_; };
     double excess = excess_at(low), low_excess = excess, high = last, high_excess = 0, elasticity = 1;

@@ -23,7 +23,8 @@ struct HeightSpan {
   Real size() const { return highest - lowest; }
 };
 
-// Returns the span of a run, in the calling thread. Eight spans side by side let the compiler use vectors.
+// Returns the span of a run of heights, in the calling thread. Eight spans side by side let the compiler use
+// vectors.
 template <typename Real>
 HeightSpan<Real> span_of_run(std::span<const Real> heights) {
   constexpr std::size_t lanes = 8;

@@ -29,8 +29,8 @@ std::size_t HeightSystem::memory() const {
   return factor_.memory() + edges_->memory();
 }
 
-// The right-hand side of boundary points is 0, because their coefficients are 0. The factor does not change
-// it, and it is their height.
+// The right-hand side of boundary points is 0, because their coefficients are 0. Solving does not change it,
+// and it is their height.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   edges_->divergence(slopes, heights);
   factor_.solve(heights, heights);

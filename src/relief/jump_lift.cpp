@@ -16,7 +16,7 @@ namespace relievo {
 namespace {
 
 // The distance over which the field falls by the factor e, as a share of the longer side, and how many such
-// distances it extends. docs/decisions/jump-lift.md gives the reasons for all constants.
+// distances it extends. See docs/decisions/jump-lift.md.
 constexpr double fading_distance = .015, extent = 3;
 // Inversions below this share of the longer side are too small to be seen.
 constexpr double least_inversion = 1e-5;
@@ -34,9 +34,9 @@ struct HalfEdge {
   float weight;
 };
 
-// Returns the edges of a triangle with their half weights of (9): with equal weights a field would repeat how
-// uneven the triangles are. Triangles of walls are too thin for these weights: edges across a wall have the
-// weight that equilateral triangles give, its other edges have none.
+// Returns the edges of a triangle with their half weights of (9): with equal weights a field would depend on
+// how uneven the triangles are. Triangles of walls are too thin for these weights: edges across a wall have
+// the weight that equilateral triangles give, and the other edges of such triangles have weight 0.
 std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corners) {
   std::array<HalfEdge, 3> edges;
   const auto plane = [&](std::size_t i) { return Vec2(surface.points[corners[i % 3]].head<2>()); };

@@ -1,6 +1,6 @@
-// Keeps the front side of depth jumps in front. Equation (9) sees slopes alone, and the misfit that it leaves
-// at a jump can put the front edge below the surface behind it, which looks like a crack.
-// docs/decisions/jump-lift.md
+// Keeps the front side of depth jumps in front. Equation (9) uses slopes alone, and the misfit that it leaves
+// at a jump can put the front edge below the surface behind it, which looks like a crack. See
+// docs/decisions/jump-lift.md.
 #pragma once
 
 #include <Eigen/Core>

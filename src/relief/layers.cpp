@@ -16,7 +16,7 @@ constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
 constexpr double half_kept_slope = 12;
 
 // The attenuation of a layer is exp(-25 detail share): at the default detail of 0.04 the exponent is the
-// share itself. docs/method.md, "Slopes".
+// share itself. See docs/method.md, "Slopes".
 constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
 }  // namespace

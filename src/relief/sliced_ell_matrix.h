@@ -27,8 +27,8 @@ class SlicedEllMatrix {
   // Copies the entries of each point.
   explicit SlicedEllMatrix(const Groups<MatrixEntry>& rows);
 
-  // The same, but reuses the sparsity pattern of `like` if it contains all these entries in order; unused
-  // slots get coefficient 0.
+  // Does the same, but reuses the sparsity pattern of `like` if it contains all these entries in order;
+  // unused slots get coefficient 0.
   SlicedEllMatrix(const Groups<MatrixEntry>& rows, const SlicedEllMatrix& like);
 
   // Returns the number of points.

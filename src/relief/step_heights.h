@@ -1,4 +1,4 @@
-// The heights of depth jumps. Equation (9) sees slopes alone, so a form that lies in steps, such as letters
+// The heights of depth jumps. Equation (9) uses slopes alone, so a form that lies in steps, such as letters
 // on a plate, would vanish. The relief of such a form takes these heights in addition.
 #pragma once
 

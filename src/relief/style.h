@@ -53,20 +53,21 @@ struct RaisedHeights {
   }
 };
 
-// The least divisor of gains: near the steepest slopes, a small change of normals would change slopes many
-// times as much.
+// The least divisor of gains: with smaller ones a small change of normals would change slopes many times as
+// much near the steepest slopes.
 inline constexpr float least_gain_divisor = .25F;
 
 // A style is used in this order: slope() for every point, with the w_k of weighted(); solving (9) for the
 // heights; raise(), which sets the height that the relief will have; finish(), once that is the height
 // wanted.
 
-// Equations (5) to (7), and the paper's second equation (9): detail in proportion to the curvature.
+// The paper's style: equations (5) to (7), and the paper's second equation (9), which adds detail in
+// proportion to the curvature.
 class PaperStyle {
  public:
   explicit PaperStyle(const Shape& shape) : shape_(shape) {}
 
-  // Returns the compression with whose weights w_k slope() is called.
+  // Returns the compression that gives the weights w_k of slope().
   Compression weighted() const { return shape_.compression; }
 
   template <typename Real>
@@ -102,7 +103,8 @@ class PaperStyle {
   const Shape& shape_;
 };
 
-// Layers of the normals in place of (5); HeightCorrection compresses the heights afterwards.
+// The layered style: layers of the normals in place of (5). HeightCorrection compresses the heights
+// afterwards.
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)
@@ -110,7 +112,7 @@ class LayeredStyle {
 
   Compression weighted() const { return saturation_alone(shape_.compression); }
 
-  // The parameters of slope(), for write_slopes_by_eight().
+  // Return the parameters of slope(), for write_slopes_by_eight().
   const LayerWeights& layer_weights() const { return weights_; }
   double scale() const { return scale_; }
   double max_slope() const { return shape_.max_slope; }

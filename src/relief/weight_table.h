@@ -11,8 +11,8 @@
 namespace relievo {
 
 // Interpolates linearly between entries spaced evenly within each octave of |k|, 128 per octave from 2^-24 to
-// 1; the bits of the number are the index. Within 3e-5 of the formula for beta up to 2, 1e-3 for beta up to
-// 10.
+// 1; the bits of the number are the index. Values are within 3e-5 of the formula for beta up to 2, 1e-3 for
+// beta up to 10.
 class WeightTable {
  public:
   void fill(double delta, const Compression& compression) {

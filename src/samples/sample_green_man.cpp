@@ -114,7 +114,7 @@ std::vector<Leaf> grow_leaves() {
   };
   grow({8, false, 0.86, -0.02, 0.0, shape(0.56, 0.165, 0.25, -0.28, 5)}, leaves);
   grow({8, true, 0.80, 0.12, 0.05, shape(0.42, 0.145, 0.35, -0.45, 4)}, leaves);
-  // brows, moustache, beard
+  // These leaves are the brows, the moustache and the beard.
   leaves.push_back(
       placed(shape(0.40, 0.105, 0.25, -0.6, 4), {{0.06, 0.19, 0.45}, {1, 0.50, -0.25}, {0.2, 0.25, 1}}));
   leaves.push_back(

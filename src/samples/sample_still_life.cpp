@@ -21,7 +21,7 @@ struct Turned {
   }
 };
 
-// Two strands that cross each other around the belly, with a pearl in each opening.
+// Returns the height of two strands that cross each other around the belly, with a pearl in each opening.
 double guilloche(double about, double y) {
   const double wave = 0.036 * std::sin(12 * about);
   const double strands = std::max(bump(y - wave, 0.016), bump(y + wave, 0.016));
@@ -67,7 +67,7 @@ double handle(const Vec3& p) {
   return length(ring - 0.155, q.z()) - 0.030 - cord;
 }
 
-// A ring of three-stranded rope in the XY plane.
+// Returns the field of a ring of three-stranded rope in the XY plane.
 double rope_ring(const Vec3& p) {
   const double ring = length(p.x(), p.y());
   const double about = std::atan2(p.y(), p.x());
@@ -85,7 +85,8 @@ struct Height {
   double value = 0, slope = 0;
 };
 
-// Overlapping scales, one at each whole pair of numbers; each rises towards its free, upper edge.
+// Returns the height of overlapping scales, one at each whole pair of numbers; each rises towards its free,
+// upper edge.
 Height scales(double a, double b) {
   Height highest;
   for (int i = -1; i <= 1; ++i) {
@@ -103,7 +104,7 @@ Height scales(double a, double b) {
   return highest;
 }
 
-// A pine cone along Y: scales on two families of spirals, 5 one way and 8 the other.
+// Returns the field of a pine cone along Y: scales on two families of spirals, 5 one way and 8 the other.
 double pine_cone(const Vec3& p) {
   const double half = 0.32, scale_size = 0.09;
   const double about = std::atan2(p.x(), p.z()) / (2 * pi);
@@ -116,7 +117,7 @@ double pine_cone(const Vec3& p) {
   return (body - depth * carved.value) / std::sqrt(1.6 + square(depth / scale_size * carved.slope));
 }
 
-// A dodecahedron with a line engraved along its edges.
+// Returns the field of a dodecahedron with a line engraved along its edges.
 double gem(const Vec3& p) {
   const double g = (1 + std::sqrt(5.0)) / 2, n = 1 / std::sqrt(1 + g * g);
   const Vec3 q = p.cwiseAbs();

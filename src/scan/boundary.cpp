@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Radius in rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
+// A limit in rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
 constexpr double gap = 3;
 
 // Returns infinity for a triangle without area.

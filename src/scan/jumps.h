@@ -15,7 +15,7 @@ bool is_jump(const Surface& surface, Index a, Index b);
 std::vector<std::uint8_t> jump_triangles(const Surface& surface);
 
 // Returns the weight of each point's edges in (9): 0.2 at a depth jump of 2 % of the longer side or more,
-// growing geometrically to 1 at a distance of 0.8 % from it. docs/decisions/jumps.md has the reason.
+// growing geometrically to 1 at a distance of 0.8 % from it. docs/decisions/jumps.md gives the reason.
 std::vector<float> jump_weights(const Surface& surface);
 
 }  // namespace relievo

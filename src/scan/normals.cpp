@@ -64,8 +64,8 @@ void turn_to_viewer(Cloud& viewed) {
 
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
   constexpr float seen_well = .5F;  // n_z of 60 degrees; at steeper points the estimated sign is not reliable
-  // Points whose sign is final, in the order in which they became so; also the queue of a breadth-first
-  // search.
+  // Points whose normal has its final sign, in the order in which it got this sign; also the queue of a
+  // breadth-first search.
   std::vector<Index> settled;
   std::vector<std::uint8_t> is_settled(viewed.size(), 0);
   const auto settle = [&](Index i) {

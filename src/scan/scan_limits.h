@@ -7,8 +7,8 @@ namespace relievo {
 struct ScanLimits {
   // Radius, in local spacings, of the disc with which a point hides what is behind it.
   static constexpr double disc_radius = 2;
-  // Limits of the local spacing, in rho. Near coincident points it is almost 0, which would let one look
-  // through the surface; a lone point far from all others must not hide an area as large as its spacing.
+  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that one would
+  // look through the surface; a lone point far from all others must not hide an area as large as its spacing.
   static constexpr double least_spacing = .25, largest_spacing = 4;
   // A point is visible if it lies behind the front by at most this, in local spacings / n_z.
   static constexpr double depth_tolerance = 2;

@@ -44,7 +44,8 @@ Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points, 
       1024);
   if (points.size() < 2 || (progress && progress->is_cancelled())) return spacing;
   // rho is the median, because a few far outliers or dense spots would change the mean. Where density varies
-  // much, as among the corners of a mesh, rho is larger: sparse parts would be noise and holes to the median.
+  // much, as among the corners of a mesh, rho is larger: measured by the median, sparse parts would be noise
+  // and holes.
   std::vector<float> distances = spacing.local;
   const double least = static_cast<double>(quantile(distances, almost_all)) / largest_ratio;
   spacing.rho = static_cast<double>(median(distances));

@@ -240,7 +240,7 @@ std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<co
     std::vector<double> off;
     for (const std::size_t i : on) off.push_back(std::abs(plane.height(sample.points[i])));
     // This is three standard deviations, as 95 % of a normal distribution lie within 1.96. The noise of depth
-    // cameras grows with the distance, so that the median would leave half of a far table.
+    // cameras grows with the distance, so that a tolerance from the median would leave half of a far table.
     tolerance = std::max(3 / 1.96 * quantile(off, .95), rho);
   }
   const std::vector<std::size_t> on = points_on(plane, sample, tolerance);

@@ -106,7 +106,7 @@ bool all_look_away(const Cloud& viewed) {
   return std::ranges::all_of(viewed.normals, [](const Vec3f& n) { return n.z() < 0; });
 }
 
-// Stages 3 and 4: sets the surface's points, normals and colours.
+// Does stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "visible points", .3));
   Cloud& cloud = viewed.cloud;

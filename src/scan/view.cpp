@@ -132,7 +132,7 @@ Cloud cropped(const Cloud& cloud, const View& view) {
   return part;
 }
 
-// Equation (1): R = R_y R_x.
+// Computes equation (1): R = R_y R_x.
 View view_from_euler(double theta_x, double theta_y) {
   const Eigen::AngleAxisd rx(theta_x, Vec3::UnitX()), ry(theta_y, Vec3::UnitY());
   return {(ry * rx).toRotationMatrix()};

@@ -25,7 +25,8 @@ constexpr double connection_length = 3;
 // A fragment has fewer points than the visible ones divided by this; otherwise all of a small cloud would be
 // fragments.
 constexpr std::size_t fragment_divisor = 8;
-// Hole fill points come from well sampled surfaces only, and are this far apart, in rho.
+// In rho: the largest local spacing of hole fill points, which come from well sampled surfaces only, and the
+// distance between them.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {

@@ -61,7 +61,7 @@ class ObstacleSolver {
 
   Workspace make_workspace() const;
 
-  // Returns the bytes held, workspaces not counted.
+  // Returns the bytes of memory in use, workspaces not counted.
   std::size_t memory() const;
 
   // Calls f(node) for every node that is not fixed, in an order that never changes.
@@ -104,7 +104,7 @@ class ObstacleSolver {
     struct Slope {
       float first = 0, second = 0;  // first and second derivative of the energy by the value of a node
     };
-    // The share that one node of a tie's cell has in it.
+    // The share of one node of a tie's cell in the tie.
     struct Share {
       Index tie;
       float weight = 0, stiffness = 0;  // weight of the node; stiffness of the tie times this weight

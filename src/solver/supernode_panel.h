@@ -47,8 +47,8 @@ void substitute_forward(const Subtree& subtree);
 // as for the forward direction.
 void substitute_backward(const Subtree& end);
 
-// The same for a single supernode of any size whose rows are the whole work vector, in order. The work vector
-// is padded to a multiple of four with finite numbers; `scratch` has room for width + 8 floats.
+// Do the same for a single supernode of any size whose rows are the whole work vector, in order. The work
+// vector is padded to a multiple of four with finite numbers; `scratch` has room for width + 8 floats.
 void substitute_forward(NodeSize node, const float* values, float* work, float* scratch);
 void substitute_backward(NodeSize node, const float* values, float* work, float* scratch);
 

@@ -55,8 +55,8 @@ class TaskTreeBuilder {
     }
   }
 
-  // Neighbouring subtrees under one parent share a task as long as its columns stay below the limit and its
-  // work vector stays addressable.
+  // Makes the tasks. Neighbouring subtrees under one parent share a task as long as its columns stay below
+  // the limit and its work vector stays addressable with 16 bits.
   void make_tasks() {
     for (Index s = 0; s < nodes_.size(); ++s) {
       const Index p = nodes_.parent[s];

@@ -62,7 +62,8 @@ class PathFlow {
   }
 
  private:
-  // A vertex of the current walk, the neighbour at which it began to look, and how many it has tried.
+  // A vertex of the current walk, the number of its neighbour to try first, and how many neighbours were
+  // tried.
   struct Turn {
     Index vertex, first, tried;
   };

@@ -1,4 +1,4 @@
-// Shared last step of all baselines: boundary points to 0, heights scaled to the height asked for.
+// The last step of all baselines: sets boundary points to 0 and scales the heights to the height asked for.
 #pragma once
 
 #include <span>

@@ -151,8 +151,8 @@ std::size_t HeightCorrection::Workspace::memory() const {
 }
 
 // Strong compression needs all of the height, so the relief may then stand off the base at the silhouette:
-// the stiffness falls from 1 at a share of 1 to 0.1 at 0.775. docs/decisions/height-correction.md has the
-// measurements.
+// the stiffness falls from 1 at a share of 1 to 0.1 at 0.775. See
+// docs/decisions/height-correction.md.
 HeightLimits HeightLimits::of(double height, const MembraneParams& params) {
   constexpr double least = .1, fall = 4;
   return {height, params.pull_length, std::max(1 - fall * (1 - params.height_share), least)};

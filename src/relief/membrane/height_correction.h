@@ -32,7 +32,8 @@ struct HeightLimits {
 // are the same bits for any number of threads.
 class HeightCorrection {
  public:
-  // In shares of the longer side. docs/decisions/height-correction.md gives the effect of other lengths.
+  // The bending length of b, as a share of the longer side. docs/decisions/height-correction.md gives the
+  // reason for the bending.
   static constexpr double bending_length = .028;
 
   // Scratch memory and the field that was found, so that calls allocate nothing.
@@ -55,8 +56,8 @@ class HeightCorrection {
   std::size_t memory() const;
 
   // Finds b for heights, one per point, and keeps it in the workspace. A few points may stay slightly outside
-  // the limits, because b is smooth; where heights are rougher than the limits allow, the excess is shared
-  // between both ends. For float and double.
+  // the limits, because b is smooth. Where heights are rougher than the limits allow, the excess is shared
+  // between both ends. Instantiated for float and double.
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 
@@ -80,7 +81,7 @@ class HeightCorrection {
 
   // Adds b to the heights, clips the few highest and lowest softly (SoftClip) and scales the result to
   // exactly the height of the limits, base included. Does nothing if that height is 0 or all heights are 0.
-  // For float and double.
+  // Instantiated for float and double.
   template <typename Real>
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 

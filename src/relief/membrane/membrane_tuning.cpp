@@ -30,7 +30,8 @@ constexpr Scores margin{.0003, .002};
 // The rate at which the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are
 // compressed less.
 constexpr double growth = .25;
-// The largest sampling distance, of the longer side, at which the coarsest detail of the metrics is sampled.
+// The largest sampling distance, as a share of the longer side, at which the coarsest detail of the metrics
+// is sampled.
 constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / ReliefMetrics::longer_side_px;
 // The parameters at which the search starts, between the extremes of the range. They are also the result
 // where nothing can be measured.
@@ -53,7 +54,7 @@ struct LeastShare {
   Violation bound;  // violation at the next smaller share
 };
 
-// Searches the parameters for one u. All shares in here are those for u = 0.
+// Searches the parameters for one u. All its shares are those for u = 0.
 class TuningSearch {
  public:
   TuningSearch(const BaselineComparison& comparison, double u)
@@ -64,7 +65,7 @@ class TuningSearch {
     span_ = height_span(initial_heights_);
   }
 
-  // Returns about the span of the heights that (9) gives at a share of 1.
+  // Returns the approximate span of the heights that (9) gives at a share of 1.
   double span() const { return span_ / (2 - at_u(initial).height_share); }
 
   MembraneParams strongest() {
@@ -115,8 +116,8 @@ class TuningSearch {
     return {detail > 0, order > 0};
   }
 
-  // Returns the least share that satisfies both constraints with this pull length, if it is at most `known`,
-  // and, where detail alone needs it, at most the usual maximum.
+  // Returns the least share up to `known` that satisfies both constraints with this pull length, if there is
+  // one. Shares above the usual maximum are used only if depth order needs them.
   LeastShare least_share_with(double pull_length, double known) {
     double low = least_share, high = std::min(known, usual_most_share);
     Violation violation = violation_of({high, pull_length});

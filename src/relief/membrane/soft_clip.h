@@ -18,7 +18,7 @@ namespace relievo {
 template <typename Real>
 class SoftClip {
  public:
-  // docs/method.md, "The height correction", has the reason.
+  // docs/method.md, "The height correction", gives the reason.
   static constexpr double clipped_share = .002, least_slope = .12;
 
   explicit SoftClip(std::span<const Real> heights) {

@@ -81,7 +81,7 @@ struct Growth {
   }
 };
 
-// Returns the area of the box, for a first guess.
+// Returns the area of the points' box, for a first guess of the radius.
 double box_area(std::span<const Vec2> points) {
   Vec2 low = points[0], high = points[0];
   for (const Vec2& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -100,7 +100,8 @@ ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const 
   const auto wanted = static_cast<double>(options.count);
   if (points.size() <= options.count || box_area(points) == 0) return best;
 
-  // The count times radius^2 hardly depends on the radius, so the second or third guess is within 3 %.
+  // The number of points times radius^2 hardly depends on the radius, so the second or third guess is within
+  // 3 %.
   double radius = std::sqrt(box_area(points) / wanted);
   for (int round = 0; round < 6; ++round) {
     best = growth.grow(radius);

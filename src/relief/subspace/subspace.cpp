@@ -162,8 +162,8 @@ void SubspaceModel::set_reference(double max_slope, std::span<const float> bound
   }
 }
 
-// The weights of the ratio's fit are the squares of z_ref at the control points: then the fit of the ratio r
-// minimises z_c - r z_ref.
+// The weights of the ratio's fit are the squares of z_ref at the control points. The fit of the ratio r then
+// minimises the squares of z_c - r z_ref.
 void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
   std::vector<float> weights;
   for (const float z_ref : control_reference_) weights.push_back(z_ref * z_ref);

@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle
-// empty there.
+// The radius, in rho, of the largest empty circle that sampling leaves where a surface is seen edge on;
+// points are dense there.
 constexpr double widest_circle = 1.2;
 // The length of a normal's x and y above which its surface turns away from the viewer, as in outlines.cpp.
 constexpr double least_turned = .75;

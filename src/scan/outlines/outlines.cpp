@@ -23,7 +23,7 @@ constexpr double lean_radius = 2.5, farthest_edge = 2;
 constexpr double uncertain = .03;
 // An estimated place on an outline is trusted by half if its error is this, in rho.
 constexpr double trusted_error = .25;
-// Normals that lean less do not show where the surface ends.
+// The length of a normal's x and y below which it does not show where the surface ends.
 constexpr double least_lean = .75;
 
 double area_of(const Surface& surface, const Triangle& t) {
@@ -226,7 +226,7 @@ class JumpLines {
            exact_.is_across_jump(p.head<2>(), q.head<2>());
   }
 
-  // Links the two sides between the corner that lies in front of, or behind, the other two.
+  // Links the two crossed sides. They meet at the corner that lies in front of, or behind, the other two.
   void cross_triangle(Index t) {
     const Triangle& corners = surface_.triangulation.triangles[t];
     std::array<bool, 3> jumps;

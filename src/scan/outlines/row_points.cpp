@@ -13,7 +13,7 @@ namespace {
 constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
 // Least distances, in rho, between points of rows; on outlines and in the row next to them they are less.
 constexpr double least_between_rows = .4, least_in_first_row = .28, least_on_outlines = .12;
-// Walls end before they meet another outline.
+// The least distance of a wall from another outline, in rho. Walls end before they meet one.
 constexpr double least_from_other_outline = .35;
 
 // Makes the points of all rows, those nearest to the outlines first.

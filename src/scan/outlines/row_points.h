@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// The kind of place where a point of the surface stands.
+// The kind of place where a point of the surface lies.
 enum class Place : std::uint8_t {
   scan,        // it is a point of the scan
   silhouette,  // the silhouette

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// Patches of fewer points are small: rows of points, which reach 3 rho from each side, leave nothing of them.
+// Patches of fewer points are small: rows of points, which reach 3 rho from each side, replace all of them.
 constexpr std::size_t least_patch = 60;
 constexpr double least_behind = .7;  // share of the jumps around a patch at which it lies behind
 

@@ -47,7 +47,7 @@ FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
           box.least + size.cwiseProduct(most.cast<float>())};
 }
 
-// The points of one block that touch each band of rows.
+// Per band of rows, the discs of one block of points that touch it.
 using Bands = std::vector<std::vector<FrontDisc>>;
 
 class FrontDrawing {
@@ -123,7 +123,7 @@ class FrontDrawing {
     const float longer = std::max({size.x(), size.y(), 1e-30F});
     cells_.cell = std::max({std::sqrt(covered_area() / static_cast<float>(wanted)),
                             least_cell * usual_spacing(), longer / most_side});
-    // One empty cell stands around what is drawn.
+    // A margin of one empty cell surrounds what is drawn.
     cells_.corner = box_.least.head<2>() - Vec2f::Constant(1.5F * cells_.cell);
     const int columns = 3 + static_cast<int>(size.x() / cells_.cell),
               rows = 3 + static_cast<int>(size.y() / cells_.cell);
