@@ -15,7 +15,6 @@ constexpr std::size_t half_window = 12;  // half the width of the moving mean, i
 constexpr double smooth_turn_deg = 10;   // between the model's normals at both ends of an edge
 constexpr double quantile_of_facets = .99;
 
-// Returns the gradient of heights in a triangle.
 Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) {
   const auto& [a, b, c] = surface.triangulation.triangles[t];
   const auto at = [&](Index i) -> Vec2 { return surface.points[i].head<2>(); };

@@ -25,7 +25,6 @@ struct LeafPose {
   Vec3 facing;   // roughly where the upper side looks; not parallel to `towards`
 };
 
-// Returns a leaf of that shape in that pose.
 Leaf placed(Leaf shape, const LeafPose& pose);
 
 // Returns the smaller one of the leaf's field at p and `nearest`. Far from the leaf it takes almost no time.

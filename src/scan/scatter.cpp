@@ -9,7 +9,6 @@
 namespace relievo {
 namespace {
 
-// Returns the area of each triangle.
 std::vector<double> areas(const Mesh& mesh) {
   std::vector<double> areas(mesh.triangles.size());
   parallel_for(areas.size(), [&](std::size_t t) {
