@@ -1,5 +1,5 @@
-// One call from a scan to a body that can be cut. Its steps: points that show a view (sample_for_view), their surface
-// with its factored system (prepare), and a relief of it as a body (make_relief).
+// One call from a scan to a body that can be cut. Its steps: points that show a view (sample_for_view), their
+// surface with its factored system (prepare), and a relief of it as a body (make_relief).
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct CloudFile;
 struct Shape;
 struct Surface;
 
-// Facts about the points of a scan and what is seen of them.
+// Facts about the points of a scan and the visible ones among them.
 struct ScanReport {
   std::size_t input_points = 0, repeated_points = 0, visible_points = 0, removed_points = 0,
               crumbs = 0;                        // see Surface
@@ -30,8 +30,8 @@ struct ScanReport {
   // The table or background that was found.
   struct FoundPlane {
     PlaneKind kind = PlaneKind::background;
-    double share = 0;          // of the visible points that belong to it
-    bool is_left_out = false;  // as the view asked for
+    double share = 0;          // share of the visible points that belong to the plane
+    bool is_left_out = false;  // because the view asked for it
   };
   std::optional<FoundPlane> plane;
 
@@ -39,42 +39,42 @@ struct ScanReport {
   bool has_estimated_normals = false;  // the points had none
   bool has_turned_normals = false;     // they pointed inwards
 
-  // Returns what is known of the points of a surface.
+  // Returns the facts about the points of a surface.
   static ScanReport of(const Surface& surface);
 };
 
-// Facts about the relief that was made and the options that ruled it.
+// Facts about the relief that was made and the options it was made with.
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
-  Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape
-  double alpha = 0;  // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
+  Method method = Method::paper;  // alpha, beta, gamma and u have no meaning for a method without shape
+  double alpha = 0;  // NaN if beta is 0 or there is a tone curve: then u has an effect, alpha has none
   double beta = 0, gamma = 0;
   double u = 0;      // alpha^-beta, see Compression
   double steps = 0;  // share of the height that depth jumps take, see Shape
   std::optional<double> height_requested_mm;
-  std::optional<double>
-      height_usual_mm;         // that was aimed at where none was requested, see effective_height_mm()
-  double height_mm = 0;        // reached, lowest to highest point of the front, above its base
+  std::optional<double> height_usual_mm;  // the default, if none was requested, see effective_height_mm()
+  double height_mm = 0;        // height reached, lowest to highest point of the front, above its base
   double below_ground_mm = 0;  // the part of height_mm that lies below the flat ground, in a die all of it
-  double steepest_deg = 0;     // of the front's triangles, as files hold them
+  double steepest_deg = 0;     // of the front's triangles, with coordinates rounded as in files
 
-  // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
-  // in z the model keeps its depth and its lowest visible point lies on the ground; with a curved base, on
-  // that in the middle of the plate. The rotation of a mirrored form holds the mirror, too.
+  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. This is
+  // exact in x and y. In z the model keeps its uncompressed depth, and its lowest visible point lies on the
+  // ground (with a curved base, on the ground in the middle of the plate). For a mirrored form `rotation`
+  // includes the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
 
-  std::optional<Tool> tool;        // that was asked for
-  std::optional<ToolReach> reach;  // what it reaches of the front
+  std::optional<Tool> tool;        // the tool that was asked for
+  std::optional<ToolReach> reach;  // the part of the front that it reaches
 
-  // Largest difference to the front before it was made simpler, if a tolerance or a number of
-  // triangles was given.
+  // Largest difference between the simplified front and the full one, if a tolerance or a number of triangles
+  // was given.
   std::optional<double> simplification_error_mm;
   std::size_t front_triangles = 0, full_triangles = 0;  // of the front, and of the full relief
 
-  // The measures of a wrap: the ground's diameter, how far the plate goes around, and how wide a degree is on the ground
-  // and so in the flat plate.
+  // The measures of a wrap: the ground's diameter, the angle that the plate covers, and the length of one
+  // degree on the ground, which is the same in the flat plate.
   struct Wrapped {
     double diameter_mm = 0, turn_deg = 0, mm_per_degree = 0;
     bool is_inside = false;       // the relief is on the inner side
@@ -99,14 +99,15 @@ struct MadeRelief {
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode = Mode::exact,
                             Progress* progress = nullptr);
 
-// Returns the plate with the relief of a prepared model; options.view, mode and points are not looked at. Stages and
-// their times are in `progress`; the caller ends the last one. Errors: those of check(), of
-// ReliefModel::make_at_height() and of the plate's parts; kind cancelled.
+// Returns the plate with the relief of a prepared model; options.view, mode and points are ignored. Stages
+// and their times are reported to `progress`; the caller ends the last stage by Progress::finish(). Errors:
+// those of check(), of ReliefModel::make_at_height() and of the plate's parts; kind cancelled.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// Returns the height in mm of the highest relief whose walls keep the draft angle of the options, or of the highest at all
-// where they give none. The method must be one with a shape, as has_shape() says. Errors: those of make_relief().
+// Returns the height in mm of the highest relief whose walls keep the draft angle of the options, or of the
+// highest relief of all if the options give no draft angle. The method must be one with a shape, as
+// has_shape() says. Errors: those of make_relief().
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
@@ -114,8 +115,8 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
 // make_relief() does this itself. Errors: kind option.
 Result<void> check_rim(const ReliefOptions& options, double height_mm);
 
-// Samples the points of a file for the view, prepares them, and returns the same as the function above. scene.h has
-// this for several files. Errors: also those of sample_for_view() and prepare().
+// Samples the points of a file for the view, prepares them, and makes the relief of that model. scene.h has
+// such a function for several files. Errors: also those of sample_for_view() and prepare().
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Does the same for a cloud.
@@ -124,8 +125,9 @@ Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progre
 // Returns the shape that the options ask for. A search for their height starts from it.
 Shape shape_of(const ReliefOptions& options);
 
-// Returns the options with a width: the one asked for, the largest that a plate of the size asked for leaves with margin
-// and rim, or the default. make_relief() does this itself. Errors: kind option if the plate is too small.
+// Returns the options with a width: the one given; else the largest that fits, with margin and rim, into a
+// plate of the given size; else the default. make_relief() does this itself. Errors: kind option if the plate
+// is too small.
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
 
 // Returns millimetres per unit of the surface at the width of the options, see with_width().

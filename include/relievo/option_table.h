@@ -1,5 +1,6 @@
-// The table of options: one row says everything about an option. The command line, projects, the studio with its page,
-// batch, Python, npm and the documents have no list of their own, and take from option_table() the rows that they need.
+// The table of options: one row states everything about an option. The command line, projects, the studio
+// with its page, batch, Python, npm and the documents have no lists of their own; they take the rows that
+// they need from option_table().
 #pragma once
 
 #include <array>
@@ -18,11 +19,11 @@
 
 namespace relievo {
 
-// The first work that is done anew when an option changes. The work of all later stages follows it.
+// The first stage of work that is repeated when an option changes. All later stages are repeated, too.
 enum class OptionStage {
   input,     // a depth image is read
-  view,      // the points that are seen are prepared
-  model,     // the heights of those points are prepared
+  view,      // the visible points are prepared
+  model,     // the system of their heights is prepared
   shape,     // the heights are found
   plate,     // the plate is built around the relief
   body,      // the plate is bent and formed
@@ -37,32 +38,35 @@ inline constexpr std::array<Choice<OptionStage>, 7> option_stages{{{"input", Opt
                                                                    {"body", OptionStage::body},
                                                                    {"triangles", OptionStage::triangles}}};
 
-// A value as users give it; an empty text is none. A length also takes a text with a unit, see parse_length().
+// A value as users give it; an empty text means no value. A length also takes a text with a unit, see
+// parse_length().
 using OptionValue = std::variant<std::string, double>;
 
 // Values by the names of their options. An option that is missing has its default.
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-// Reads a value of an option, and returns the number that applies.
+// The functions that read a value of an option and return the number that applies.
 struct OptionTargets;
 struct OptionAccess {
-  // Takes a value of the right type. The input of an error may be empty, for the caller to fill in.
+  // Reads a value of the option's type into `to`. The input of an error may be empty, for the caller to fill
+  // in.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Returns the number that applies, be it given or a default; nothing if there is none. Null for texts.
+  // Returns the number that applies, given or default; nothing if there is none. The pointer is null for
+  // options that are texts.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 
 // A row of the table.
 struct OptionRow {
-  std::string_view name;  // as a command-line flag without its dashes, as a key of JSON
+  std::string_view name;  // the command-line flag without its dashes, and the key in JSON
   std::string_view unit;  // of the value, for help
   OptionStage stage = OptionStage::view;
   double min = -std::numeric_limits<double>::infinity();  // smallest and largest value of a number
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string_view> choices = {};  // all words that may stand there, or begin the text
+  std::vector<std::string_view> choices = {};  // all words that the value may be or begin with
   std::string_view help;                       // one line, without range and default
   OptionValue initial = {};                    // the default, if it depends on nothing else
-  std::string_view otherwise = {};             // the default, for people, where it is no value
+  std::string_view otherwise = {};             // the default in words, if it is not a fixed value
   std::string_view in_studio = {};  // the value in a new document of the studio, if that is not the default
   bool is_stated = false;           // the studio writes it into projects even where it has its default
   OptionAccess access = {};
@@ -74,7 +78,7 @@ struct OptionRow {
   bool is_prepared() const { return stage == OptionStage::view || stage == OptionStage::model; }
 };
 
-// Returns all rows, in the order of the help; those of depth images come last.
+// Returns all rows, in the order of the help; the options of depth images come last.
 std::span<const OptionRow> option_table();
 
 // Returns the row of that name; null if there is none.
@@ -86,13 +90,13 @@ std::string_view expected_type(const OptionRow& option);
 // Checks that a number is one that the option may have. Errors: kind option, naming the option.
 Result<void> check_range(const OptionRow& option, double number);
 
-// Returns the options that the values ask for, read and checked once and for all. Options of depth images are left to
-// parse_depth(). A base of kind image has no height map yet. Errors: kind option, naming the option, for unknown names,
-// for values of another type, and those of check() and of the functions that read texts.
+// Reads and checks the values, and returns the options. Options of depth images are left to parse_depth(). A
+// base of kind image has no height map yet. Errors: kind option, naming the option, for unknown names, for
+// values of another type, and those of check() and of the functions that read texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
-// Returns the options of depth images that the values ask for, without camera. Other options are not looked at. Errors:
-// kind option, naming the option.
+// Returns the options of depth images that the values ask for, without camera. Other options are ignored.
+// Errors: kind option, naming the option.
 Result<DepthOptions> parse_depth(const OptionValues& values);
 
 }  // namespace relievo

@@ -16,17 +16,17 @@
 
 namespace relievo {
 
-// The options that are plain numbers; option_table() has their ranges.
+// The options that are plain numbers; option_table() has their ranges. Most comments end with the default.
 struct NumericOptions {
   std::optional<double> width_mm;      // longer side of the relief, without margin; see effective_width_mm()
-  std::optional<double> diameter_mm;   // of the plate, which is then a circle; as small as the relief allows
+  std::optional<double> diameter_mm;   // of the plate, then a circle; as small as the relief allows
   std::optional<double> height_mm;     // lowest to highest point of the front; see effective_height_mm()
   std::optional<double> alpha;         // the paper's height coefficient; 4
   std::optional<double> saturation;    // the paper's beta; see effective_saturation()
   std::optional<double> detail;        // the paper's gamma; see effective_detail()
   std::optional<double> steepest_deg;  // steepest slope asked of the surface; 76
   std::optional<double> draft_deg;     // least angle of walls off the vertical, kept by every triangle; any
-  std::optional<double> boundary_width;  // of (7), in sampling distances; see effective_boundary_width()
+  std::optional<double> boundary_width;  // of (7), in units of rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height that depth jumps take, see Shape
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
@@ -42,24 +42,24 @@ struct NumericOptions {
   bool operator==(const NumericOptions&) const = default;
 };
 
-// The surface that the solid gets.
+// The surface of the finished front.
 enum class Finish {
-  full,      // the relief's own
-  reachable  // what the tool leaves of it
+  full,      // the relief itself
+  reachable  // the surface that the tool leaves
 };
 
 inline constexpr std::array<Choice<Finish>, 2> finish_choices{
     {{"full", Finish::full}, {"reachable", Finish::reachable}}};
 
 struct ReliefOptions : NumericOptions {
-  std::optional<Method> method;   // the paper's with an alpha, else layered
-  std::optional<ToneCurve> tone;  // in place of (6) and the saturation
+  std::optional<Method> method;   // default: the paper's if alpha is given, else layered
+  std::optional<ToneCurve> tone;  // replaces (6) and the saturation
   Mode mode = Mode::exact;
   View view;
   Outline outline = Outline::rectangle;
-  std::optional<Vec2> plate_mm;  // width and height of the plate; as small as the relief allows
-  Vec2 shift_mm = Vec2::Zero();  // of the relief from the middle of such a plate, right and up
-  BaseOptions base;              // of kind image: with its height map
+  std::optional<Vec2> plate_mm;  // width and height of the plate; default: as small as the relief allows
+  Vec2 shift_mm = Vec2::Zero();  // of the relief from the middle of a plate with a given size, right and up
+  BaseOptions base;              // a base of kind image includes its height map
   WrapOptions wrap;
   Form form = Form::relief;
   std::optional<Tool> tool;  // its reach is reported
@@ -71,10 +71,10 @@ struct ReliefOptions : NumericOptions {
   // model. The width is that for a plate without a size of its own, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   Method effective_method() const;
-  // Returns nothing where the shape gives the height: by the paper's method, and for a lithophane. A height
-  // that was not asked for is a share of the width, or the largest that the view reaches.
+  // Returns the given height or usual_height_mm(). If no height is given, the result is nothing for the
+  // paper's method, whose height follows from the shape, and for a lithophane.
   std::optional<double> effective_height_mm() const;
-  // Returns the height that is asked for, or else that of a lithophane or a share of the width: see
+  // Returns the given height, or else 2.4 mm for a lithophane and 5 % of the width for other forms: see
   // docs/decisions/default-height.md.
   double usual_height_mm() const {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
@@ -90,9 +90,9 @@ struct ReliefOptions : NumericOptions {
   double effective_boundary_width() const;
 };
 
-// Checks every range, and that options do not contradict each other: height and alpha; alpha and a method other than
-// the paper's; saturation or detail for a method that has none; a size of the plate that its outline
-// cannot have. Errors: kind option, naming the option.
+// Checks every range, and that options do not contradict each other: height and alpha; alpha and a method
+// other than the paper's; saturation or detail for a method that has none; a size of the plate that its
+// outline cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

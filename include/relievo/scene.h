@@ -17,10 +17,10 @@ class Progress;
 struct MadeRelief;
 struct ReliefOptions;
 
-// The place of a model in a scene. The model is mirrored, scaled and turned about the centre of its own box, outliers
-// left out, and then moved.
+// The place of a model in a scene. The model is mirrored, scaled and turned about the centre of its own box,
+// which excludes outliers, and then moved.
 struct Pose {
-  Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z; the axes stay; 90 about z takes x to y
+  Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z, all fixed axes; 90 about z takes x to y
   std::optional<Vec3> translate = {};  // in the units of the files
   double scale = 1;                    // above 0
   bool is_mirrored = false;            // x is reversed, before all else
@@ -28,22 +28,23 @@ struct Pose {
   bool operator==(const Pose& other) const;
 };
 
-// Returns the turn of a pose: a rotation, after a reflection where it is mirrored.
+// Returns the turn of a pose: a rotation, preceded by a reflection if the pose is mirrored.
 Mat3 turn_of(const Pose& pose);
 
 struct SceneModel {
   std::string name;                       // in errors and notes
   std::shared_ptr<const CloudFile> file;  // not null
   Pose pose = {};
-  std::vector<std::string> remarks = {};  // what its reader left out of the file, and why, in a line each
+  std::vector<std::string> remarks = {};  // lines on parts of the file that were not read, and why
 };
 
-// At least one model. A scene in which none has a `translate` is arranged, in the view in which it is seen.
+// A scene of at least one model. If no pose has a `translate`, the models are arranged for the view, see
+// place_models().
 struct Scene {
   std::vector<SceneModel> models;
 };
 
-// A point p of the file is scale * turn * p + offset in the scene.
+// Maps a point p of the file to scale * turn * p + offset in the scene.
 struct PlacedModel {
   Mat3 turn = Mat3::Identity();  // see turn_of()
   double scale = 1;
@@ -55,16 +56,18 @@ struct PlacedModel {
 // Returns where each model stands.
 // - If any pose has a `translate`, they stand where the poses say: files that share one frame fit together.
 // - One model alone stays where it is.
-// - Otherwise the models are arranged as the view shows them: side by side from left to right, on one ground line,
-//   their middles equally deep, a gap of 8 % of their height between them. The first keeps its size and, unless it
-//   is turned, its place. The others become as high as the first, but at most one and a half times as wide as that
-//   height. Their `scale` is on top of this: 0.5 is half as high as the others.
-// Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], for angles and places that are
-// not finite.
+// - Otherwise the models are arranged as the view shows them: side by side from left to right, on one ground
+//   line, their middles equally deep, a gap of 8 % of their height between them. The first keeps its size
+//   and, unless it is turned, its place. The others become as high as the first, but at most one and a half
+//   times as wide as that height. Their `scale` then multiplies this size: with 0.5 a model is half as high
+//   as the first.
+// Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], for angles and places that
+// are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
-// Returns the side of the scene that suits a relief best, see rank_views(). Several models, and a model that a pose moves,
-// stand as they are to be seen: their best side is the front. At most a million points are looked at.
+// Returns the side of the scene that suits a relief best, see rank_views(). For several models, or a model
+// that a pose moves, this is always the front, because they are placed to be seen from there. At most a
+// million points are examined.
 ViewGuess best_side(const Scene& scene);
 
 // Returns the view, turned to a side.
@@ -78,17 +81,18 @@ View chosen_view(const Scene& scene, const View& view);
 // smooth.
 double usual_points(const Scene& scene);
 
-// Returns the points of all models as they stand, in the scene's frame; without a number of points, usual_points().
+// Returns the points of all models as they stand, in the scene's frame; without a number of points,
+// usual_points().
 // - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds come
 //   whole, without outliers.
-// - All models get about one sampling distance: that of the finest cloud, or the one at which as many points as
-//   wanted are visible, if that is wider or the scene has meshes. Finer clouds are thinned to it. Of much coarser
-//   ones only visible points are taken, with points in between.
+// - All models get about the same sampling distance: that of the finest cloud, or the distance at which the
+//   wanted number of points is visible, if that is larger or the scene has meshes. Finer clouds are thinned
+//   to it. Of much coarser clouds only the visible points are taken, and points are added between them.
 // - Normals are estimated, or turned, for each model by itself.
 // - If any model has colours, the others are white.
-// - A single model that is not moved gives what its file has.
-// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones, naming
-// the model; kind cancelled.
+// - A single cloud that is not moved keeps all points of its file but outliers.
+// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,
+// naming the model; kind cancelled.
 Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> points,
                                    Progress* progress = nullptr);
 

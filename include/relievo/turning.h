@@ -1,5 +1,5 @@
-// Reliefs that follow while a model is turned: of some 18,000 points, in a few hundredths of a second, and shaded by the
-// normals of all points of the scan.
+// Coarse reliefs to be shown while a model is turned. They have some 18,000 points, take a few hundredths of
+// a second, and are shaded by the normals of all points of the scan.
 #pragma once
 
 #include <memory>
@@ -14,24 +14,24 @@ class MeasuredCloud;
 // A relief that looks like that of ReliefModel::prepare() in the same view, at a lower resolution.
 struct TurnedRelief {
   std::shared_ptr<const ReliefModel> model;
-  std::shared_ptr<const SurfaceDetail> detail;  // what its points leave out; for Shown::detail
-  // The scan's sampling distance over the model's: boundary widths of shapes, which count in sampling distances, are to be
-  // multiplied by it.
+  std::shared_ptr<const SurfaceDetail> detail;  // normals that its points do not resolve; for Shown::detail
+  // The scan's sampling distance divided by the model's. The boundary width of a shape, which is in sampling
+  // distances, must be multiplied by it.
   double spacing_ratio = 1;
 };
 
 // Turns one scan. Const calls may run concurrently.
 class Turntable {
  public:
-  // The approximate number of points inside a turned relief; some 3,000 along outlines come on top.
+  // The approximate number of points inside a turned relief; some 3,000 along outlines are added.
   static constexpr std::size_t points = 15'000;
 
   // Copies what it needs of the cloud.
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 
-  // Returns the relief of a view. `like` is a model of the same scan in another view, whose height correction this one
-  // takes over, or null. Errors: kind geometry if the view shows no area; kind cancelled.
+  // Returns the relief of a view. `like` is a model of the same scan in another view, whose parameters of the
+  // height correction are used, or null. Errors: kind geometry if the view shows no area; kind cancelled.
   Result<TurnedRelief> turn(const View& view, const ReliefModel* like, Progress* progress = nullptr) const;
 
  private:

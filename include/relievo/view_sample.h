@@ -15,11 +15,11 @@ struct SampleNote {
   enum class Kind {
     outliers,           // `points` far from the middle were left out
     repeated,           // `points` that repeat others were left out
-    estimated_normals,  // the model has none
-    turned_normals,     // the model's point inwards
+    estimated_normals,  // normals were estimated, because the model has none
+    turned_normals,     // normals were reversed, because they point inwards
     mesh,               // `points` were taken from a mesh of `of` triangles
     coarse,             // the cloud is coarser than the scene: points were taken between its own
-    fine                // the cloud is finer than the scene: `points` of its `of` were kept
+    fine                // the cloud is finer than the scene: `points` of its `of` points were kept
   };
 
   Kind kind = Kind::outliers;
@@ -30,8 +30,8 @@ struct SampleNote {
 };
 
 struct ViewSample {
-  std::shared_ptr<const Cloud> cloud;  // in the scene's frame; part of the file where no point was changed
-  std::size_t left_out = 0;            // outliers, of all models together
+  std::shared_ptr<const Cloud> cloud;  // in the scene's frame; the file's own if no point was changed
+  std::size_t left_out = 0;            // number of outliers of all models together
   std::vector<SampleNote> notes;
 };
 

@@ -1,4 +1,5 @@
-// Words that stand for the values of an enumeration: one table reads them, writes them and names them in errors.
+// Words that stand for the values of an enumeration: one table reads them, writes them and names them in
+// errors.
 #pragma once
 
 #include <array>
@@ -12,14 +13,15 @@ namespace relievo {
 
 template <typename E>
 struct Choice {
-  std::string_view name;  // as typed
+  std::string_view name;  // the word that users type
   E value;
 };
 
 // Returns "a, b or c".
 std::string either(const std::vector<std::string_view>& names);
 
-// Returns the error for a word that is none of those: "expected one of a, b or c, found 'x'", of kind option.
+// Returns the error for a word that is not in `names`: "expected one of a, b or c, found 'x'". Its kind is
+// option.
 std::unexpected<Error> not_one_of(std::string_view option, const std::vector<std::string_view>& names,
                                   std::string_view found);
 
@@ -31,7 +33,8 @@ std::vector<std::string_view> names_of(const std::array<Choice<E>, n>& choices) 
   return names;
 }
 
-// Returns the value of that word. Errors: kind option, naming `option` and all words, for any other.
+// Returns the value of the word `text`. Errors: kind option, naming `option` and all words, for any other
+// text.
 template <typename E, std::size_t n>
 Result<E> parse_choice(std::string_view option, std::string_view text,
                        const std::array<Choice<E>, n>& choices) {
@@ -40,7 +43,7 @@ Result<E> parse_choice(std::string_view option, std::string_view text,
   return not_one_of(option, names_of(choices), text);
 }
 
-// Returns the word of a value that the table has; empty for others.
+// Returns the word of `value`; empty if the table has no such value.
 template <typename E, std::size_t n>
 constexpr std::string_view name_in(const std::array<Choice<E>, n>& choices, E value) {
   for (const Choice<E>& choice : choices)

@@ -17,7 +17,7 @@ enum class ErrorKind {
   memory,     // an allocation failed; see within_memory.h
 };
 
-// Returns the kind's name, as it stands in files and messages: "input", "option" and so on.
+// Returns the kind's name, as written in files and messages: "input", "option" and so on.
 constexpr std::string_view name_of(ErrorKind kind) {
   constexpr std::string_view names[] = {"input", "option", "geometry", "cancelled", "output", "memory"};
   return names[static_cast<int>(kind)];
@@ -43,8 +43,8 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return an error of kind input, option, geometry or cancelled, ready to be returned from a function that returns a
-// Result.
+// Return an error of kind input, option, geometry or cancelled, ready to be returned from a function that
+// returns a Result.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }
@@ -61,15 +61,15 @@ inline std::unexpected<Error> cancelled_error() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
-// Macros, as only these can return from the function they stand in.
+// These are macros, because only a macro can return from the function that uses it.
 #define RELIEVO_JOIN_(a, b) a##b
 #define RELIEVO_JOIN(a, b) RELIEVO_JOIN_(a, b)
 
-// Returns the error of a Result, if it is one.
+// Returns from the calling function with the error of a Result, if the Result is an error.
 #define RELIEVO_CHECK(...) \
   if (auto checked = (__VA_ARGS__); !checked) return std::unexpected(std::move(checked).error())
 
-// Declares a variable with the value of a Result, or returns its error:
+// Declares a variable with the value of a Result, or returns the Result's error from the calling function:
 // RELIEVO_TRY(const Surface surface, find_surface(cloud, view));
 #define RELIEVO_TRY(declaration, ...) RELIEVO_TRY_(RELIEVO_JOIN(tried_, __LINE__), declaration, __VA_ARGS__)
 #define RELIEVO_TRY_(result, declaration, ...)                    \

@@ -16,7 +16,7 @@ struct Image {
 
   bool empty() const { return pixels.empty(); }
 
-  // The values in their order: row by row, the channels of a pixel side by side.
+  // The number and the elements of `pixels`: row by row, the channels of a pixel side by side.
   std::size_t size() const { return pixels.size(); }
   T& operator[](std::size_t i) { return pixels[i]; }
   const T& operator[](std::size_t i) const { return pixels[i]; }
@@ -33,7 +33,7 @@ struct Image {
   T& at(int x, int y) { return pixels[index(x, y)]; }
   const T& at(int x, int y) const { return pixels[index(x, y)]; }
 
-  // Gives the image a size of 0 or more and values that are not specified. Keeps memory it has.
+  // Sets the size, each side 0 or more. The values are then unspecified. Allocated memory is kept.
   void resize(int new_width, int new_height, int new_channels = 1) {
     width = new_width;
     height = new_height;

@@ -23,11 +23,12 @@ constexpr std::string_view name_of(LengthUnit unit) {
 // Returns the unit called "mm" or "in". Errors: kind option for any other name; the error's input is "units".
 Result<LengthUnit> parse_unit(std::string_view name);
 
-// Returns the length in millimetres of a text such as "12.5mm", "2,5cm", "4in", "4\"", "1 3/8in" or "3+0.5": a number,
-// a fraction of two, both, or a sum of such, followed by a unit for all of it, with or without spaces. Numbers have
-// a decimal point or comma; "1,234" is refused, for it could be a thousand. A text without a unit is in `bare` units.
-// The result is finite and may have any sign. Errors: kind option for any other text; the error's input is empty, for
-// the caller to fill in. apps/studio/page/lengths.js is its twin; tests/core/lengths.json has cases for both.
+// Returns the length in millimetres of a text such as "12.5mm", "2,5cm", "4in", "4\"", "1 3/8in" or "3+0.5":
+// a number, a fraction, a number with a fraction, or a sum of these, followed by one unit for the whole, with
+// or without spaces. Numbers have a decimal point or comma; "1,234" is refused, because it could mean a
+// thousand. A text without a unit is in `bare` units. The result is finite and may have any sign. Errors:
+// kind option for any other text; the error's input is empty, for the caller to fill in.
+// apps/studio/page/lengths.js is the same function in JavaScript; tests/core/lengths.json has cases for both.
 Result<double> parse_length(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 }  // namespace relievo

@@ -1,7 +1,7 @@
-// Parallel loops, and the only file of the library that creates threads; where a system has none, as WebAssembly here, the
-// calling thread does all work. Work is cut into blocks whose limits
-// depend on the amount of work alone, never on the number of threads, so that results have the same bits for
-// any number of threads. Tested by tests/core/parallel_test.cpp.
+// Parallel loops. Only this file of the library creates threads. On a system without threads, such as
+// WebAssembly, the calling thread does all work. Work is cut into blocks whose limits depend on the amount of
+// work alone, never on the number of threads, so that results have the same bits for any number of threads.
+// Tested by tests/core/parallel_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -21,24 +21,24 @@ namespace relievo {
 // of hardware threads.
 int thread_count();
 
-// Sets that number for the whole process, clamped to [1, 256]; 0 stands for the number of hardware threads.
-// Must not be called while a parallel call runs.
+// Sets the number of threads for the whole process, clamped to [1, 256]; 0 stands for the number of hardware
+// threads. Must not be called while a parallel call runs.
 void set_thread_count(int threads);
 
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
 // Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
-// are started in ascending order. If some throw, blocks that have not begun are left out, and the exception of the lowest
-// block that threw is thrown here: it is the same one with any number of threads. While the threads work for another call,
-// the calling thread works alone; so it does in a nested call.
+// are started in ascending order. If blocks throw, those that have not begun are skipped, and the exception
+// of the lowest block that threw is rethrown: it is the same one for any number of threads. While the threads
+// work for another call, and in a nested call, the calling thread works alone.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
 inline constexpr std::size_t default_grain = 4096;
 
 // Calls f(begin, end) for consecutive ranges of at most `grain` elements that together are [0, n). The ranges
-// run concurrently, so f may only write what belongs to its own range. If f throws, some ranges after that are
-// left out, and the calling thread gets the exception; so it does from all functions below.
+// run concurrently, so f may only write what belongs to its own range. If f throws, some later ranges are
+// skipped, and the calling thread gets the exception. This applies to all functions below.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {
@@ -61,8 +61,8 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
   });
 }
 
-// Calls both, concurrently or one after the other, so neither may wait for the other. A parallel call in one of them
-// runs on its thread alone.
+// Calls both functions, concurrently or one after the other, so neither may wait for the other. A parallel
+// call inside one of them runs on that function's thread alone.
 template <typename First, typename Second>
 void parallel_both(First&& first, Second&& second) {
   parallel_for(
@@ -81,8 +81,8 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
 }
 
 // One flag per block, for blocks that need the results of earlier ones. A block may only wait for a block of
-// the same parallel call with a lower number: as blocks are started in order, that one is running or done, so
-// that there is no deadlock.
+// the same parallel call with a lower number: as blocks are started in order, the awaited block is running or
+// done, so that there is no deadlock.
 class BlockFlags {
  public:
   explicit BlockFlags(std::size_t blocks = 0) : flags_(blocks) {}
@@ -91,8 +91,8 @@ class BlockFlags {
     for (auto& flag : flags_) flag.store(0, std::memory_order_relaxed);
   }
   void set(std::size_t block) { flags_[block].store(1, std::memory_order_release); }
-  // Returns when the flag is set. Everything that was written before set() is then visible. Throws if the flag will never
-  // be set because an earlier block threw.
+  // Returns when the flag is set. Everything that was written before set() is then visible. Throws if the
+  // flag will never be set because an earlier block threw.
   void wait(std::size_t block) const;
 
  private:
@@ -131,8 +131,9 @@ class Guarded {
   T value_;
 };
 
-// A thread that calls one function repeatedly as long as it returns true, and then sleeps until wake(). Its
-// methods may be called from any other thread. If the function throws, the loop sleeps as if it had returned false. Where there are no threads, wait_until_idle() calls the function.
+// A thread that calls one function repeatedly as long as the function returns true, and then sleeps until
+// wake(). The loop's methods may be called from any other thread. If the function throws, the loop sleeps as
+// if it had returned false. Where there are no threads, wait_until_idle() calls the function.
 class BackgroundLoop {
  public:
   explicit BackgroundLoop(std::function<bool()> step);

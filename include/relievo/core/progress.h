@@ -17,9 +17,9 @@ struct StageTime {
   double seconds = 0;
 };
 
-// Long calls take a pointer to it as their last argument; a null pointer means that nobody watches.
-// stage() and times() may only be called by the thread that runs the call; cancel() and is_cancelled() by any
-// thread at any time.
+// Long calls take a pointer to a Progress as their last argument; a null pointer means that nothing is
+// reported or cancelled. stage() and times() may only be called by the thread that runs the call; cancel()
+// and is_cancelled() by any thread at any time.
 class Progress {
  public:
   // Called at the start of each stage with its name and the fraction done so far, in [0, 1], never
@@ -54,10 +54,11 @@ class Progress {
   double fraction_ = 0;
 };
 
-// Returns an error of kind `cancelled` if cancel() was called. For long stages; the pointer may be null.
+// Returns an error of kind `cancelled` if cancel() was called. Long stages call it repeatedly. The pointer
+// may be null.
 Result<void> check_cancelled(const Progress* progress);
 
-// Calls stage() on a pointer that may be null, in which case it does nothing.
+// Calls stage(); does nothing if the pointer is null.
 inline Result<void> begin_stage(Progress* progress, std::string_view name, double fraction) {
   return progress ? progress->stage(name, fraction) : Result<void>{};
 }

@@ -26,8 +26,8 @@ void append(std::string& out, T number) {
   out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-// Returns the parts joined: texts, characters and numbers, floating-point numbers with six significant
-// digits.
+// Returns the parts joined. Parts are texts, characters and numbers; floating-point numbers get six
+// significant digits.
 template <typename... Parts>
 std::string cat(const Parts&... parts) {
   std::string out;
@@ -35,8 +35,8 @@ std::string cat(const Parts&... parts) {
   return out;
 }
 
-// Returns the text for XML or HTML: with the characters escaped that have a meaning there, and blanks in the place of
-// control characters, which these do not allow.
+// Returns the text for XML or HTML: characters with a meaning there are escaped, and control characters,
+// which are not allowed there, become blanks.
 std::string escaped_markup(std::string_view text);
 
 // Parses finite numbers with commas between them. Returns nothing for any other text.

@@ -20,7 +20,7 @@ using Mat3 = Eigen::Matrix3d;
 using Index = std::uint32_t;
 inline constexpr Index no_index = ~Index{0};
 
-// Three vertices, counter-clockwise as seen from +Z; those of a solid as seen from outside.
+// Three vertices, counter-clockwise as seen from +Z, in a solid as seen from outside.
 using Triangle = std::array<Index, 3>;
 
 // The unit of coordinates and lengths; core/length.h reads and names it.
@@ -62,7 +62,7 @@ struct Box {
   Vec3 size() const { return is_empty() ? Vec3::Zero() : Vec3(max - min); }
   Vec3 centre() const { return is_empty() ? Vec3::Zero() : Vec3((min + max) / 2); }
   double diagonal() const { return size().norm(); }
-  // The longer one of its sides in x and y.
+  // Returns the longer of the box's sides in x and y.
   double longer_side() const { return std::max(size().x(), size().y()); }
 };
 

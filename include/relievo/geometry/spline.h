@@ -18,20 +18,20 @@ struct SplineOptions {
   int levels = 5;  // number of lattices, [1, 16]; cells are twice as wide from each to the next coarser
   // The levels that are fitted, counted from the coarsest, 0; the others only refine the coarser function.
   int first_fitted = 0, last_fitted = 15;
-  // In units of the mean weight of the sites, >= 0; see MultilevelSpline::fit().
+  // The damping in units of the mean weight of the sites, >= 0; see MultilevelSpline::fit().
   double damping = 0;
 };
 
 // A point relative to the finest lattice.
 struct SplinePlace {
-  Index node = 0;              // lower left of the 4 x 4 nodes with an influence
-  std::uint16_t x = 0, y = 0;  // position in the middle cell of these, in 65536ths
+  Index node = 0;              // lower left of the 4 x 4 nodes that influence the point
+  std::uint16_t x = 0, y = 0;  // position in the middle cell of these nodes, in 65536ths
 };
 
 // A function of the plane: a constant plus a uniform cubic B-spline.
 struct SplineFunction {
   float mean = 0;
-  std::vector<float> nodes;  // of the finest lattice, row by row
+  std::vector<float> nodes;  // values at the nodes of the finest lattice, row by row
 };
 
 // Fits and evaluates functions given at fixed sites. Const calls may run concurrently.
@@ -49,7 +49,7 @@ class MultilevelSpline {
   // Prepares fits at the sites. Each has a weight >= 0 relative to the other sites near it.
   MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights, const SplineOptions& options);
 
-  // Returns the bytes held.
+  // Returns the memory used, in bytes.
   std::size_t memory() const;
 
   SplineFunction make_function() const;
@@ -61,7 +61,7 @@ class MultilevelSpline {
   // all weights are 0, the function is 0.
   void fit(std::span<const float> values, SplineFunction& function, Workspace& workspace) const;
 
-  // Returns the places of points, for evaluate().
+  // Returns the points relative to the finest lattice, for evaluate().
   std::vector<SplinePlace> pack(std::span<const Vec2> points) const;
 
   // Writes the function's value at each place to `values`, which has the same size.
@@ -83,7 +83,7 @@ class MultilevelSpline {
  private:
   struct Position {
     Index node = 0;
-    float x = 0, y = 0;  // in the middle cell, [0, 1]
+    float x = 0, y = 0;  // position in the middle cell, [0, 1]
   };
   struct Site {
     Eigen::Array4f x, y;  // weights of the 4 nodes along each axis
@@ -91,7 +91,7 @@ class MultilevelSpline {
     float scale = 0;  // the site's weight divided by the sum of their squares
   };
   struct Level {
-    std::size_t columns = 0, rows = 0;  // of nodes: cells + 3
+    std::size_t columns = 0, rows = 0;  // numbers of nodes: cells + 3
     double cell = 0;
     std::vector<Site> sites;     // empty unless the level is fitted
     std::vector<float> inverse;  // per node, 1 / the weight around it

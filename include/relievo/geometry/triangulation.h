@@ -21,7 +21,8 @@ struct Triangulation {
 // Returns the Delaunay triangulation of `points`.
 //
 // - Of points with equal coordinates the one with the lowest index is used; the others are in no triangle.
-// - If there are fewer than three distinct points, or all are on one line, there are no triangles and no hull.
+// - If there are fewer than three distinct points, or all are on one line, there are no triangles and no
+//   hull.
 // - Cocircular points are triangulated in any valid way, the same for the same input on every machine.
 // - The result is empty unless all coordinates are 0 or of a magnitude in [1e-60, 1e70], where the predicates
 //   are exact, and there are fewer than 2^29 - 1 points.

@@ -1,4 +1,4 @@
-// Scans from the bytes of a file. The file system belongs to the programs: nothing here opens a file.
+// Reads scans from the bytes of a file. Only the programs open files; no function here does.
 #pragma once
 
 #include <cstddef>
@@ -18,49 +18,49 @@ namespace relievo {
 // (PLY, STL ...) or depth image (PNG, TIFF)".
 std::string readable_formats();
 
-// Returns the endings of the names of such files, with the dot and in lower case.
+// Returns the endings of the names of readable files, with the dot and in lower case.
 std::vector<std::string> readable_endings();
 
-// Returns the bytes of a file that the file being read names: of a glTF, the buffers. The name is relative to
-// the folder of the file being read, in UTF-8, and does not lead out of that folder. Why it fails is for the
-// caller to know.
+// Returns the bytes of another file to which the file being read refers, such as a buffer of a glTF. The name
+// is relative to the folder of the file being read, in UTF-8, and does not lead out of that folder.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
-// Returns the points in `bytes`, and the triangles if it has any. The format is recognised by the content,
-// then by the ending of `name`; anything else is read as text of numbers. src/io/formats.h says what is read
-// of each format. Errors name `name`, too.
+// Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content,
+// then by the ending of `name`; anything else is read as text of numbers. src/io/formats.h states which parts
+// of each format are read. Errors contain `name`.
 //
-// Polygons become triangles that cover them, concave ones too, as if they were flat. A polygon that crosses
-// itself becomes a triangle fan.
+// Polygons, concave ones too, are triangulated as if they were flat. A polygon that crosses itself becomes a
+// triangle fan.
 //
 // Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf. A number beyond the
 // range of double is infinite.
 //
-// Files that this one names are asked for by `beside`, at most once each; without it such a file is an error.
+// `beside` is called for the other files to which this one refers, at most once each. Without `beside` such a
+// reference is an error.
 //
-// Errors (kind input) state the line or the byte and what was expected there, or the name of a format that is
-// not read, "a PTX file". A file without a point of finite coordinates is an error. A header that promises
-// more than the bytes contain is an error before anything is allocated for it; but LAS is read as far as it goes. Reading always ends: there is
-// no recursion, and the time is linear in the bytes, but for concave polygons of at most 10,000 corners, for
-// which it grows with the square of their number.
+// Errors (kind input) state the line or the byte and what was expected there, or the name of an unsupported
+// format, "a PTX file". A file without a point of finite coordinates is an error. So is a header that
+// promises more than the bytes contain, before memory is allocated for it; a LAS file that ends early,
+// however, is read up to its end. Reading always ends: there is no recursion, and the time is linear in the
+// number of bytes, except for concave polygons of at most 10,000 corners, where it is quadratic in the number
+// of corners.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
 // Returns true for the beginning of a PNG or TIFF file.
 bool is_picture(std::span<const std::byte> bytes);
 
-// The values of a picture that has several per pixel.
+// Selects the value to read from a picture with several values per pixel.
 struct PictureChannels {
-  bool is_luminance_wanted = false;  // of colours, as Rec. 709 weighs them; of grey, the only values
-  int channel = 0;                   // that is read alone, from 1; 0: the only one
+  bool is_luminance_wanted = false;  // reads the luminance of colours (Rec. 709)
+  int channel = 0;                   // number of the channel to read, from 1; 0: the only one
 };
 
 // Returns the depths in a PNG (grey, 8 or 16 bits; colour if all channels are equal) or TIFF (grey; whole
 // numbers of 1 to 32 and 64 bits or fractions of 16, 32 and 64, strips or tiles, any compression that libtiff
-// knows). Transparency is not read. Values that GDAL's tag states as no data are NaN; where 0 is white, whole
-// numbers are inverted, so that bright pixels have large values. Errors: kind input for other or broken
-// pictures, palettes among them, for a channel that is not there, and for more than 2^27 pixels or fewer than
-// 4 x 4.
+// knows). Transparency is not read. Values that GDAL's no-data tag states become NaN. In pictures where 0 is
+// white, whole numbers are inverted, so that bright pixels have large values. Errors: kind input for other or
+// broken pictures and palettes, for a missing channel, and for more than 2^27 pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 

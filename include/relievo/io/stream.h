@@ -1,5 +1,5 @@
-// Clouds too large for memory: they are read piece by piece, and reduced to what the viewer sees at the
-// desired resolution.
+// Clouds too large for memory: they are read piece by piece and reduced to the points that the viewer sees,
+// at the desired resolution.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ struct StreamedCloud {
   Cloud cloud;                       // in the frame of the file
   std::string format;                // for people
   std::uint64_t input_points = 0;    // in the file
-  std::uint64_t ignored_faces = 0;   // of the file: only its points are read
-  std::uint64_t missing_points = 0;  // promised by the header of a file that ends before them
+  std::uint64_t ignored_faces = 0;   // faces of the file, which are not read
+  std::uint64_t missing_points = 0;  // promised by the header, but missing because the file ends early
 };
 
 // Returns true if stream_front() reads the file that begins with these bytes: binary PLY without lists in the
@@ -47,7 +47,7 @@ bool can_stream(std::span<const std::byte> head, std::string_view name);
 // reversed. The file is read three times, and a few pieces once more; memory is 80 bytes per square plus 40
 // MB, whatever the file's size. The result has the same bits for any number of threads. Errors: kind input as
 // read_cloud() gives them, and for bytes that can_stream() refuses; kind option for a number of points not in
-// [1000, 1e7]; kind geometry if no point faces the viewer; kind cancelled, at the next piece of 8 MB.
+// [1000, 1e7]; kind geometry if no point faces the viewer; kind cancelled, checked after each piece of 8 MB.
 Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view, double points,
                                    Progress* progress = nullptr);
 

@@ -1,4 +1,4 @@
-// The bytes of files for solids, clouds, pictures and height maps.
+// Writes solids, clouds, pictures and height maps as the bytes of files.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,9 @@ std::vector<std::byte> write_obj(const Solid& solid);
 
 // Returns the solid as 3MF (core specification 1.3): one object with the solid's unit and coordinates, in
 // single precision. `metadata` becomes the model's metadata, keys being names that the specification knows
-// (Title, Description, Designer, Copyright, Application ...). The same solid gives the same bytes: no dates.
-// Empty if memory does not suffice. The solid must pass check_solid().
+// (Title, Description, Designer, Copyright, Application ...). The same solid gives the same bytes, because
+// the file contains no dates. The result is empty if memory does not suffice. The solid must pass
+// check_solid().
 std::vector<std::byte> write_3mf(const Solid& solid,
                                  std::span<const std::pair<std::string, std::string>> metadata = {});
 
@@ -34,26 +35,28 @@ struct ZipEntry {
   std::span<const std::byte> content;
 };
 
-// Returns a ZIP archive of the files, in their order, deflated at that level from 1 to 9, or for 0 as small as may
-// be. The same files give the same bytes: no dates. Empty if memory does not suffice.
+// Returns a ZIP archive of the files, in their order, deflated at `level`, from 1 to 9; level 0 gives the
+// smallest archive. The same files give the same bytes, because the archive contains no dates. The result is
+// empty if memory does not suffice.
 std::vector<std::byte> write_zip(std::span<const ZipEntry> entries, unsigned level);
 
-// Returns the cloud as binary little-endian PLY with float properties x y z (double when float would lose
-// digits that matter, i.e. if the box lies more than 1,000 times its diagonal from the origin, or overflow)
-// and float nx ny nz if present. `comment` goes into the header, in one line.
+// Returns the cloud as binary little-endian PLY with float properties x y z, and nx ny nz if present. x y z
+// are double where float would overflow or lose digits that matter, i.e. if the box lies more than 1,000
+// times its diagonal from the origin. `comment` goes into the header, in one line.
 std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = {});
 
 // Return the image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
-// characters, values of at least one. A positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs).
-// The result is empty for an image without pixels or with a side of more than a million, for a number of pixels
-// other than width times height, and for other keys and values.
+// characters, values of at least one. A positive `mm_per_pixel` is stored as the physical size of a pixel
+// (pHYs). The result is empty for an image without pixels or with a side of more than a million, for a number
+// of pixels other than width times height, and for other keys and values.
 std::vector<std::byte> write_png(const Image8& image);
 std::vector<std::byte> write_png(const Image16& image,
                                  std::span<const std::pair<std::string, std::string>> text = {},
                                  double mm_per_pixel = 0);
 
 // Returns the heights as a deflated float32 TIFF, with pixels per centimetre in its resolution tags, and
-// mm_per_pixel and the unit of the heights in its description. Empty for an image without pixels.
+// mm_per_pixel and the unit of the heights in its description. The result is empty for an image without
+// pixels.
 std::vector<std::byte> write_tiff(const HeightsMm& heights);
 
 }  // namespace relievo

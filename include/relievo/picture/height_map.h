@@ -14,16 +14,17 @@ struct HeightMap {
   double mm_per_grey = 0;   // height of one grey step
 };
 
-// Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel holds the
-// height of the solid's triangle under its centre, that on the outline included, and 0 beside the plate. The front's box
-// lies in the middle of the picture. A flat front gives zeros. No pixels for an empty solid or a side not in [1, 32768].
+// Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel has
+// the height of the solid's triangle under its centre, the outline included, or 0 beside the plate. The
+// front's box lies in the middle of the picture. A flat front gives zeros. The result has no pixels for an
+// empty solid or a side not in [1, 32768].
 HeightMap make_height_map(const Solid& solid, int longer_side_px);
 
 // Heights in millimetres above the lowest point of the front, row-major, first row at the top.
 struct HeightsMm {
   Image<float> image;
   double mm_per_pixel = 0;
-  std::string note = {};  // more to be said in a file's description
+  std::string note = {};  // text to append to the description in a file
 };
 
 // Returns the front of a solid as heights, see make_height_map().

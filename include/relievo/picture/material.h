@@ -16,9 +16,9 @@ inline constexpr std::array<Choice<Material>, 5> material_choices{{{"plaster", M
                                                                    {"walnut", Material::walnut},
                                                                    {"porcelain", Material::porcelain}}};
 
-// Towards the lamp, seen from the plate: from the upper left, where people assume light to come from (Kleffner
-// and Ramachandran, On the perception of shape from shading, 1992), and 30 degrees above the plate, which is
-// low enough for the slopes of a shallow relief to differ.
+// The direction towards the lamp, seen from the plate. Light comes from the upper left, as people assume
+// (Kleffner and Ramachandran, On the perception of shape from shading, 1992), and from 30 degrees above the
+// plate, which is low enough for the slopes of a shallow relief to differ.
 inline const Vec3f upper_left_lamp(-1, 1, .8F);
 
 }  // namespace relievo

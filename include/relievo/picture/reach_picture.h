@@ -5,8 +5,8 @@
 
 namespace relievo {
 
-// Returns the front from above, shaded, with the material that the tool leaves in orange to red, by its share
-// of the largest residual. No pixels if there are no samples.
+// Returns the front from above, shaded, with the material that the tool leaves coloured from orange to red,
+// by its share of the largest residual. The result has no pixels if there are no samples.
 Image8 render_reach(const ToolReach& reach, int longer_side_px);
 
 }  // namespace relievo

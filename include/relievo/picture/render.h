@@ -23,12 +23,12 @@ struct Picture {
   double pixels_per_mm = 1;
 };
 
-// Turned first about the upright axis of the picture, then about the level one; without turns it is the view
-// from the front.
+// A camera that is turned first about the vertical axis of the picture, then about the horizontal one.
+// Without turns it views the plate from the front.
 struct Camera {
   double yaw_deg = 0, pitch_deg = 0;
   double zoom = 1;          // 1 fits the plate into the picture
-  Vec2 pan = Vec2::Zero();  // of the plate's plane, in mm: the place in the middle of the picture
+  Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, in the middle of the picture
 
   bool operator==(const Camera&) const = default;
 };
@@ -40,53 +40,53 @@ struct RenderOptions {
   Camera camera;
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate; not zero
-  bool has_shadows = true;        // cast by the relief on itself, and darker hollows
+  bool has_shadows = true;        // shadows that the relief casts on itself, and darker hollows
   bool is_fine = false;           // nine samples per pixel and finer shadows, for about five times the time
 
-  // Returns whether width and height are in [1, 8192]: else the picture is empty.
+  // Returns whether width and height are in [1, 8192]. If not, the picture is empty.
   bool has_size() const { return std::min(width, height) >= 1 && std::max(width, height) <= 8192; }
 
   bool operator==(const RenderOptions&) const = default;
 };
 
-// Normals that a surface of few points leaves out: -(n_x, n_y) on a grid of square cells over the view plane, in rows from
-// below upwards. Where the scan shows nothing, or an edge, it is not a number.
+// Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
+// view plane, in rows from below upwards. A cell is NaN where the scan shows nothing, or an edge.
 struct SurfaceDetail {
-  Vec2f corner =
-      Vec2f::Zero();  // of the first cell, in the units and from the origin of the surface's points
+  Vec2f corner = Vec2f::Zero();  // lower left of the grid, in the coordinates of the surface's points
   float cell = 1;
   Image<Vec2f> xy;
-  std::vector<Vec2f> own;  // per point of the surface: the same of its own normal
+  std::vector<Vec2f> own;  // per point of the surface: -(n_x, n_y) of its own normal
 };
 
-// The shading of a surface's points: one entry per point.
+// The heights and normals with which a surface is drawn, one entry per point.
 struct Shown {
   std::span<const float> heights;                  // in the model's units, above the ground
   std::span<const Vec3f> normals;                  // unit length
-  float stretch = 1;                               // shown this much higher, normals and all, > 0
-  std::optional<std::array<float, 2>> range = {};  // lowest and highest, if known: else they are searched for
-  // Adds the detail to the slopes between the points, times a gain for each, see FrameMaker::write_gains().
+  float stretch = 1;                               // factor of the heights and normals in the picture, > 0
+  std::optional<std::array<float, 2>> range = {};  // lowest and highest; searched for if not given
+  // The detail, times a gain per point, is added to the slopes between the points, see
+  // FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
 };
 
-// Draws frames of one model on a rectangular plate, on nothing (opacity 0) but the plate's soft shadow. Not for
-// concurrent use. From the front the visible triangle of each pixel is kept: while only heights or light
-// change, a picture is a look-up per pixel. About 10 ms for 500,000 pixels on two cores, orbiting three times
-// that.
+// Draws frames of one model on a rectangular plate. The background is transparent (opacity 0) except for the
+// plate's soft shadow. Not for concurrent use. In the view from the front the visible triangle of each pixel
+// is cached: if only heights or light change, a picture takes one look-up per pixel, about 10 ms for 500,000
+// pixels on two cores. A picture from another direction takes three times as long.
 class FrameRenderer {
  public:
-  // Shares the model.
+  // Shares ownership of the model.
   explicit FrameRenderer(std::shared_ptr<const ReliefModel> model);
   FrameRenderer(FrameRenderer&&) noexcept;
   ~FrameRenderer();
 
-  // Overwrites the picture; leaves it without pixels for a size out of range. `shown` has an entry for each
+  // Overwrites the picture, which gets no pixels if the size is out of range. `shown` has an entry for each
   // point of the model's surface. A picture that is cancelled is left unfinished.
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
-  // The model itself, as the scan has it: its depth above its lowest visible point.
+  // Returns the model itself, uncompressed: its depths above its lowest visible point.
   Shown original() const;
 
   // Returns `samples` heights in mm above the ground, evenly spaced along the line between two places of the
@@ -99,13 +99,13 @@ class FrameRenderer {
   std::unique_ptr<State> state_;
 };
 
-// Draws a cloud from any side, for choosing a view: its points as discs that overlap.
+// Draws a cloud from any side, for choosing a view. The points are drawn as discs that overlap.
 class CloudRenderer {
  public:
   // Copies at most 250,000 of the cloud's points; estimates normals if there are none.
   explicit CloudRenderer(const Cloud& cloud);
 
-  // Overwrites the picture of the cloud, seen in the view, on nothing.
+  // Overwrites the picture with the cloud as seen in the view, on a transparent background.
   void render(const View& view, int width, int height, Picture& picture) const;
 
  private:

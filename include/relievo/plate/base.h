@@ -19,7 +19,7 @@ enum class BaseKind {
   plane,
   fold,      // two planes that meet in a ridge
   wave,      // a cosine
-  cylinder,  // seen from outside, lying on the plate
+  cylinder,  // the outside of a cylinder that lies on the plate
   dome,      // the cap of a sphere
   image      // a height map
 };
@@ -40,8 +40,8 @@ struct BaseOptions {
   std::optional<double> diameter_mm;  // cylinder: default twice the plate's width (if no height either);
                                       // dome: default from a height of 0.15 of the plate's radius
   std::optional<double> length_mm;    // wave: from crest to crest; default half the plate, at least 4 heights
-  double direction_deg = 90;  // of the straight lines, counter-clockwise from the x axis; 90 is upright
-  bool is_hollow = false;     // turned over: a valley, a trough, a bowl
+  double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is upright
+  bool is_hollow = false;     // upside down: a valley, a trough, a bowl
   bool is_mirrored = false;   // left and right swapped
   // image: its heights in any unit; height_mm is then a tenth of the plate by default
   std::shared_ptr<const Image<float>> image;
@@ -49,8 +49,8 @@ struct BaseOptions {
   bool operator==(const BaseOptions&) const = default;  // images are equal if they are the same object
 };
 
-// Returns the base of a text like "wave", "wave:height=3,length=40" or "dome:diameter=90,hollow". Errors:
-// kind option for any other text.
+// Returns the base that a text describes, such as "wave", "wave:height=3,length=40" or
+// "dome:diameter=90,hollow". Errors: kind option for any other text.
 Result<BaseOptions> parse_base(std::string_view text);
 
 // The base over one plate. Its height in the plate's middle is 0.
@@ -61,8 +61,9 @@ class Base {
 
   // Returns the base over a plate of that outline; the outline's box gives its middle and size. An image is
   // scaled until it covers the plate, and its excess is cut off. Errors: kind option for a number out of its
-  // range, for two that contradict each other, for a surface (no image) steeper than 80 degrees somewhere on
-  // the plate, for an image that is missing or smaller than 2 x 2 or has values that are not finite.
+  // range, for numbers that contradict each other, for a surface (other than an image) steeper than 80
+  // degrees somewhere on the plate, for an image that is missing or smaller than 2 x 2 or has values that are
+  // not finite.
   static Result<Base> over(const BaseOptions& options, std::span<const Vec2> outline);
 
   bool is_plane() const { return kind_ == BaseKind::plane; }
@@ -71,10 +72,11 @@ class Base {
   double height(const Vec2& place) const;
 
   // Returns an approximate length in mm within which the base curves to one side only; infinite for bases
-  // that do so everywhere.
+  // that curve to one side everywhere.
   double min_feature_mm() const { return min_feature_mm_; }
 
-  // Returns where the way from a to b crosses the ridge of a fold, in (0, 1); nothing if it does not.
+  // Returns the position, in (0, 1), at which the segment from a to b crosses the ridge of a fold; nothing if
+  // it crosses none.
   std::optional<double> ridge_between(const Vec2& a, const Vec2& b) const;
 
  private:

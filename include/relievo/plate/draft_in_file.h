@@ -1,4 +1,4 @@
-// The slopes of a solid in files, whose coordinates are rounded to single precision, and their limit.
+// Measures and limits the slopes of a solid as files store it, with coordinates rounded to single precision.
 #pragma once
 
 #include "relievo/plate/solid.h"
@@ -6,15 +6,14 @@
 namespace relievo {
 
 // Returns the steepest slope (tangent) of the front's triangles, with corners rounded to single precision as
-// in files. Infinite if a triangle that is not level stands upright or hangs over.
+// in files. Infinite if a triangle is vertical or overhangs, unless it is level.
 double steepest_slope(const Solid& solid);
 
 // Moves points of the solid's front up or down, as far as rounding to single precision requires, until none
-// of its triangles is steeper than the limit in a file; returns the largest move in mm, usually
-// below 1e-5. The ground, the highest and the lowest points stay. Errors: kind geometry, with the solid
-// unchanged, if no such moves are found: because the front was steeper before, or because rounding made
-// triangles too steep that moves cannot mend, between fixed points or points a few steps of single precision
-// apart.
+// of its triangles is steeper than the limit in a file; returns the largest move in mm, usually below 1e-5.
+// The ground, the highest and the lowest points stay. Errors: kind geometry, with the solid unchanged, if no
+// such moves are found. Then the front was too steep before, or rounding made triangles too steep whose
+// points are fixed or only a few steps of single precision apart.
 Result<double> enforce_draft_in_float(Solid& solid, double max_slope);
 
 }  // namespace relievo

@@ -15,7 +15,7 @@ struct Surface;
 enum class Form {
   relief,
   mirror,     // left and right swapped, as for a stamp
-  die,        // the hollow that strikes or casts the relief: high is deep, left and right swapped
+  die,        // the hollow that strikes or casts the relief: deep where it is high, left and right swapped
   lithophane  // held before a light it shows the model: thick where the model is dark
 };
 
@@ -32,10 +32,10 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 
 // Returns a lithophane of the surface, scaled by `mm_per_unit`, with heights from 0, where the model is
 // brightest, to `height_mm`. A plate transmits light as exp(-thickness), so a height is minus the logarithm
-// of the brightness: that of a white model under a lamp from the upper left, times the luminance of its
-// colours if it has any. Highlights, the brightest 2 % of the points, count as equally bright. The ground and the
-// outline are dark; so are points below a tenth of the brightest or, if a model has dark colours, the darkest
-// tenth of its points.
+// of the brightness. The brightness is that of a white model under a lamp from the upper left, times the
+// luminance of the model's colours if it has any. Highlights, the brightest 2 % of the points, count as
+// equally bright. The ground and the outline are dark; so are points below a tenth of the brightest or, if a
+// model has dark colours, the darkest tenth of its points.
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

@@ -18,7 +18,7 @@ enum class Outline {
   round,  // a rectangle with round corners
   circle,
   ellipse,
-  hexagon,  // regular, flat above or pointed, whichever is smaller
+  hexagon,  // regular, with a side or a corner at the top, whichever makes it smaller
   none      // the relief alone, without any ground
 };
 
@@ -33,8 +33,8 @@ struct OutlineOptions {
   Outline outline = Outline::rectangle;
   double corner_mm = 5;  // radius of the corners of `round`; limited to half the shorter side
   double margin_mm = 5;  // least distance from the enclosed points to the outline
-  // Width and height of the outline, whatever margin they leave; 0: as small as the margin allows. Only of outlines
-  // that has_free_size() names; a circle has its width alone.
+  // Width and height of the outline, whatever margin they leave; 0: as small as the margin allows. Only for
+  // outlines with has_free_size(), and for circles, which use the width alone.
   Vec2 size_mm = Vec2::Zero();
 };
 
@@ -43,8 +43,9 @@ struct OutlineOptions {
 // any other text; the error's input is empty, for the caller to fill in.
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns the lengths of a text such as "10,-5" or "1in,0", right and up, with units as those of sizes. Errors: kind option
-// for any other text; the error's input is empty, for the caller to fill in.
+// Returns the lengths of a text such as "10,-5" or "1in,0", right and up, with units as in
+// parse_plate_size(). Errors: kind option for any other text; the error's input is empty, for the caller to
+// fill in.
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 // Returns whether the outline may have any width and height: those with straight sides or axes.

@@ -17,25 +17,26 @@ struct SimplifiedMesh {
 
 struct SimplifyOptions {
   double tolerance_mm = .01;  // > 0
-  // Limit of the slopes of the new triangles, unless the front's own are steeper. Needles may exceed it by
-  // what a micrometre makes of their slope.
+  // Limit of the slopes of the new triangles, unless the front's own are steeper. The slope of a needle may
+  // exceed it by the change that a micrometre in height causes.
   double max_slope = std::numeric_limits<double>::infinity();
-  // Limit of the number of triangles: when it is reached, the error may exceed the tolerance. The points that are
-  // always kept may need more.
+  // Limit of the number of triangles: when it is reached, the error may exceed the tolerance. The points that
+  // are always kept may need more.
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
 };
 
 // Returns the front with fewer points, nowhere further from the original than `tolerance_mm`: a Delaunay
-// triangulation to which the points of the front, or of its edges, with the largest error are added until
-// none exceeds the tolerance, or the number of triangles its limit. The highest and the lowest point stay. Flat ground becomes few triangles and
-// stays flat: the points on its boundary are kept. If `is_relief` is given, all points on the relief's rim are
-// kept and the result's `is_relief` is set. A front that would get more triangles is returned as it is. Errors: kind option for a tolerance that is not positive; kind
+// triangulation to which the points of the front, or of its edges, with the largest error are added until no
+// error exceeds the tolerance, or the number of triangles reaches its limit. The highest and the lowest point
+// stay. Flat ground becomes few triangles and stays flat: the points on its boundary are kept. If `is_relief`
+// is given, all points on the relief's rim are kept and the result's `is_relief` is set. A front that would
+// get more triangles is returned as it is. Errors: kind option for a tolerance that is not positive; kind
 // geometry for a front without triangles, or whose triangles are not a Delaunay triangulation up to rounding,
 // so that they do not cover their hull; kind cancelled.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
                                 Progress* progress = nullptr);
 
-// The same without a limit of slopes.
+// Does the same without a limit of slopes.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, double tolerance_mm,
                                 Progress* progress = nullptr);
 

@@ -35,8 +35,8 @@ struct HeightFieldMesh {
 // A raised edge along the outline, as coins and plaques have. Each length is 0 or at least 0.001.
 struct RimOptions {
   double width_mm = 0;  // from the outline to the ground within; 0 for no rim
-  // Height of its flat top above the ground. A negative height makes a groove, which the rim becomes in a die; the
-  // plate then continues outside the groove by the rim's width.
+  // Height of its flat top above the ground. A negative height makes a groove, which the rim becomes in a
+  // die; the plate then continues outside the groove by the rim's width.
   double height_mm = 1;
   double bevel_mm = .3;  // the part of the width that the slanting inner side takes; at most all of it
 };
@@ -50,13 +50,14 @@ struct PlateOptions {
   BaseOptions base = {};
   WrapOptions wrap = {};      // the body that wrap_plate() will bend the plate around; needs a plane base
   double tolerance_mm = .01;  // largest distance of triangles from a curved base or wrap, >= 0.0001
-  // The tolerance of simplify() for the whole front, ground included; 0, or a plate without ground, keeps all triangles.
+  // The tolerance of simplify() for the whole front, ground included. All triangles are kept if it is 0 or
+  // the plate has no ground.
   double simplify_mm = 0;
-  double max_slope = std::numeric_limits<double>::infinity();  // of the simplified triangles, see simplify()
+  double max_slope = std::numeric_limits<double>::infinity();  // of simplified triangles, see simplify()
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // the same
-  std::optional<Tool> tool = {};  // makes the front, on a plane base, as this tool leaves it
-  // Width and height of the outline, which then leaves whatever margin it leaves, see OutlineOptions; 0: none. In a die
-  // that has a groove for the rim they are those of the piece that it makes.
+  std::optional<Tool> tool = {};  // makes the front as this tool leaves it; on a plane base only
+  // Width and height of the outline, whatever margin that leaves, see OutlineOptions; 0: no given size. For a
+  // die with a groove for the rim this is the size of the piece that the die makes.
   Vec2 size_mm = Vec2::Zero();
   Vec2 shift_mm = Vec2::Zero();  // of the front from the outline's middle, for an outline with a size
 };
@@ -72,14 +73,14 @@ struct Solid {
   std::size_t front_triangles = 0;
   std::vector<Colour> colours = {};  // of the points, or empty
   std::vector<Region> regions = {};  // of the front's triangles, for pictures; empty if all are relief
-  Vec3 shift = Vec3::Zero();         // from the front's coordinates to these, on flat ground
-  double ground_mm = 0;              // height of that ground; of a curved base in the middle
+  Vec3 shift = Vec3::Zero();         // from the front's coordinates to the solid's, on flat ground
+  double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
   double error_mm = 0;               // largest distance to the exact surface, from curving and simplifying
   LengthUnit unit = LengthUnit::mm;  // of the coordinates; only in_unit() and the files know other units
 };
 
-// Returns the same body with coordinates in that unit, for files. Points that would coincide in single
-// precision are separated as in make_plate().
+// Returns the same body with coordinates in `unit`, for files. Points that would coincide in single precision
+// are separated as in make_plate().
 Solid in_unit(Solid solid, LengthUnit unit);
 
 // Returns the plate: front, flat ground and rim out to the outline, walls, bottom. It is moved so that its
@@ -89,13 +90,15 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // the outline and of the rim's edges. If two points coincide in single precision, the second is lifted or
 // lowered by the smallest step that separates them.
 //
-// Outline `none` makes a body of the relief alone, or several bodies if it has several pieces, with their
-// holes: the front is the relief's points and triangles alone, in their order, and the bottom has as many.
-// Triangles that are connected by a corner only, and pieces below a thousandth of the whole, are left out.
+// Outline `none` makes a body of the relief alone, with its holes, or several bodies if the relief has
+// several connected parts. The front is then the relief's points and triangles alone, in their order, and the
+// bottom has as many. Triangles that are connected by a corner only, and parts smaller than a thousandth of
+// the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
-// bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, one whose corners
-// are not finite points of it, or without relief for outline `none`. Time: O(n log n), 0.1 s for 340k points.
+// bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, a front with
+// triangles whose corners are missing or not finite, or one without relief for outline `none`. Time: O(n log
+// n), 0.1 s for 340k points.
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
 // Returns the base that make_plate() puts under the front, in the front's coordinates. Errors: those of

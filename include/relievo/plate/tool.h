@@ -1,4 +1,4 @@
-// Milling tools, and the part of a front that they can reach: reported, pictured, or made.
+// Milling tools, the part of a front that they can reach, and the surface that they leave.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace relievo {
 
 struct Solid;
 
-// The tip of a tool that turns about the z axis and cuts downwards. Diameters are those of the cut, in mm.
+// The tip of a tool that turns about the z axis and cuts downwards. Diameters are those of the cutting part,
+// in mm.
 struct Tool {
   enum class Kind { ball, flat, v };
   Kind kind = Kind::ball;
@@ -24,36 +25,37 @@ struct Tool {
   bool operator==(const Tool&) const = default;
 };
 
-// Returns the tool of "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in degrees and lengths,
-// see parse_length(). Errors: kind option, naming tool.
+// Returns the tool that a text describes: "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in
+// degrees and lengths, see parse_length(). Errors: kind option, naming tool.
 Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 // Returns the text of the tool as parse_tool() reads it, in millimetres.
 std::string text_of(const Tool& tool);
 
 // Returns the height of the tool's surface above its lowest point at that distance from its axis, in mm;
-// infinite beyond its radius.
+// infinite beyond the tool's radius.
 double tool_profile(const Tool& tool, double distance_mm);
 
-// Returns the lowest surface that the tool can leave above the heights, without cutting into them at any
-// sample: their closing by its shape. Never below them. NaN means that there is nothing, nor any obstacle; it
-// stays. The tool stands over samples, and up to its radius beside the picture. A radius counts up to half
-// the longer side of the picture, a V tool's flank up to the span of the heights. Exact for the samples.
-// Between them, the height at which a ball of radius R touches is found to within step_mm^2 / (8 R) on gentle
-// slopes, and to within half a step times the slope on walls. About 0.5 s for 4M samples and a radius of 15
-// of them, two cores.
+// Returns the lowest surface that the tool can leave without cutting into the heights at any sample: the
+// morphological closing of the heights by the tool's shape. It is never below the heights. NaN marks places
+// without material, where nothing obstructs the tool, and stays NaN. The tool's axis goes through samples,
+// also up to its radius beside the picture. A radius is limited to half the longer side of the picture, a V
+// tool's flank to the span of the heights. The result is exact for the samples. Between them, the height at
+// which a ball of radius R touches is found to within step_mm^2 / (8 R) on gentle slopes, and to within half
+// a step times the slope on walls. Takes about 0.5 s for 4M samples and a radius of 15 samples on two cores.
 Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const Tool& tool);
 
 struct ToolReach {
-  double reached_share = 1;        // of the front's area, seen from above, within the tolerance
-  double largest_residual_mm = 0;  // most that is left standing anywhere
+  double reached_share = 1;        // share of the front's area that is reached within the tolerance
+  double largest_residual_mm = 0;  // greatest height of material left above the front
   double tolerance_mm = 0;         // 0.01, or an eighth of a sample if that is more
   double mm_per_sample = 0;        // a twelfth of the tool's radius, in [1/4096, 1/2048] of the longer side
-  Image<float> heights_mm;         // of the front, above its lowest point; NaN beside it
-  Image<float> residual_mm;        // left above it; NaN beside it
+  Image<float> heights_mm;         // heights of the front above its lowest point; NaN beside the front
+  Image<float> residual_mm;        // height of material left above the front; NaN beside it
 };
 
-// Returns the part of a solid's front that the tool reaches. An empty front has no samples and is reached.
+// Returns the part of a solid's front that the tool reaches. An empty front has no samples and counts as
+// reached.
 ToolReach measure_reach(const Solid& solid, const Tool& tool);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Bodies around which a finished plate is bent, thickness and all.
+// Bodies around which a finished plate is bent together with its thickness.
 #pragma once
 
 #include <array>
@@ -23,18 +23,18 @@ inline constexpr std::array<Choice<WrapKind>, 4> wrap_choices{{{"none", WrapKind
 // middle outwards on a sphere. The relief stands at right angles to the wrap everywhere.
 struct WrapOptions {
   WrapKind kind = WrapKind::none;
-  std::optional<double> diameter_mm;  // of the bent ground; of a cone in the middle of the plate
+  std::optional<double> diameter_mm;  // of the bent ground; for a cone, in the middle of the plate
   std::optional<double>
       turn_deg;               // angle that the plate covers, instead of a diameter; default 180, sphere 120
   double angle_deg = 10;      // cone: between its side and its axis; positive if it is narrow at the top
-  double direction_deg = 90;  // of the axis, counter-clockwise from the x axis; 90 is upright
+  double direction_deg = 90;  // direction of the axis, counter-clockwise from x; 90 is upright
   bool is_inside = false;     // the relief is on the inner side
 
   bool operator==(const WrapOptions&) const = default;
 };
 
-// Returns the wrap of a text like "cylinder:diameter=60", "cylinder:turn=360" or "cone:diameter=70,angle=8".
-// Errors: kind option for any other text.
+// Returns the wrap that a text describes, such as "cylinder:diameter=60", "cylinder:turn=360" or
+// "cone:diameter=70,angle=8". Errors: kind option for any other text.
 Result<WrapOptions> parse_wrap(std::string_view text);
 
 // The wrap of one plate.
@@ -45,8 +45,8 @@ class Wrap {
   // once (a sphere: more than 340 degrees), or a cone whose tip lies on the plate.
   static Result<Wrap> around(const WrapOptions& options, std::span<const Vec2> outline);
 
-  // Returns the place to which a point above that place of the flat plate is bent. The axis, or the sphere's
-  // centre, runs through the origin, and the viewer stays in +Z. Orientation is kept.
+  // Returns the bent position of the point at this height above `place` of the flat plate. The axis or the
+  // sphere's centre passes through the origin, and the viewer stays at +Z. Orientation is kept.
   Vec3 at(const Vec2& place, double above_ground_mm) const;
 
   // Returns the smallest distance of the ground from the axis, in mm; relief and back must stay within it.
@@ -58,7 +58,7 @@ class Wrap {
 
   double diameter_mm() const { return 2 * radius_; }
   double turn_deg() const { return turn_deg_; }
-  double mm_per_degree() const;  // on the ground, around the axis
+  double mm_per_degree() const;  // length of a degree on the ground, around the axis
 
   // Returns true if the plate goes all the way around, so that its sides meet.
   bool is_closed() const { return kind_ != WrapKind::sphere && turn_deg_ == 360; }

@@ -1,5 +1,5 @@
-// Objective measures of how much of its model a relief shows, and the guards that belong to them.
-// docs/quality.md defines each and gives its source.
+// Objective measures of how much a relief shows of its model, and of its faults. docs/quality.md defines each
+// measure and gives its source.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace relievo {
 
-// Measured on a picture whose longer side is 512 pixels, inside the silhouette and at least 5 pixels away from it and
-// from the model's depth jumps; halo, steep_share, height_used and the steps use all pixels. The model is given by the
-// scan's own normals and depths. Fray, facets and sides are those of the surface's triangles. A noisy relief can win on
-// shading, so read the measures together.
+// The measures are taken on a picture whose longer side is 512 pixels, inside the silhouette and at least 5
+// pixels away from it and from the model's depth jumps; halo, steep_share, height_used and the steps use all
+// pixels. The model is given by the scan's own normals and depths. Fray, facets and sides are measured on the
+// surface's triangles. A noisy relief can win on shading, so read the measures together.
 struct Measures {
   double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 equals the model
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
@@ -22,14 +22,14 @@ struct Measures {
       detail{};      // correlation of div n, smoothed by Gaussians of 1, 2 and 4 pixels, [-1, 1]
   double order = 0;  // share of random pairs whose depths differ by more than 1 % that keep their order
 
-  double halo = 0;                 // standard deviation of the background, of the height
-  double steep_share = 0;          // of the silhouette's pixels, steeper than 80 degrees
-  double height_used = 0;          // from the 1st to the 99th percentile, of the height
-  double jump_step = 0;            // greatest difference left across a depth jump of the model, of the height
-  double rim_step = 0;             // greatest height next to the silhouette, one edge away, of the height
-  double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette, around its smooth course
+  double halo = 0;                 // standard deviation of the background, as a share of `height`
+  double steep_share = 0;          // share of the silhouette's pixels that are steeper than 80 degrees
+  double height_used = 0;          // from the 1st to the 99th percentile, as a share of `height`
+  double jump_step = 0;            // greatest step left at a depth jump of the model, as a share of `height`
+  double rim_step = 0;             // greatest height one edge inside the silhouette, as a share of `height`
+  double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette around its smoothed values
   double jump_fray_deg = 0;        // the same beside depth jumps, on both sides
-  double facet_angle_deg = 0;      // 99 % of neighbouring triangles differ by less where the model is smooth
+  double facet_angle_deg = 0;      // 99th percentile of angles between neighbours where the model is smooth
   double longest_side = 0;         // of the triangles, in sampling distances
   double height = 0;               // lowest to highest, base included, in the surface's units
 };
@@ -38,9 +38,10 @@ struct Measures {
 class ReliefMetrics {
  public:
   static constexpr int longer_side_px = 512;
-  static constexpr int margin_px = 8;  // of background around it
+  static constexpr int margin_px = 8;  // width of the background around the model
 
-  // Views the surface, which must outlive it. No pixels are measured if the surface has no area.
+  // Keeps a reference to the surface, which must outlive this object. No pixels are measured if the surface
+  // has no area.
   explicit ReliefMetrics(const Surface& surface);
   ReliefMetrics(ReliefMetrics&&) noexcept;
   ~ReliefMetrics();

@@ -17,7 +17,7 @@ struct FrameOptions {
   Shape shape;
   std::optional<double> height;                    // locked: u is found so that this height is met
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; null is a plane
-  double height_tolerance = 5e-4;  // share of the locked height; a larger one may save a solve
+  double height_tolerance = 5e-4;  // as a share of the locked height; a larger one may save a solve
 
   bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
 };
@@ -26,24 +26,25 @@ struct FrameTimes {
   double heights_s = 0;      // t1: weights, slopes, right-hand side, solve; all rounds of a locked height
   double after_solve_s = 0;  // t2: detail or height correction; the mapping from control points
   double normals_s = 0;      // t3: normals
-  int solves = 0;            // 1, or as many as a locked height took
+  int solves = 0;            // number of solves: 1, or more for a locked height
 };
 
 struct Frame {
-  FrameOptions options;  // what it was made with, including the u and the membrane parameters that were found
+  FrameOptions options;           // those used, including the u and the membrane parameters that were found
   std::vector<float> heights;     // per point of the surface, in the cloud's units, base included
   std::vector<Vec3f> normals;     // unit length: the mean of the triangles around the point, by their areas
-  double height = 0;              // highest minus lowest; 0 counts as a height, the base's shape is not added
+  double height = 0;              // highest minus lowest of 0 and the heights without the base
   float lowest = 0, highest = 0;  // of `heights`, base plane and base shape included
   bool is_height_met =
-      true;  // false if a locked height is out of reach: then the relief is as high as can be
+      true;  // false if a locked height is out of reach: then the relief is as high as possible
   FrameTimes times;
 };
 
-// Returns the normals that a frame of the surface with these heights, one per point, has (stage 13).
+// Returns the normals of a frame of the surface with these heights, one per point (stage 13).
 std::vector<Vec3f> vertex_normals(const Surface& surface, std::span<const float> heights);
 
-// Makes frames of one model. Not for concurrent use. Allocates nothing per frame once a frame has its size.
+// Makes frames of one model. Not for concurrent use. make() allocates nothing for a frame that has been used
+// before.
 class FrameMaker {
  public:
   // Prepares the memory that frames need. The model must outlive it.
@@ -52,14 +53,15 @@ class FrameMaker {
   ~FrameMaker();
 
   // Overwrites `frame` with the relief asked for. The same options give the same bits, for any number of
-  // threads and whatever was made before; but a locked height is searched from where the last one was found.
+  // threads and after any earlier frames. The search for a locked height is an exception: it starts from the
+  // u of the last one.
   void make(const FrameOptions& options, Frame& frame);
 
-  // Writes, for each point of the frame that was made last, by how much its slope would change with the x and y of a
-  // normal that differs from the point's at a scale that the points do not resolve. See SurfaceDetail in render.h.
+  // Writes a gain for each point of the frame that was made last: the change of its slope per change of the
+  // normal's x and y, for normals at a scale that the points do not resolve. See SurfaceDetail in render.h.
   void write_gains(std::vector<float>& gains) const;
 
-  // Bytes held, the model's not included.
+  // Returns the memory used, in bytes, the model's not included.
   std::size_t memory() const;
 
  private:

@@ -13,9 +13,9 @@ namespace relievo {
 
 class SlicedEllMatrix;
 
-// Equation (9) for fixed points, written for slopes: over all edges pq of triangles inside the relief, the
-// least squares of z_p - z_q = (s_p + s_q) / 2 . (p - q) with cotangent weights, and z = 0 at boundary
-// points, exactly. The matrix does not depend on the slopes: it is factored once. Slopes are (dz/dx, dz/dy).
+// Equation (9) for fixed points, written for slopes. Over all edges pq of triangles inside the relief, it
+// solves z_p - z_q = (s_p + s_q) / 2 . (p - q) by least squares with cotangent weights, and z = 0 at boundary
+// points exactly. The matrix does not depend on the slopes: it is factored once. Slopes are (dz/dx, dz/dy).
 // Concurrent solves are safe, each with a workspace of its own.
 class HeightSystem {
  public:
@@ -26,29 +26,29 @@ class HeightSystem {
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies what it needs of its arguments. The weight of an edge is multiplied by the mean of its ends' `weights`,
-  // one per point, in (0, 1]; without them by 1. Errors: those of solver::Cholesky::factor(), which a Delaunay
-  // triangulation with its boundary does not cause.
+  // Copies what it needs of its arguments. The weight of an edge is multiplied by the mean of its ends'
+  // `weights`, one per point, in (0, 1]; without them by 1. Errors: those of solver::Cholesky::factor(),
+  // which a Delaunay triangulation with its boundary does not cause.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
                                     const Boundary& boundary, std::span<const float> weights = {});
 
-  // Returns the number of points, which is that of slopes and of heights.
+  // Returns the number of points, and so of slopes and of heights.
   std::size_t size() const;
 
-  // Bytes held.
+  // Returns the memory used, in bytes.
   std::size_t memory() const;
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Returns the matrix of the right-hand side: entries between neighbours and from every point to itself. Other
-  // matrices over the same points reuse its pattern.
+  // Returns the matrix of the right-hand side: entries between neighbours and from every point to itself.
+  // Other matrices over the same points reuse its pattern.
   const SlicedEllMatrix& divergence_matrix() const { return *edges_; }
 
-  // Writes the height of every point above the base to `heights`; boundary points get 0. Exact: the residual
-  // is at the level of rounding.
+  // Writes the height of every point above the base to `heights`; boundary points get 0. The solution is
+  // exact: its residual is at the level of rounding.
   void solve(std::span<const Vec2> slopes, std::span<double> heights) const;
 
-  // The same in single precision, for frames: within about 1e-6 of the span of the heights.
+  // Does the same in single precision, for frames. The error is about 1e-6 of the span of the heights.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
   // Solve in place for a right-hand side that the caller wrote; boundary points stay as they are.
@@ -59,7 +59,8 @@ class HeightSystem {
   HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges);
 
   solver::Cholesky factor_;
-  // Coefficients of the right-hand side: half the weight times the step from the other point; 0 at boundary points.
+  // Coefficients of the right-hand side: half the weight times the step from the other point; 0 at boundary
+  // points.
   std::unique_ptr<const SlicedEllMatrix> edges_;
 };
 

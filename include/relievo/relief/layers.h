@@ -36,8 +36,8 @@ struct PointLayers {
   LayerXy fine, middle, coarse, broad;
 };
 
-// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because such slopes use up height and add
-// little shading.
+// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because such slopes use up
+// height and add little shading.
 Vec2f faded_xy(const Vec3f& normal);
 
 // Returns the layers of every point of a surface. Takes about 0.1 s for 180k points.

@@ -1,5 +1,5 @@
-// The methods that a relief can be made with, by name, and from how many points. To add a baseline, give it an
-// enumerator, a declaration and a row here, and write it in src/relief/baselines/.
+// The methods of making a relief, their names, and the number of points that they use. To add a baseline,
+// give it an enumerator, a declaration and a row here, and write it in src/relief/baselines/.
 #pragma once
 
 #include <array>
@@ -18,19 +18,20 @@ struct Shape;
 
 enum class Method { layered, paper, linear, equalise, gradient, base_detail };
 
-// Makes a relief by a published method that we compare with: of exactly the height asked for, > 0, with boundary
-// points on the base; flat where the surface gives it nothing to scale. Relief::shape of the result has no meaning.
+// Makes a relief by a published method, for comparison. It has exactly the height asked for, > 0, and its
+// boundary points are on the base; it is flat if the surface has no height to scale. Relief::shape of the
+// result has no meaning.
 using Baseline = Relief(const ReliefModel& model, double height);
 
-// baselines.h has those with options.
+// baselines.h declares variants with options.
 Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relief;
 
 struct MethodInfo {
   Method method;
-  std::string_view name;  // as typed
+  std::string_view name;  // the word that users type
   // Makes the relief of a baseline; null for methods that shape a relief by Shape.
   Baseline* make = nullptr;
-  bool needs_all_points = false;  // and so has no subspace mode
+  bool needs_all_points = false;  // if so, it has no subspace mode
 };
 
 inline constexpr std::array methods{
@@ -61,13 +62,13 @@ bool has_shape(Method method);
 // Returns the default shape of a method that has one, for a height that is asked for.
 Shape default_shape(Method method);
 
-// Returns the relief of that height by that method: ReliefModel::make_at_height(), or a baseline with its default
-// options, which ignores `shape`. Errors: those of make_at_height(); kind option if the method needs the system
-// of all points and the model has none.
+// Returns the relief of that height by that method: ReliefModel::make_at_height(), or a baseline with its
+// default options, which ignores `shape`. Errors: those of make_at_height(); kind option if the method needs
+// the system of all points and the model has none.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
 
-// Selects from how many points the heights of a relief are found.
+// Selects the points for which the heights of a relief are solved.
 enum class Mode {
   exact,     // from all visible points
   subspace,  // from a few thousand control points: see SubspaceModel

@@ -23,27 +23,29 @@ struct Surface;
 
 struct Relief {
   std::vector<double> heights;  // per point of the surface, above the base, in its units
-  double height = 0;            // h: highest minus lowest, detail included; 0 counts as a height
-  Shape shape;                  // what it was made with
+  double height = 0;            // h: highest minus lowest of the heights and 0, detail included
+  Shape shape;                  // the shape that it was made with
 };
 
-// Above this number of visible points Mode::automatic means subspace: exact frames would take more than 40 ms on two
-// cores.
+// Above this number of visible points Mode::automatic means subspace: exact frames would take more than 40 ms
+// on two cores.
 inline constexpr std::size_t most_exact_points = 1'500'000;
 
 // Resolves `automatic` by the number of points; returns any other mode unchanged.
 Mode resolve_mode(Mode mode, const Surface& surface);
 
-// A surface with its factored system, and with the height correction that compresses layered reliefs. Movable. Const
-// calls may run concurrently.
+// A surface with its factored system, and with the height correction that compresses layered reliefs.
+// Movable. Const calls may run concurrently.
 class ReliefModel {
  public:
-  // Takes the surface, splits its normals into layers, factors its system and tunes the height correction; in subspace
-  // mode it goes on to the system of the control points. Errors: see HeightSystem::build(); kind cancelled.
+  // Takes the surface, splits its normals into layers, factors its system and tunes the height correction; in
+  // subspace mode it also builds the system of the control points. Errors: see HeightSystem::build(); kind
+  // cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
-  // Does the same for exact reliefs, but tunes nothing: the height correction has the parameters of a model of the same
-  // scan in another view, or without one its defaults. For reliefs that are shown for a moment.
+  // Does the same for exact reliefs, without tuning: the height correction has the parameters of `other`, a
+  // model of the same scan in another view, or the defaults if `other` is null. It is for reliefs that are
+  // shown only briefly.
   static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface,
                                           Progress* progress = nullptr);
 
@@ -69,24 +71,25 @@ class ReliefModel {
   // Returns the correction that compresses layered heights.
   const HeightCorrection& correction() const;
 
-  // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none. They are tuned to
-  // this surface: the strongest compression that keeps detail and depth order at least as good as
+  // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none. They are
+  // tuned to this surface: the strongest compression that keeps detail and depth order at least as good as
   // gradient-domain compression does, where that is possible.
   MembraneParams membrane_at(double u) const;
 
   // Returns the shape with membrane_at() its u, if it is layered and sets no membrane.
   Shape with_membrane(Shape shape) const;
 
-  // Bytes held.
+  // Returns the memory used, in bytes.
   std::size_t memory() const;
 
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
 
-  // Returns the relief whose height is `height`, detail included, by changing the compression's u at the beta,
-  // gamma and slope asked for (the intent of Algorithm 1, section 3.6). If no u gives that height, u is infinite and
-  // depth jumps take what is missing, at most their depth: Shape::steps of the result. Errors: kind geometry if that does
-  // not suffice; the message states the largest height that is reached, in units of `unit_mm` millimetres. Kind cancelled.
+  // Returns the relief whose height is `height`, detail included, by changing the compression's u at the
+  // beta, gamma and slope asked for (the intent of Algorithm 1, section 3.6). If no u gives that height, u is
+  // infinite and depth jumps take what is missing, at most their depth: Shape::steps of the result. Errors:
+  // kind geometry if that does not suffice; the message states the largest height that is reached, in units
+  // of `unit_mm` millimetres. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

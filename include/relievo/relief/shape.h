@@ -1,5 +1,5 @@
-// The quantities that shape a relief. All of them can change from frame to frame: none touches the model that
-// was prepared.
+// The quantities that shape a relief. All of them can change from frame to frame, because none of them
+// affects the prepared model.
 #pragma once
 
 #include <memory>
@@ -19,13 +19,13 @@ struct MembraneParams {
   double height_share =
       1;  // height of the relief, as a share of the height that (9) gives its slopes, (0, 1]
   double pull_length =
-      .1;  // of the longer side, > 0: a shorter one pulls points harder to their depth's rank; infinity does not correct
+      .1;  // of the longer side, > 0: less pulls points harder to their depth's rank; infinity: no correction
 
   bool operator==(const MembraneParams&) const = default;
 };
 
-// Height and saturation of a relief. The paper's height coefficient is alpha; u = alpha^-beta says the same
-// for every beta > 0 and gives every height at beta = 0 as well, where alpha has no effect.
+// Height and saturation of a relief. The paper's height coefficient is alpha; u = alpha^-beta is equivalent
+// to it for every beta > 0, and gives every height also at beta = 0, where alpha has no effect.
 struct Compression {
   double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal that has curvature
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
@@ -36,7 +36,7 @@ struct Compression {
   // Two curves are equal if they go through the same points.
   bool operator==(const Compression& other) const;
 
-  // Converts the paper's pair; alpha in [0, infinity).
+  // Returns the compression of the paper's alpha, in [0, infinity), and beta.
   static Compression from_alpha(double alpha, double beta);
   // Returns the paper's height coefficient u^(-1/beta); NaN where beta = 0 leaves it undetermined.
   double alpha() const;
@@ -46,12 +46,12 @@ struct Shape {
   Compression compression;    // height and saturation
   double gamma = 0;           // detail coefficient, [0, 1]; in layers it attenuates the coarse ones
   double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
-  double boundary_width = 2;  // of (7), in rho, > 0: a wider one softens the rim
-  // Least share of the height that depth jumps take, [0, 0.95]; 0 removes them. Where slopes alone do not reach a
-  // height that is asked for, jumps take the share that is missing.
+  double boundary_width = 2;  // width of (7), in rho, > 0: a wider one softens the rim
+  // Least share of the height that depth jumps take, [0, 0.95]; 0 removes them. Where slopes alone do not
+  // reach a height that is asked for, jumps take the share that is missing.
   double steps = 0;
   Style style = Style::paper;
-  // Only the layered style has it; if not set, the model's own: ReliefModel::membrane_at().
+  // Used by the layered style alone; if not set, ReliefModel::membrane_at() of the model applies.
   std::optional<MembraneParams> membrane = {};
 
   bool operator==(const Shape&) const = default;

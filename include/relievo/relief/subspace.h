@@ -26,7 +26,7 @@ std::vector<double> reference_heights(const Surface& surface, const HeightSystem
 // Control points with their factored system. Heights of all points follow from theirs: z = ratio z_ref +
 // offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of compressed and reference
 // heights, both solved on the control points; the offset is the part of the compressed ones that a smooth
-// ratio leaves, above all where z_ref passes 0. Multilevel B-splines carry both to all points.
+// ratio leaves, above all where z_ref passes 0. Multilevel B-splines extend both to all points.
 //
 // Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 1 to
 // 4 %, low ones most: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
@@ -40,7 +40,7 @@ class SubspaceModel {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Bytes held, but for a few per control point.
+    // Returns the memory used, in bytes, except for a few per control point.
     std::size_t memory() const;
 
    private:
@@ -64,12 +64,12 @@ class SubspaceModel {
     return prepare(surface, options, {});
   }
 
-  // Number of points of the surface.
+  // Returns the number of points of the surface.
   std::size_t size() const { return reference_.size(); }
 
   const ControlPoints& control_points() const { return control_; }
 
-  // Bytes held.
+  // Returns the memory used, in bytes.
   std::size_t memory() const;
 
   Workspace make_workspace() const;
@@ -78,7 +78,7 @@ class SubspaceModel {
   // shape's boundary width.
   void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
 
-  // Carries them over to all points: writes the heights above the base, before detail.
+  // Extends the solution to all points: writes the heights above the base, before detail.
   void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
 
  private:
@@ -89,7 +89,7 @@ class SubspaceModel {
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c own + (the ratio of all of them) overall.
+  // The ratio of a control point is z_c * own + (the ratio of all control points) * overall.
   struct RatioTerm {
     float own = 0, overall = 0;
   };

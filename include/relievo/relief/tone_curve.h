@@ -1,4 +1,4 @@
-// Saturation as a tone curve: how much of a normal is kept, drawn by hand over the curvature |k|.
+// Saturation as a tone curve: the share of a normal that is kept, drawn by hand over the curvature |k|.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@
 namespace relievo {
 
 // A smooth curve through points, over the square root of |k|: most of a scan's curvature is slight, and the
-// root gives it the room that it has in the picture. Between two points the curve stays between their values;
-// before the first and after the last it is level. Immutable.
+// root gives slight curvature more room. Between two points the curve stays between their values; before the
+// first and after the last it is level. Immutable.
 class ToneCurve {
  public:
   static constexpr std::size_t most_points = 16;
 
-  // Takes 1 to 16 points (sqrt(|k|), share kept), both in [0, 1], the first ascending. Errors: kind option
-  // for anything else.
+  // Takes 1 to 16 points (sqrt(|k|), share kept), both in [0, 1], in ascending order of the first. Errors:
+  // kind option for anything else.
   static Result<ToneCurve> through(std::vector<Vec2> points);
 
   const std::vector<Vec2>& points() const { return points_; }
 
-  // Share of the normal kept at a curvature in [-1, 1], in [0, 1].
+  // Returns the share of the normal, in [0, 1], that is kept at a curvature k in [-1, 1].
   double operator()(double k) const;
 
   bool operator==(const ToneCurve&) const = default;

@@ -1,5 +1,5 @@
-// Normal space compression (stages 8 and 9): how much of each normal the relief keeps. Paper, equations (5)
-// to (7).
+// Normal space compression (stages 8 and 9): the share of each normal that the relief keeps. Paper, equations
+// (5) to (7).
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace relievo {
 
 // Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
-// overflows. Where delta is 0 (no curvature anywhere) all points are alike, as for beta = 0.
+// overflows. Where delta is 0 (no curvature anywhere), all points get the same weight, as for beta = 0.
 double curvature_weight(double k, double delta, const Compression& compression);
 
 // Equation (7), w_b = 1 - exp(-(distance / (2 rho))^2), in [0, 1].
@@ -43,8 +43,8 @@ struct SlopeInput {
   std::span<const Vec3f> normals;
   std::span<const float> k;                  // normalised mean curvature
   std::span<const float> boundary_weight;    // w_b
-  double delta = 0;                          // of k
-  std::span<const PointLayers> layers = {};  // read by the layered style alone
+  double delta = 0;                          // standard deviation of |k|
+  std::span<const PointLayers> layers = {};  // used by the layered style alone
 };
 
 // Writes the target slope of every point: in the paper's style compressed_slope() with w = w_k w_b, in the

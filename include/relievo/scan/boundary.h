@@ -1,4 +1,4 @@
-// Boundary (stage 5): which triangles belong to the relief, and where it meets the base.
+// Boundary (stage 5): the triangles that belong to the relief, and the points where it meets the base.
 #pragma once
 
 #include <span>
@@ -15,7 +15,8 @@ struct Boundary {
   std::vector<std::uint8_t> is_boundary;  // per point: in P_b, on the silhouette or the rim of an inner hole
   // Per point the distance in the view plane to the nearest point of P_b: `dist` of equation (7).
   std::vector<float> distance;
-  // Per point: on the front or the back edge of the wall that stands at a depth jump; empty if there is no wall.
+  // For each point, whether it is on the front or the back edge of the wall at a depth jump, or on none;
+  // empty if there are no walls.
   std::vector<WallSide> wall_side;
 
   bool is_across_wall(Index a, Index b) const {
@@ -24,21 +25,23 @@ struct Boundary {
   }
 };
 
-// Returns for each triangle of points in the view plane whether it belongs to the relief, given their Delaunay
-// triangulation and sampling distance rho.
+// Returns for each triangle of points in the view plane whether it belongs to the relief, given their
+// Delaunay triangulation and sampling distance rho.
 //
-// A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds 3 rho, unless it belongs to
-// a narrow hole: a connected set of such triangles that does not touch the hull and has no radius above 5 rho. Where the
-// local spacing of all corners exceeds 2 rho, it stands for rho: the scan is sparse there. `spacing` is Spacing::local of
-// each point, for clouds of uneven density; in others that would close gaps beside surfaces that are seen edge on.
+// A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds 3 rho, unless
+// it belongs to a narrow hole: a connected set of such triangles that does not touch the hull and has no
+// radius above 5 rho. Where the local spacing of all corners exceeds 2 rho, this spacing replaces rho,
+// because the scan is sparse there. `spacing` is Spacing::local of each point, for clouds of uneven density;
+// in other clouds it would close gaps beside surfaces that are seen edge on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 
-// Returns the boundary of such points, of even density. Boundary points are the corners of outside triangles and the hull,
-// and points that are in no inside triangle.
+// Returns the boundary of points of even density. Boundary points are the corners of outside triangles and
+// the hull, and points that are in no inside triangle.
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho);
 
-// Returns for each of `points` points whether it is a corner of a triangle outside, on the hull, or in no triangle.
+// Returns for each of `points` points whether it is a corner of a triangle outside, on the hull, or in no
+// triangle.
 std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,
                                           std::span<const std::uint8_t> is_inside);
 

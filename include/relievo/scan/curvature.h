@@ -16,20 +16,20 @@ struct CurvatureOptions {
   double scale = 2;
 };
 
-// Returns the mean curvature at the points numbered by `queries`: in 1 / length, positive where the surface is
-// convex, clamped to [-1 / rho, 1 / rho]. It is half the divergence of the normals, fitted linearly in the
+// Returns the mean curvature at the points numbered by `queries`: in 1 / length, positive where the surface
+// is convex, clamped to [-1 / rho, 1 / rho]. It is half the divergence of the normals, fitted linearly in the
 // tangent plane: exact on spheres and cylinders, and several times less noisy on scattered points than the
 // paper's equations (2) and (3), whose second derivatives depend on how unevenly the points lie (see
 // docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin wall, do not
-// count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no normals. Normals must
-// have unit length. Ends early with values without meaning once the progress is cancelled.
+// count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no normals. Normals
+// must have unit length. Ends early with values without meaning once the progress is cancelled.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 
-// Returns each point's value averaged over its neighbours in the view plane, up to about 2 rho away, weighted by
-// the area that each neighbour represents there. At a depth jump, points of the front and of the surface behind
-// it alternate in the plane; without the average, their different curvatures would show as specks along the
-// edge.
+// Returns each point's value averaged over its neighbours in the view plane, up to about 2 rho away, weighted
+// by the area that each neighbour represents there. At a depth jump, points of the front and of the surface
+// behind it alternate in the plane; without the average, their different curvatures would show as specks
+// along the edge.
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho);

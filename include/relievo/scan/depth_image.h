@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// Depths as a file has them.
+// Depths as they are in a file.
 struct DepthImage {
   Image<float> values;  // NaN where there is no value
   double step = 0;      // difference between possible values: 1 for whole numbers, 0 for fractions
@@ -29,7 +29,7 @@ struct DepthCamera {
 enum class DepthValues {
   depth,      // grows away from the viewer, 0 is missing
   height,     // grows towards the viewer
-  luminance,  // brightness, of colours their luminance; what is bright is nearer
+  luminance,  // brightness (the luminance of colours); brighter is nearer
   inverse     // one over the depth, up to a factor, as estimators give it; 0 is infinitely far
 };
 
@@ -41,8 +41,8 @@ inline constexpr std::array<Choice<DepthValues>, 4> depth_value_choices{
 
 enum class Background {
   keep,
-  remove,    // what lies behind the largest gap in depth, if that is most of the border
-  automatic  // remove without a camera, keep with one
+  remove,    // removes all behind the largest gap in depth, if that is most of the border
+  automatic  // `remove` without a camera, `keep` with one
 };
 
 inline constexpr std::array<Choice<Background>, 3> background_choices{
@@ -50,11 +50,11 @@ inline constexpr std::array<Choice<Background>, 3> background_choices{
 
 struct DepthOptions {
   DepthValues values = DepthValues::depth;
-  int channel = 0;  // of a picture with several, from 1; 0: the only one
+  int channel = 0;  // number of the channel to read, from 1; 0: the only one
   std::optional<DepthCamera> camera;
   double range = .5;  // without a camera: depth from the nearest to the farthest, in picture widths
   Background background = Background::automatic;
-  double points = 3e5;  // the image is reduced until about as many are left
+  double points = 3e5;  // the image is reduced to about this number of points
 };
 
 // Checks ranges. Errors: kind option, naming the option.

@@ -28,13 +28,13 @@ struct Mesh {
 // also meet where different points have the same position. Normals of triangles without area are zero.
 std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg = 45);
 
-// Returns the corner normals to interpolate on the mesh: its own, or smooth_normals() if it has none, or none
-// other than those of its flat triangles.
+// Returns the corner normals to interpolate on the mesh: its own, or smooth_normals() if it has none or only
+// those of its flat triangles.
 std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh);
 
 struct MeshSampling {
-  double points = 3e5;  // about how many visible points to return, [100, 1e7]
-  double spacing = 0;   // between points, in the mesh's units; 0: chosen to obtain about `points`
+  double points = 3e5;  // approximate number of visible points to return, [100, 1e7]
+  double spacing = 0;   // distance between points, in the mesh's units; 0: chosen to obtain about `points`
 };
 
 // Checks MeshSampling::points. Errors: kind option if it is out of its range.

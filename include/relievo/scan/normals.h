@@ -15,21 +15,21 @@ Vec3f unit_normal(const Vec3& n);
 
 // Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
 // (principal component analysis). The sign is arbitrary until turn_to_viewer(). Does nothing to a cloud of
-// fewer than 3 points. Once the progress is cancelled, what is left of the normals is 0.
+// fewer than 3 points. Once the progress is cancelled, the remaining normals are 0.
 void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 
 // Reverses the normals of a cloud in view coordinates that face away from the viewer, so that z >= 0.
 void turn_to_viewer(Cloud& viewed);
 
-// Gives the normals that turn_to_viewer() left consistent signs. Visible points, `seen`, whose normals are
-// within 60 degrees of the viewer's direction keep theirs. From these the signs spread from neighbour to
-// neighbour, so that the surface continues around edges instead of folding back.
+// Gives consistent signs to the normals of a cloud after turn_to_viewer(). Visible points, `seen`, whose
+// normals are within 60 degrees of the viewer's direction keep theirs. From these the signs spread from
+// neighbour to neighbour, so that the surface continues around edges instead of folding back.
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen);
 
-// Returns whether the normals point into the model: whether of the points that are in front, seen from each
-// of the six sides along the axes, on average less than a third face the viewer. For a cloud that was scanned
-// from one side only, this side and the opposite one cancel out and the other four decide. False without
-// normals.
+// Returns whether the normals point into the model: whether, on average over the six sides along the axes,
+// less than a third of the front-most points have normals towards the viewer. For a cloud that was scanned
+// from one side only, this side and the opposite one cancel out and the other four decide. The result is
+// false without normals.
 bool normals_point_inward(const Cloud& cloud);
 
 // Reverses every normal.

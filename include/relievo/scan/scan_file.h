@@ -12,14 +12,14 @@ namespace relievo {
 struct CloudFile {
   Cloud cloud;         // finite points only, at least one; normals are unit length, or absent
   std::string format;  // for people: "PLY binary little endian", "XYZ text, 6 columns with normals"
-  std::size_t dropped_points = 0;  // removed because a coordinate was NaN or infinite
-  // Removed because all coordinates were 0, as devices write what they have not measured. Only if there are more than
-  // 16 among other points, and no faces.
+  std::size_t dropped_points = 0;  // number removed because a coordinate was NaN or infinite
+  // Number of points removed because all their coordinates were 0, which devices write for points they have
+  // not measured. It is 0 unless there are more than 16 of them among other points, and no faces.
   std::size_t unmeasured_points = 0;
   // Number of further points whose normal was zero, not finite or missing. These points are removed, too,
   // unless they are the majority: then all points are kept and the cloud has no normals.
   std::size_t dropped_normals = 0;
-  std::size_t missing_points = 0;  // promised by the header of a file that ends before them
+  std::size_t missing_points = 0;  // promised by the header, but missing because the file ends early
   Mesh mesh = {};                  // the file's faces, with points of their own; empty if it has none
 };
 

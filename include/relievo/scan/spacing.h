@@ -10,8 +10,9 @@ namespace relievo {
 inline constexpr std::size_t spacing_neighbours = 8;
 
 struct Spacing {
-  // The median of `local` over all points, in the cloud's units, or a quarter of its 98 % quantile where that is more,
-  // as for clouds of very uneven density. 0 if there are fewer than 2 points or almost all of them coincide.
+  // The median of `local` over all points, in the cloud's units, or a quarter of the 98 % quantile of `local`
+  // if that is more, as for clouds of very uneven density. 0 if there are fewer than 2 points or almost all
+  // of them coincide.
   double rho = 0;
   bool is_uneven = false;  // rho is not the median
   // Per point sqrt(pi r^2 / k), where r is the distance to the k-th nearest other point and k is

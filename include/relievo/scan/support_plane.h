@@ -1,4 +1,4 @@
-// The plane that a scanned figure stands on or before: a table, the ground, a wall.
+// The plane on which or in front of which a scanned figure stands: a table, the ground, a wall.
 #pragma once
 
 #include <array>
@@ -21,18 +21,20 @@ struct SupportPlane {
   Vec3 normal = Vec3::UnitZ();  // unit length, towards the viewer and the figure
   double offset = 0;
   double tolerance = 0;  // points that are at most this far from it belong to it, in the cloud's units
-  double share = 0;      // of the visible points that belong to it
+  double share = 0;      // share of the visible points that belong to the plane
 
-  // Returns whether a point is no part of the figure: it lies on the plane, with a normal that fits, or behind it.
+  // Returns whether a point is no part of the figure: it lies on the plane, with a normal that fits, or
+  // behind it.
   bool takes(const Vec3& point, const Vec3f& point_normal) const;
   bool operator==(const SupportPlane&) const = default;
 };
 
-// Returns the plane that the visible points of a cloud stand on or before; nothing where there is none. `viewed` is in
-// view coordinates and has normals, `visible` are the numbers of its visible points, and rho is its sampling distance.
-// A table is level from the left to the right and rises away from the viewer; other planes that face the viewer are
-// backgrounds. A face of a solid is neither: all but a few of the other points have to lie before the plane,
-// over it, and rise far above it for their extent. The result has the same bits for any number of threads.
+// Returns the plane on which or in front of which the visible points of a cloud stand; nothing if there is
+// none. `viewed` is in view coordinates and has normals, `visible` are the numbers of its visible points, and
+// rho is its sampling distance. A table is level from the left to the right and rises away from the viewer;
+// other planes that face the viewer are backgrounds. A face of a solid is no support plane: all but a few of
+// the other points have to lie in front of the plane and over it, and to rise far above it relative to their
+// extent. The result has the same bits for any number of threads.
 std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<const Index> visible,
                                                double rho);
 

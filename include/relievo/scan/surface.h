@@ -19,7 +19,7 @@ struct Surface {
   std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at hole fill points
   std::vector<Colour> colours;  // per point; empty if the cloud has none
   NormalisedCurvature curvature;
-  Triangulation triangulation;  // its `neighbours` are not kept
+  Triangulation triangulation;  // without `neighbours`
   Boundary boundary;
 
   View view;
@@ -27,30 +27,31 @@ struct Surface {
   double rho = 0;              // sampling distance of the cloud
   double diagonal = 0;         // L_d, the diagonal of the whole cloud's box
   std::size_t input_points = 0;
-  std::size_t repeated_points = 0;  // of them that were left out, see without_repeated_points()
+  std::size_t repeated_points = 0;  // points that were left out by without_repeated_points()
   std::size_t visible_points = 0;   // of the cloud; the rest of `points` are hole fill points
-  std::size_t removed_points = 0;   // would be visible, but were taken for floating noise
-  std::size_t crumbs = 0;           // small pieces that were left out
-  // The table or background that was found, in the coordinates of `points`. It is left out unless View::has_plane.
+  std::size_t removed_points = 0;   // points that would be visible, but were taken for floating noise
+  std::size_t crumbs = 0;           // number of small pieces that were left out
+  // The table or background that was found, in the coordinates of `points`. It is left out unless
+  // View::has_plane.
   std::optional<SupportPlane> plane = {};
   double measured_noise = 0;  // along the normals, in sampling distances; 0 if little
-  double removed_noise = 0;   // what the view asks for, or else the measured noise
+  double removed_noise = 0;   // the value that the view gives, or else the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
   // Returns the longer side of the points' box in the view plane; 0 without points.
   double longer_side() const { return Box::of(points).longer_side(); }
 
-  // Returns the bytes held, colours not counted.
+  // Returns the memory used, in bytes, colours not counted.
   std::size_t memory() const;
 };
 
 // Returns x and y of each point.
 std::vector<Vec2> in_plane(std::span<const Vec3> points);
 
-// Returns the surface of the part of the cloud that the view crops. Normals are estimated if the cloud has none, and
-// turned if they point inwards. Noise is removed as the view asks for. Pieces of less than 0.5 % of what is seen
-// are left out as crumbs, and so is a support plane with what is behind it if the view says so.
+// Returns the surface of the part of the cloud that the view crops. Normals are estimated if the cloud has
+// none, and turned if they point inwards. Noise is removed as the view asks for. Pieces of less than 0.5 % of
+// what is seen are left out as crumbs, and so is a support plane with what is behind it if the view says so.
 // Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
 // are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind
 // cancelled.

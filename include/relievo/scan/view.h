@@ -12,8 +12,8 @@ namespace relievo {
 
 struct Cloud;
 
-// A part of a model, in shares of its box as seen: x from the left to the right, y from below upwards, and depth from the
-// nearest point to the farthest.
+// A part of a model, in shares of its box in view coordinates: x from the left to the right, y from below
+// upwards, and depth from the nearest point to the farthest.
 struct Crop {
   Vec2 least = Vec2::Zero(), most = Vec2::Ones();
   double nearest = 0, farthest = 1;
@@ -29,13 +29,13 @@ struct View {
   Crop crop = {};
   bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
   bool has_plane = true;  // shows the table or background that the figure stands on, see find_support_plane()
-  std::optional<double> denoise = {};  // to remove, in sampling distances, [0, 1]; else the measured noise
+  std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
   // The best side is still to be chosen, when the model is known: see chosen_view() in scene.h.
   bool is_best = false;
 
   bool operator==(const View&) const = default;
 
-  // Returns the noise to remove from points whose noise was measured.
+  // Returns the noise to remove, given the measured noise.
   double noise_to_remove(double measured) const { return denoise.value_or(measured); }
 };
 
@@ -46,16 +46,16 @@ Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::Uni
 
 // Returns the view called "front", "back", "left", "right", "top" or "bottom", or towards "X,Y,Z". The front
 // is +Z, the right side +X and the top +Y. Without `up`, -Z and +Z point upwards in the views from the top
-// and the bottom, +Y in all others. "auto" is the best side, still to be chosen (View::is_best), and takes no `up`.
-// Errors: kind option for any other text, and for an `up` that is parallel to the view.
+// and the bottom, +Y in all others. "auto" is the best side, still to be chosen (View::is_best), and takes no
+// `up`. Errors: kind option for any other text, and for an `up` that is parallel to the view.
 Result<View> parse_view(std::string_view text, std::string_view up = {});
 
-// Returns the part of a model that "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR" names, all of it for an empty text. Errors:
-// kind option for anything but such numbers, in [0, 1] and ascending.
+// Returns the part of a model that "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR" names, all of it for an empty
+// text. Errors: kind option for anything but such numbers, in [0, 1] and ascending.
 Result<Crop> parse_crop(std::string_view text);
 
-// Returns the noise to remove that "auto" or a number in [0, 1] names, see View. Errors: kind option for any other text; the
-// error's input is empty, for the caller to fill in.
+// Returns the noise to remove that "auto" or a number in [0, 1] names, see View. Errors: kind option for any
+// other text; the error's input is empty, for the caller to fill in.
 Result<std::optional<double>> parse_denoise(std::string_view text);
 
 // Returns the points of a cloud that the view's crop shows, in their order.
@@ -69,17 +69,19 @@ View view_from_euler(double theta_x, double theta_y);
 // model's frame.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// A side of a model, as parse_view() takes it, and how well it suits a relief: the sum of the differences between the
-// normals of neighbouring cells of a coarse image, without those across depth jumps, times a weight.
+// A side of a model, as parse_view() takes it, and its score as the view of a relief: the sum of the
+// differences between the normals of neighbouring cells of a coarse image, without those across depth jumps,
+// times a weight.
 struct ViewGuess {
   std::string_view name, up;
   double score = 0;
 };
 
-// Returns the six sides along the axes, the one with the highest score first, each upright. Outliers are left out, and
-// normals estimated if the cloud has none. A cloud that was scanned from one side is shown from there: hollow backs have
-// the score 0. Other models have Y upwards and their front towards +Z, as glTF has them, unless they stand on a wide
-// foot along Z and on none along Y: then Z is upwards and the front is -Y. The front counts 1.6 times.
+// Returns the six sides along the axes, the one with the highest score first, each upright. Outliers are left
+// out, and normals estimated if the cloud has none. A cloud that was scanned from one side gets that side:
+// hollow backs have the score 0. Other models have Y upwards and their front towards +Z, as glTF has them,
+// unless they stand on a wide foot along Z and on none along Y: then Z is upwards and the front is -Y. The
+// front's score is multiplied by 1.6.
 std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
 
 }  // namespace relievo

@@ -16,9 +16,9 @@ namespace relievo {
 // Every point that faces the viewer is drawn as a disc into a depth buffer, oriented by its normal and as
 // wide as the local spacing, so that there are no gaps to look through even if the density varies. A point is
 // visible if it faces the viewer and is not behind the buffer's depth by more than the tolerance. Small
-// connected sets neither show nor hide anything. Of a height field all points that face the viewer are visible. This
-// replaces the cells of 2 rho of the paper's section 3.2,
-// through which hidden points leak and which lose points on slopes.
+// connected sets of points are not visible and hide nothing. In a height field all points that face the
+// viewer are visible. This replaces the cells of 2 rho of the paper's section 3.2, through which hidden
+// points leak and which lose points on slopes.
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing);
 
 struct VisiblePoints {

@@ -10,9 +10,9 @@
 
 namespace relievo::solver {
 
-// Owns the factorisation of one matrix, in single precision, and a copy of the matrix. docs/decisions/solver.md
-// explains how it works. Concurrent solves are safe, each with a workspace of its own. Results have the same
-// bits for any number of threads.
+// Owns the factorisation of one matrix, in single precision, and a copy of the matrix.
+// docs/decisions/solver.md explains how it works. Concurrent solves are safe, each with a workspace of its
+// own. Results have the same bits for any number of threads.
 class Cholesky {
  public:
   struct Factor;
@@ -26,7 +26,7 @@ class Cholesky {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Returns the bytes held.
+    // Returns the memory used, in bytes.
     std::size_t memory() const;
 
     struct Storage;
@@ -57,7 +57,7 @@ class Cholesky {
   // elements are neither read nor written. One number per unknown, all different.
   void renumber(std::span<const Index> numbers);
 
-  // Returns the bytes held, workspaces not counted.
+  // Returns the memory used, in bytes, workspaces not counted.
   std::size_t memory() const;
 
   Workspace make_workspace() const;
