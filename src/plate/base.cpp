@@ -34,7 +34,7 @@ Result<void> check_numbers(const BaseOptions& options) {
   return {};
 }
 
-// Returns the unit vector at right angles to straight lines of that direction; exact at 90 and 180 degrees.
+// Returns the unit vector perpendicular to straight lines of that direction; exact at 90 and 180 degrees.
 Vec2 across(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();
@@ -54,7 +54,7 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double half_extent = 0;  // of the plate, across the straight lines, or in any direction for a dome
+  double half_extent = 0;  // of the plate: across the straight lines, or for a dome in any direction
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
     half_extent =

@@ -9,8 +9,8 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// Returns the cubic B-spline's weights of the four values around a place that lies `t` of the way between the
-// two in the middle.
+// Returns the cubic B-spline's weights of four values in a row, at the fraction `t` of the way from the
+// second to the third.
 Weights weights_at(double t) {
   const double s = 1 - t;
   return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,

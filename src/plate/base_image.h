@@ -1,17 +1,17 @@
-// A height map as a smooth base.
-// Tested by base_test.
+// A height map as a smooth base. Tested by base_test.
 #pragma once
 
 #include "relievo/plate/base.h"
 
 namespace relievo {
 
-// The cubic B-spline whose control points are the map's values: it is smooth, stays between the values around
-// a place, and so levels the steps that rounding left. Beyond the border the outermost values continue.
+// The cubic B-spline whose control points are the map's values: it is smooth and stays between the
+// neighbouring values, so that it evens out steps from rounding. Beyond the border the outermost values are
+// repeated.
 class Base::ImageSurface {
  public:
-  // Centres the map on a plate of that size and scales it until it covers the plate; its highest value lies
-  // `height_mm` above its lowest.
+  // Centres the map on a plate of that size, scales it until it covers the plate, and makes it `height_mm`
+  // high from the lowest to the highest value.
   ImageSurface(std::shared_ptr<const Image<float>> grid, const Vec2& plate_mm, double height_mm);
 
   double pixel_mm() const { return pixel_mm_; }

@@ -35,7 +35,7 @@ std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid) {
 
 void separate_coincident(Solid& solid, double middle_z) {
   const int most_passes =
-      32;  // a moved point may coincide with a third one: then the next pass separates these
+      32;  // a moved point may coincide with a third one: then the next pass separates the two
   for (int pass = 0; pass < most_passes; ++pass) {
     const auto pairs = find_coincident_points(solid);
     if (pairs.empty()) return;

@@ -1,6 +1,5 @@
 // Points of a solid that coincide once a file has rounded them to single precision. Dense scans contain such
-// pairs now and then.
-// Tested by solid_test.
+// pairs now and then. Tested by solid_test.
 #pragma once
 
 #include <array>
@@ -13,8 +12,8 @@ namespace relievo {
 // Returns the pairs of used points that coincide in single precision; the second has the higher index.
 std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid);
 
-// Moves the second point of each such pair by the smallest steps of single precision that separate it,
-// towards `middle_z`, so that the solid's box stays.
+// Moves the second point of each such pair towards `middle_z` by the smallest steps of single precision that
+// separate the two; so the solid's box does not grow.
 void separate_coincident(Solid& solid, double middle_z);
 
 }  // namespace relievo

@@ -12,12 +12,13 @@ namespace relievo {
 namespace {
 
 constexpr double shortest_mm = 4e-3;  // a few steps of single precision at 10 m, and finer than any tool
-constexpr int most_refinements = 60;  // each halves edges, so no edge of a plate needs more than about 30
+constexpr int most_refinements = 60;  // each one halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
 
 // The place where a triangle is to be split.
 struct Split {
-  // Per edge, the share of the way from its lower to its higher index; 0 if the edge is not split.
+  // Per edge, the position of the split as a share of the way from its lower to its higher index; 0 if it is
+  // not split.
   std::array<double, 3> shares = {};
   std::optional<Vec3> place;  // a point inside, if no edge is split
   double left_mm = 0;         // largest deviation sampled, if nothing is split
@@ -38,9 +39,9 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// Works in rounds: the triangles that are new are sampled, all points that they need are added at once, and
-// then they are split. Both triangles of an edge sample the same places and so split it at the same point,
-// which keeps the mesh without T-junctions although each triangle is looked at by itself.
+// Works in rounds: new triangles are sampled, all points that they need are added at once, and then the
+// triangles are split. Both triangles of an edge sample the same places and so split it at the same point.
+// That avoids T-junctions, although each triangle is examined separately.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
@@ -96,10 +97,10 @@ class Refiner {
     return split;
   }
 
-  // Returns where to split an edge, the same for both its triangles; 0 if it is near enough. An edge that
-  // crosses a crease is measured and split there: the deviation is largest at the crease, and splitting in
-  // the middle would approach it by halves only. Other edges are sampled twice per feature, so that a wave
-  // that is 0 in the middle of an edge is not overlooked.
+  // Returns the share of an edge at which to split it, the same for both its triangles; 0 if the edge is
+  // within the tolerance. An edge that crosses a crease is measured and split there: the deviation is largest
+  // at the crease, and splits in the middle would approach the crease only slowly. Other edges are sampled
+  // twice per feature, so that a wave that is 0 in the middle of an edge is not overlooked.
   double share_of(const std::array<Index, 2>& ends, double& left_mm) const {
     const auto& [a, b] = ends;
     const Vec3 &p = flat_.points[a], &q = flat_.points[b];
@@ -118,9 +119,9 @@ class Refiner {
     return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // Returns the first sample inside that deviates too much: samples lie in rows parallel to the longest edge,
-  // towards the opposite corner. A point inside is added only where all three edges are near enough, as they
-  // can be on the top of a hill.
+  // Returns the first sample inside that deviates too much: samples lie in rows parallel to the longest edge.
+  // A point inside is added only if all three edges are within the tolerance, as can happen on the top of a
+  // hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();
@@ -177,7 +178,7 @@ class Refiner {
     flat_.colours.push_back(colour);
   }
 
-  // Returns the new point on the edge between two points; no_index if it was not split.
+  // Returns the new point on the edge between two points; no_index if the edge was not split.
   Index between(const std::array<Index, 2>& ends) const {
     const auto found = std::ranges::lower_bound(between_, Between{ends, 0}, is_before);
     if (found == between_.end() || found->ends != ends) return no_index;
@@ -216,7 +217,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // Edge e is split, and if two are, the next one as well.
+    // Edge e is split; if two edges are, so is the one after e.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];
@@ -258,7 +259,7 @@ class Refiner {
     outline_ = std::move(longer);
   }
 
-  // Sorts the triangles by the triangles that they are parts of, so that the front's come first again.
+  // Sorts the triangles by their original triangles, so that the front's come first again.
   void restore_order() {
     std::vector<Index> order(origin_.size());
     for (Index t = 0; t < order.size(); ++t) order[t] = t;
@@ -282,7 +283,7 @@ class Refiner {
   double tolerance_, left_mm_ = 0;
   std::vector<Vec3> deformed_;    // per point
   std::vector<Index> origin_;     // per triangle, the original one of which it is a part
-  std::vector<Index> active_;     // the triangles that are new
+  std::vector<Index> active_;     // the triangles that are new in this round
   std::vector<Between> between_;  // this round's points on edges, sorted by their ends
   Index first_between_ = 0, first_within_ = 0;
   std::vector<Triangle> parts_;

@@ -1,5 +1,5 @@
-// Refines flat triangles until they follow a deformation of space, as onto a curved base or around a wrap.
-// Tested by plate_base_test and wrap_test.
+// Refines flat triangles until they follow a deformation of space, such as onto a curved base or around a
+// wrap. Tested by plate_base_test and wrap_test.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@ namespace relievo {
 
 // A map of the points of a flat body to those of a curved one. All functions may be called concurrently.
 struct Deformation {
-  std::function<Vec3(const Vec3&)> at;  // where a point of the flat body goes
-  // Returns where the segment between two points crosses a crease, in (0, 1); nothing if it does not. May be
-  // null.
+  std::function<Vec3(const Vec3&)> at;  // maps a point of the flat body to the curved one
+  // Returns the position, in (0, 1), at which the segment between two points crosses a crease; nothing if it
+  // crosses none. May be null.
   std::function<std::optional<double>(const Vec3&, const Vec3&)> crease_between = nullptr;
   // An approximate length in mm within which the map curves to one side only. It spaces the samples of the
   // error.
@@ -23,7 +23,8 @@ struct Deformation {
 };
 
 // The part of the tolerance that edges may use. Where a surface curves evenly, the inside of a triangle
-// deviates by up to 4/3 of its edges' deviation, so edges within 3/4 leave insides that are within the whole.
+// deviates by up to 4/3 of its edges' deviation, so edges within 3/4 of the tolerance keep the inside within
+// all of it.
 inline constexpr double share_of_edges = .75;
 
 // Subdivides the flat triangles until the deformed mesh deviates from the deformed surface by at most

@@ -14,8 +14,9 @@
 namespace relievo {
 namespace {
 
-// The plate is thinnest for the brightest 2 % of the points, as a few highlights would else leave the rest dark. It is
-// thickest where points are a tenth as bright as these, and for the darkest tenth of the points where that is darker still.
+// The plate is thinnest for the brightest 2 % of the points, because otherwise a few highlights would leave
+// the rest dark. It is thickest where points are a tenth as bright as the highlights, or for the darkest
+// tenth of the points if these are darker still.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 
@@ -28,8 +29,8 @@ double luminance(const Colour& colour) {
   return .2126 * linear(colour[0]) + .7152 * linear(colour[1]) + .0722 * linear(colour[2]);
 }
 
-// Returns the brightness of a white surface under a large lamp at the upper left, whose light goes around edges, so that
-// surfaces that face away still show their form.
+// Returns the brightness of a white surface under a large lamp at the upper left, whose light goes around
+// edges, so that surfaces that face away still show their form.
 double shade(const Vec3f& normal) {
   const Vec3f lamp = Vec3f(-1, 1, 1.6F).normalized();
   const double facing = .5 + .5 * static_cast<double>(normal.dot(lamp));
@@ -40,7 +41,8 @@ struct Range {
   double darkest, brightest;
 };
 
-// Returns the brightness where the plate is thickest and that where it is thinnest, of points that are not on the outline.
+// Returns the brightness of points where the plate is thickest and where it is thinnest. Points on the
+// outline are ignored.
 Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_boundary) {
   std::vector<double> inside;
   for (std::size_t i = 0; i < bright.size(); ++i)

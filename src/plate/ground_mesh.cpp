@@ -14,10 +14,10 @@
 namespace relievo {
 namespace {
 
-constexpr double most_points = 2e5;  // of the ground; a relief has about as many
+constexpr double most_points = 2e5;  // points of the ground; a relief has about as many
 
-// Returns true if three edges from here, `step` long, deviate by no more than refine() allows edges. An edge
-// across a crease tells nothing of the spacing: refine() splits it at the crease.
+// Returns true if three edges from this point, `step` long, deviate by no more than refine() allows for
+// edges. Edges across a crease do not count, because refine() splits them at the crease.
 bool is_fine(const Deformation& deformation, const Vec3& from, double step, double tolerance_mm) {
   for (const Vec3& way : {Vec3(step, 0, 0), Vec3(0, step, 0), Vec3(.7 * step, .7 * step, 0)}) {
     const Vec3 to = from + way;
@@ -127,14 +127,14 @@ std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vect
   return triangles;
 }
 
-// Triangles that cover all within the rim, the relief's first.
+// Triangles that cover everything inside the rim, the relief's first.
 struct Cover {
   std::vector<Triangle> triangles;
   std::size_t relief = 0;  // the number of the relief's triangles
 };
 
-// Returns true if the triangles are a Delaunay triangulation, up to the choice that points on one circle
-// leave.
+// Returns true if the triangles are a Delaunay triangulation. Points on one circle may be triangulated in any
+// way.
 bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   const auto at = [&](Index i) { return Vec2(points[i].head<2>()); };
   bool is_delaunay = true;
@@ -154,9 +154,10 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
   return cover;
 }
 
-// Returns the relief as it was together with the ground of the triangulation; or, if points on one circle
-// left a choice that does not fit, all of the triangulation. Returns nothing if the triangulation connects
-// points above the ground with new ones, or does not reproduce a relief that is not Delaunay.
+// Returns the given relief together with the ground of the triangulation. If the two do not fit together,
+// because points on one circle were triangulated in another way, the result is all of the triangulation.
+// Returns nothing if the triangulation connects points above the ground with new ones, or does not fit a
+// relief that is not Delaunay.
 std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
                              const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Heights count from the lowest point, which keeps their single-precision digits.
+// Heights are measured from the lowest point, so that single precision keeps their digits.
 RasterInput front_input(const Solid& solid, const HeightField& field) {
   RasterInput input;
   input.triangles = std::span(solid.triangles).first(solid.front_triangles);
@@ -37,12 +37,12 @@ std::vector<Vec3f> stored_points(const Solid& solid) {
   return stored;
 }
 
-// The part of a line of constant y that lies in a triangle, given by its ends.
+// The two ends of the part of a line of constant y that lies in a triangle.
 struct Chord {
   Vec2 left, right;  // x and z
 };
 
-// Returns the part of a line of that y in a triangle, which must reach the line.
+// Returns the part of the line at that y inside a triangle, which must intersect the line.
 Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   Chord chord{Vec2::Constant(std::numeric_limits<double>::infinity()), {}};
   chord.right.x() = -chord.left.x();
@@ -60,12 +60,12 @@ Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   return chord;
 }
 
-// Some rows of a field, in which triangles are entered.
+// Some rows of a field into which triangles are drawn.
 class FieldRows {
  public:
   FieldRows(HeightField& field, int first, int end) : field_(field), first_(first), end_(end) {}
 
-  // Raises the pixels whose centres lie in the triangle or on its edge to its height there.
+  // Raises the pixels whose centres lie in the triangle, or on its edge, to the triangle's height there.
   void enter(const std::array<Vec3, 3>& corners) {
     const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
     const int begin = std::max(first_, first_from(centre_at({0, high, 0}).y())),
@@ -75,12 +75,12 @@ class FieldRows {
   }
 
  private:
-  // A centre that lies on an edge belongs to both triangles, whichever way its place was rounded.
+  // The tolerance, in pixels, that makes a centre on an edge belong to both triangles in spite of rounding.
   static constexpr double rounding = 1e-9;  // pixels
   static int first_from(double centre) { return static_cast<int>(std::ceil(centre - rounding)); }
   static int end_after(double centre) { return static_cast<int>(std::floor(centre + rounding)) + 1; }
 
-  // Returns a place in pixels from the centre of the first.
+  // Returns the position of a point in pixels, measured from the centre of the first pixel.
   Vec2 centre_at(const Vec3& point) const { return field_.to_pixels(point) - Vec2(.5, .5); }
 
   void enter_row(const Chord& chord, int row) {

@@ -1,4 +1,5 @@
-// The front of a solid as heights under the centres of a picture's pixels. Tested by tests/plate/height_field_test.cpp.
+// The front of a solid as heights under the centres of a picture's pixels. Tested by
+// tests/plate/height_field_test.cpp.
 #pragma once
 
 #include "relievo/core/image.h"
@@ -7,13 +8,13 @@
 
 namespace relievo {
 
-// The front's box lies in the picture's middle, the longer side fills it.
+// The front's box lies in the picture's middle, and its longer side fills the picture.
 struct HeightField {
   double mm_per_pixel = 0;
   Box box;         // of the front
   Image<float> z;  // millimetres above the front's lowest point; 0 beside the front
   Image<std::uint8_t> is_beside =
-      {};  // 1 for a pixel that shows no front; empty if all do, or if nobody asks
+      {};  // 1 for a pixel beside the front; empty if there are none or they are not marked
 
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - box.centre()) / mm_per_pixel;
@@ -24,17 +25,18 @@ struct HeightField {
   }
 };
 
-// Returns a field of zeros for a front with that box, its longer side of `longer_side_px` pixels; without
-// pixels if that is not in [1, RasterInput::most_pixels] or the box is empty.
+// Returns a field of zeros for a front with that box. Its longer side has `longer_side_px` pixels; the field
+// has no pixels if that is not in [1, RasterInput::most_pixels] or the box is empty.
 HeightField flat_height_field(const Box& box, int longer_side_px);
 
-// Returns the heights of a solid's front, quickly; without pixels as flat_height_field().
+// Returns the heights of a solid's front, quickly. The field has no pixels in the same cases as
+// flat_height_field().
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
 // Returns the heights of a solid's front, with its corners as files store them. Each pixel has the height of
-// the triangle that contains its centre, or has it on an edge; the highest of several. draw_height_field()
-// rounds corners to 1/256 pixel, which can change a height at a wall by as much as the wall is high. Without
-// pixels as flat_height_field(); `is_beside` is empty.
+// the triangle that contains its centre, edges included; of several triangles, the highest.
+// draw_height_field() rounds corners to 1/256 pixel, which can change a height at a wall by as much as the
+// wall is high. The field has no pixels in the same cases as flat_height_field(); `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, int longer_side_px);
 
 }  // namespace relievo

@@ -14,8 +14,8 @@ namespace {
 
 using Points = std::span<const Vec2>;
 
-// The distance of a curve, with the polygon's corners on it, from the middles of the polygon's sides. Turning
-// and polishing leave more; for curves of more than 10 m, files store no less than this share of the radius.
+// The distance of a curve from the middles of the sides of its inscribed polygon. Turning and polishing leave
+// larger errors; for curves of more than 10 m, files store no less than this share of the radius.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
 // The distance of a line from the centre, as a function of the outline's size.
@@ -25,14 +25,14 @@ struct Distance {
   double at(double size) const { return offset + size * growth; }
 };
 
-// One edge of a convex outline, which `size` scales as a whole: a line, and the curve's tangent parallel to
-// it. Both are the same where the outline is straight.
+// One side of a convex outline that is scaled by `size`: a line, and the curve's tangent parallel to it. Both
+// are the same where the outline is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
 };
 
-// The box around points, by its centre and half its size.
+// The box around points, given by its centre and half its size.
 struct Frame {
   Vec2 centre = Vec2::Zero(), half = Vec2::Zero();
 };
@@ -47,11 +47,11 @@ Frame frame_around(Points points) {
 // counter-clockwise.
 struct CircleSides {
   std::vector<Vec2> normals;  // unit length
-  double distance = 1;        // of the sides from the centre
+  double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns the sides that keep a polygon in a circle of that radius within finest_mm of it: the middles of its
-// sides are at radius * cos(half a side's angle) from the centre.
+// Returns the sides of an inscribed polygon that stays within finest_mm of a circle of that radius. The
+// middles of the sides are at the distance radius * cos(half a side's angle) from the centre.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
@@ -64,8 +64,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Returns the centre in the middle between left and right from which the farthest point is nearest, in a plane stretched by
-// 1 / scale. The smallest circle of all would leave a figure beside the middle, which shows.
+// Returns the centre of the smallest circle around the points that lies midway between left and right, in a
+// plane stretched by 1 / scale. The centre of the smallest circle of all would put a figure visibly off the
+// middle.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -75,7 +76,7 @@ Vec2 round_centre(Points points, const Vec2& scale) {
     return distance_sq;
   };
   double low = frame.centre.y() - frame.half.y(), high = frame.centre.y() + frame.half.y();
-  const int steps = 100;  // each leaves two thirds
+  const int steps = 100;  // each step leaves two thirds of the interval
   for (int i = 0; i < steps; ++i) {
     const double third = (high - low) / 3;
     if (farthest(low + third) > farthest(high - third))
@@ -153,7 +154,7 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-// Returns the box around points or, if a size is given, the box that its margin leaves.
+// Returns the box around points or, if a size is given, the box of that size less the margin.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);
@@ -174,7 +175,7 @@ std::vector<Vec2> round_rectangle_around(Points points, const OutlineOptions& op
   return around(points, frame.centre, sides_of_rectangle(frame, options, corner), options.margin_mm);
 }
 
-// An ellipse with axes in the ratio of `shape`.
+// Returns an ellipse with axes in the ratio of `shape`.
 std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, const OutlineOptions& options) {
   const Frame frame = frame_around(points);
   const Vec2 centre = round_centre(points, shape), wanted = options.size_mm / 2;
@@ -208,7 +209,7 @@ std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
   return around(points, centre, is_pointed ? pointed : flat, margin);
 }
 
-// One row per outline: how it is made, and what the rest of the plate asks of it. `none` has no row.
+// One row per outline: the function that makes it, and its properties. `none` has no row.
 struct OutlineShape {
   Outline outline;
   std::vector<Vec2> (*around)(Points points, const OutlineOptions& options);
@@ -226,7 +227,8 @@ const OutlineShape* shape_of(Outline outline) {
   return found == shapes.end() ? nullptr : &*found;
 }
 
-// Returns the lengths on both sides of a separator. A unit behind the second alone is that of both, as in "8x6in".
+// Returns the lengths on both sides of a separator. A unit after the second one alone applies to both, as in
+// "8x6in".
 std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit bare) {
   const std::size_t middle = text.find(separator);
   if (middle == std::string_view::npos) return std::nullopt;
@@ -242,7 +244,7 @@ std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit
 }  // namespace
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
-  constexpr std::string_view cross_sign = "\u00d7";  // people write it as well as x
+  constexpr std::string_view cross_sign = "\u00d7";  // used as well as x
   if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)
     return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);

@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// Moves the surface until its lowest point lies at the thickness, bit for bit, and its box begins at 0.
+// Moves the surface so that its lowest point lies exactly at the thickness, and x and y are at least 0.
 void raise(Solid& surface, double thickness_mm) {
   const Vec3 begin = used_box(surface.points, surface.triangles).min;
   const Vec3 move(-std::min(0.0, begin.x()), -std::min(0.0, begin.y()), thickness_mm - begin.z());
@@ -23,7 +23,7 @@ void raise(Solid& surface, double thickness_mm) {
   surface.ground_mm += move.z();
 }
 
-// Adds the points below those of a polygon on the bottom; returns them.
+// Adds the points on the bottom that lie below those of a polygon, and returns them.
 IndexPolygon add_below(Solid& solid, const IndexPolygon& top) {
   IndexPolygon bottom;
   for (const Index i : top) {
@@ -42,7 +42,7 @@ void add_walls(Solid& solid, const IndexPolygon& top, const IndexPolygon& bottom
   }
 }
 
-// Adds the walls under the outline and the bottom: a fan, or the lattice that a wrap needs to be bent.
+// Adds the walls under the outline, and the bottom: a fan, or the lattice that is needed for bending.
 void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
   const IndexPolygon bottom = add_below(solid, outline);
   add_walls(solid, outline, bottom);
@@ -79,8 +79,8 @@ Solid closed(PlateSurface surface, const PlateOptions& options) {
   return std::move(surface.solid);
 }
 
-// Returns the front that the plate shows: all of it, or without ground the relief alone, which is put into
-// `alone`.
+// Returns the front that the plate shows: all of it, or for a plate without ground the relief alone, which is
+// stored in `alone`.
 Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const PlateOptions& options,
                                            HeightFieldMesh& alone) {
   RELIEVO_CHECK(check_plate(front, options));

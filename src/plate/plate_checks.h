@@ -1,5 +1,4 @@
-// Validates the arguments of make_plate().
-// Tested by solid_test and plate_rim_test.
+// Validates the arguments of make_plate(). Tested by solid_test and plate_rim_test.
 #pragma once
 
 #include "relievo/plate/solid.h"

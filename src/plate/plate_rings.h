@@ -1,5 +1,4 @@
-// The ground around a relief: rings between convex polygons.
-// Tested by solid_test.
+// The ground around a relief: rings between convex polygons. Tested by solid_test.
 #pragma once
 
 #include <vector>
@@ -15,13 +14,12 @@ using IndexPolygon = std::vector<Index>;
 IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double z);
 
 // Fills the ring between two convex polygons, the inner one strictly inside the outer, with triangles that
-// cover it once. Each has an area, even where corners are collinear or edges are parallel.
+// cover it once. Every triangle has an area, even where corners are collinear or edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer);
 
-// Returns how far to move a point that lies `share` of the way along a polygon's side outwards so that it
-// becomes a corner: sides become arcs of one circle, 0.00001 mm off their middle where they are 100 mm long.
-// Collinear corners would leave triangles without an area, and to a Delaunay triangulation a choice of the
-// hull.
+// Returns the outward offset that makes a point at the fraction `share` of a polygon's side a corner. With
+// it, points of a side lie on an arc, whose middle is 0.00001 mm outside a side of 100 mm. Collinear corners
+// would give triangles without area, and an ambiguous hull of the Delaunay triangulation.
 inline Vec2 convexity_offset(const Vec2& side, double share) {
   const double curvature = 8e-9;  // per mm
   return share * (1 - share) / 2 * curvature * side.norm() * Vec2(side.y(), -side.x());

@@ -71,15 +71,15 @@ PlateSurface flat_plate_surface(const HeightFieldMesh& front, const PlateOptions
   return surface;
 }
 
-// Returns the polygon inside the rim; empty without ground.
+// Returns the polygon inside the rim; it is empty for a plate without ground.
 std::vector<Vec2> rim_inner_of(const HeightFieldMesh& front, const PlateOptions& options) {
   if (options.outline == Outline::none) return {};
   return rim_inner_polygon(outline_of_plate(front, used_box(front.points, front.triangles), options),
                            options.rim);
 }
 
-// Returns points as far out as the plate, in the front's coordinates: its outline, or without ground the
-// relief's points.
+// Returns points that enclose the plate, in the front's coordinates: its outline, or for a plate without
+// ground the relief's points.
 std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& options) {
   std::vector<Vec2> outline;
   if (options.outline == Outline::none) {
@@ -93,13 +93,13 @@ std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& op
   return outline;
 }
 
-// The curved surface that a plate's surface is to follow, in the front's coordinates.
+// The curved surface that a plate's surface must follow, in the front's coordinates.
 struct TargetSurface {
   Deformation deformation;
-  // Its height over the plane. For a wrap, a height field of about the same curvature: triangles that
-  // approximate one approximate the other.
+  // The height of the curved surface over the plane. For a wrap it is a height field of about the same
+  // curvature, because triangles that approximate the one approximate the other.
   std::function<double(const Vec2&)> height;
-  bool is_lifted = false;  // true if the surface gets that height now; a wrap bends the finished plate later
+  bool is_lifted = false;  // true if the surface gets this height now; a wrap bends the plate later
 };
 
 TargetSurface target_on(const Base& base) {

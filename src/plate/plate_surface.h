@@ -1,5 +1,5 @@
-// The front side of a plate, relief, ground and rim, before walls and bottom make it a body.
-// Tested by plate_base_test.
+// The front side of a plate (relief, ground and rim) before walls and bottom are added. Tested by
+// plate_base_test.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// An open surface. Its z is not yet that of the plate.
+// An open surface, which is not yet at the plate's height in z.
 struct PlateSurface {
   Solid solid;                                               // without walls and bottom
   IndexPolygon outline;                                      // empty if the plate has no ground
@@ -21,14 +21,14 @@ struct PlateSurface {
 inline constexpr Colour plate_colour = {200, 200,
                                         200};  // of ground, walls and bottom of a coloured relief: light grey
 
-// Gives the plate's colour to the points that were added to a coloured front.
+// Colours the points that were added to a coloured front as plate.
 void fill_colours(Solid& solid);
 
-// Returns the base under a front, in its coordinates; without ground, the front must be the relief alone.
-// Errors: those of Base::over().
+// Returns the base under a front, in its coordinates. For a plate without ground, the front must be the
+// relief alone. Errors: those of Base::over().
 Result<Base> base_under(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the surface on its base; or, for a wrap, flat and with triangles that are fine enough to be bent.
+// Returns the surface on its base. For a wrap it is flat, with triangles that are fine enough to be bent.
 // Errors: those of Wrap::around() and simplify().
 Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base& base,
                                         const PlateOptions& options);

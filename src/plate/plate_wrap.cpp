@@ -40,20 +40,20 @@ Result<void> check_room(const Solid& plate, const Wrap& wrap) {
 
 // Checks that the two sides that meet after a full turn are straight and equal.
 Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
-  // Rounding leaves a cosine of 6e-17 at 180 degrees.
+  // The computed cosine may be 6e-17 instead of 0.
   const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
   if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
   return option_error("wrap",
                       "expected outline rectangle, no rim and an upright or level axis for a full turn");
 }
 
-// A point on one of the two sides of the plate that are to be joined.
+// A point on one of the plate's two sides that will be joined.
 struct SidePoint {
   double along, z;
   Index point;
 };
 
-// Returns the points on the side that faces this direction, sorted along the side and by height.
+// Returns the points of the plate's side in this direction, sorted along the side and by height.
 std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
   const Vec2 along(std::abs(direction.y()), std::abs(direction.x()));
   double farthest = 0, nearest = 0;
@@ -115,7 +115,7 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
   IndexPolygon no_outline;
-  // A simplified front deviates by its own tolerance, which refining must not mend: it would undo the
+  // A simplified front deviates by its own tolerance. Refining must not reduce that, as it would undo the
   // simplification.
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);

@@ -14,14 +14,14 @@
 namespace relievo {
 namespace {
 
-// Samples between points of the tool's shape, where it is gentle and where it is steep: a quarter of the radius of a tool
-// that samples_for() can follow, or a twelfth.
+// Distance in samples between new points of the surface, where it is gentle and where it is steep. With the
+// usual samples_for() this is a quarter or a twelfth of the tool's radius.
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
-constexpr double least_left_mm = 1e-3;  // less than that counts as reached
-constexpr double most_lift_mm = .01;    // of a point that stays
+constexpr double least_left_mm = 1e-3;  // a smaller residual counts as reached
+constexpr double most_lift_mm = .01;    // by which a point that stays may be lifted
 
-// The heights that the tool leaves over a surface, and the surface's own.
+// The heights that the tool leaves above a surface, and the heights of the surface itself.
 class ToolHeights {
  public:
   ToolHeights(Solid& surface, const Tool& tool) {
@@ -37,13 +37,14 @@ class ToolHeights {
   float left(int x, int y) const { return is_front(x, y) ? closed_.at(x, y) - field_.z.at(x, y) : 0; }
   Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
 
-  // Returns the place of a sample at the height that the tool leaves.
+  // Returns the position of a sample, with the height that the tool leaves.
   Vec3 place(int x, int y) const {
     const Vec2 place = field_.to_mm(x + .5, y + .5);
     return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(closed_.at(x, y))};
   }
 
-  // Returns the height that the tool leaves between samples; that of the point itself beside all samples.
+  // Returns the height that the tool leaves, interpolated between samples; outside all samples, the height of
+  // the point itself.
   double at(const Vec3& point) const {
     const Vec2 place = to_samples(point) - Vec2(.5, .5);
     const int x = static_cast<int>(std::floor(place.x())), y = static_cast<int>(std::floor(place.y()));
@@ -68,7 +69,7 @@ class ToolHeights {
     return most / static_cast<float>(field_.mm_per_pixel);
   }
 
-  // Returns whether the tool leaves anything at a sample or near it.
+  // Returns whether the tool leaves material at a sample or near it.
   bool leaves_near(int x, int y, int distance) const {
     for (const int dy : {-distance, 0, distance})
       for (const int dx : {-distance, 0, distance})
@@ -86,7 +87,7 @@ class ToolHeights {
   Image<float> closed_;
 };
 
-// The points of the new surface, and their marks in the samples.
+// The points of the new surface, and the samples that are taken by them.
 class PointSet {
  public:
   PointSet(const ToolHeights& heights, const Solid& old)
@@ -107,7 +108,7 @@ class PointSet {
         if (is_taken_.contains(x, y)) is_taken_.at(x, y) = 1;
   }
 
-  // Adds the point unless the tool stays well above it; lifts it where the tool stays a little above it.
+  // Adds the point if the tool comes close to it; a point that the tool misses by a little is lifted.
   void add_if_reached(const Vec3& point, const Colour& colour) {
     const double left = heights_.at(point) - point.z();
     if (left <= least_left_mm)
@@ -145,7 +146,8 @@ std::vector<std::uint8_t> used_points(const Solid& solid) {
   return is_used;
 }
 
-// Returns the distance between points along the rim's edges: less than its bevel is wide, so that triangles do not span it.
+// Returns the distance between points along the rim's edges: less than the width of the bevel, so that no
+// triangle crosses it.
 double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < edges.size(); ++i)
@@ -158,7 +160,7 @@ PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
                         std::span<const RimEdge> edges) {
   const Solid& solid = surface.solid;
   PointSet set(heights, solid);
-  // The outline comes first: the plate's walls stand under it.
+  // The outline comes first, because the plate's walls are built on it.
   std::vector<std::uint8_t> is_free = used_points(solid);
   for (const Index i : surface.outline) {
     set.add(solid.points[i], colour_of(solid, i));
@@ -195,7 +197,8 @@ void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const Rim
     });
     return;
   }
-  // A second pass closes what triangles between the first one's points leave open: docs/decisions/tool.md.
+  // A second pass raises the surface where the triangles of the first pass are below the tool's surface:
+  // docs/decisions/tool.md.
   for (int pass = 0; pass < 2; ++pass) close_once(surface, tool, edges);
 }
 

@@ -1,5 +1,4 @@
-// The front of a plate as a milling tool leaves it.
-// Tested by reachable_surface_test.
+// Makes the front of a plate as a milling tool leaves it. Tested by reachable_surface_test.
 #pragma once
 
 #include <span>
@@ -11,9 +10,9 @@
 namespace relievo {
 
 // Replaces the surface by the one that the tool leaves above it: see close_by_tool(). Points that the tool
-// reaches stay. Others are replaced by samples of the new surface, which are dense where it is steep; level
-// ground gets none. `edges` are those of the rim, in the surface's coordinates; points along them keep them
-// sharp. A surface without ground keeps its triangles, and its points are lifted.
+// reaches stay. The others are replaced by samples of the new surface, which are dense where it is steep;
+// level ground gets none. `edges` are the rim's, in the surface's coordinates; points along these edges keep
+// them sharp. A surface without ground keeps its triangles, and its points are lifted.
 void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
 
 }  // namespace relievo

@@ -12,14 +12,14 @@ namespace relievo {
 
 enum class ShapeUnit { mm, degrees };
 
-// A parameter with a value, and where to put it. A length may carry its unit: "diameter=2 1/2in".
+// A parameter with a value, and the variable that stores it. A length may have a unit: "diameter=2 1/2in".
 struct ShapeNumber {
   std::string_view name;
   std::optional<double>* value;
   ShapeUnit unit = ShapeUnit::mm;
 };
 
-// A parameter without a value, and what to set if it is there.
+// A parameter without a value, and the variable that is set to true if the text contains it.
 struct ShapeWord {
   std::string_view name;
   bool* value;
@@ -28,9 +28,10 @@ struct ShapeWord {
 // Returns the part before the colon, or all of the text if it has none.
 std::string_view shape_kind(std::string_view text);
 
-// Parses the parameters after the colon into `numbers` and `words`; those that the text does not name keep
-// their values. A comma before a digit is a decimal comma, others separate parameters. Errors: kind option, naming
-// `option`, for unknown parameters, and for values that are no lengths or finite numbers.
+// Parses the parameters after the colon into `numbers` and `words`; variables of parameters that are not in
+// the text keep their values. A comma before a digit is a decimal comma; other commas separate parameters.
+// Errors: kind option, naming `option`, for unknown parameters, and for values that are not lengths or finite
+// numbers.
 Result<void> read_shape(std::string_view text, std::string_view option, std::span<const ShapeNumber> numbers,
                         std::span<const ShapeWord> words);
 

@@ -49,8 +49,8 @@ std::string wrong_edges(const Solid& solid) {
     const std::span edges(table.items.begin() + static_cast<std::ptrdiff_t>(table.begin[p]),
                           table.begin[p + 1] - table.begin[p]);
     std::ranges::sort(edges);
-    // Sorted, the edges of a closed surface are pairs: the same other end, upwards, then downwards. An edge
-    // that is used a third time breaks the pairs.
+    // Sorted, the edges of a closed surface form pairs with the same other end, first leading up, then down.
+    // An edge that is used a third time breaks the pairs.
     for (std::size_t i = 0; i < edges.size(); i += 2) {
       const bool is_pair = i + 1 < edges.size() && edges[i] % 2 == 0 && edges[i + 1] == edges[i] + 1;
       if (!is_pair)
@@ -82,8 +82,8 @@ std::string check_solid(const Solid& solid) {
 
 double volume_mm3(const Solid& solid) {
   if (solid.triangles.empty()) return 0;
-  // Sums signed tetrahedra with an apex on the solid: with the origin as apex, a solid far from it would lose
-  // digits by cancellation.
+  // Sums signed tetrahedra with an apex on the solid. With the origin as apex, digits of a solid far from the
+  // origin would be lost by cancellation.
   const Vec3 apex = solid.points[solid.triangles[0][0]];
   return parallel_reduce(
       solid.triangles.size(), 0.0,

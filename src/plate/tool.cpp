@@ -46,7 +46,7 @@ double half_angle(const Tool& tool) {
   return to_radians(tool.angle_deg / 2);
 }
 
-// Distance from the axis up to which the tool matters for surfaces of that height.
+// Returns the tool's radius where it cuts a surface of that height.
 double radius_of(const Tool& tool, double height_mm) {
   if (tool.kind != Tool::Kind::v) return tool.diameter_mm / 2;
   return tool.tip_mm / 2 + height_mm * std::tan(half_angle(tool));
@@ -97,7 +97,7 @@ double tool_profile(const Tool& tool, double distance_mm) {
   const double r = std::abs(distance_mm);
   const auto ball = [&](double radius) { return radius - std::sqrt(std::max(0.0, radius * radius - r * r)); };
   if (tool.kind == Tool::Kind::v) {
-    // The flank leaves the tip's ball where it touches it.
+    // The flank begins where it is tangent to the tip's ball.
     const double tip = tool.tip_mm / 2, angle = half_angle(tool), touching = tip * std::cos(angle);
     if (r <= touching) return ball(tip);
     return tip * (1 - std::sin(angle)) + (r - touching) / std::tan(angle);
@@ -113,13 +113,13 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
   const int reach =
       std::min(static_cast<int>(radius / step_mm + 1e-9), std::max(heights.width, heights.height) / 2);
   const Profile profile(reach, [&](int x, int y) {
-    const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);  // a radius of whole samples counts
+    const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);  // includes samples at the radius
     return distance > radius ? std::numeric_limits<float>::infinity()
                              : static_cast<float>(tool_profile(tool, distance));
   });
-  // Tool positions reach beyond the picture on all sides.
+  // Tool positions extend beyond the picture on all sides.
   Image<float> hanging = dilate(heights, profile, reach);
-  // Outside the picture there is no height, and the tool leaves none.
+  // Positions without any height near them stay without a tool.
   for (float& z : hanging.pixels) z = z > nowhere ? -z : nowhere;
   const Image<float> left = dilate(hanging, profile, -reach);
   Image<float> closed = heights;

@@ -1,4 +1,4 @@
-// Samples of a front that are fine enough to find what a tool reaches.
+// Samples a front finely enough to find the parts that a tool reaches.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace relievo {
 
-// Returns the number of samples along the longer side: a twelfth of the tool's radius apart, in [2048, 4096].
+// Returns the number of samples along the longer side, in [2048, 4096]: they are a twelfth of the tool's
+// radius apart if that range allows it.
 inline int samples_for(const Tool& tool, double longer_mm) {
   constexpr int least_samples = 2048, most_samples = 4096;
   constexpr double samples_per_radius = 12;
@@ -20,7 +21,8 @@ inline int samples_for(const Tool& tool, double longer_mm) {
   return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
 }
 
-// Returns the heights of a solid's front, whose box is given; NaN beside it, where nothing hinders the tool.
+// Returns the heights of a solid's front, whose box is given; NaN beside the front, where nothing hinders the
+// tool.
 inline HeightField front_samples(const Solid& solid, const Box& box, const Tool& tool) {
   HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
   for (std::size_t i = 0; i < field.z.pixels.size(); ++i)

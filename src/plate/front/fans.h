@@ -1,5 +1,5 @@
-// The triangles around each point of a mesh that changes in a few places.
-// Tested by tests/plate/thin_triangles_test.cpp.
+// The triangles around each point of a mesh that changes in a few places. Tested by
+// tests/plate/thin_triangles_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@ namespace relievo {
 
 class Fans {
  public:
-  // The triangles must stay where they are.
+  // Refers to the triangles, which must stay at their address.
   Fans(std::size_t points, std::span<const Triangle> triangles)
       : triangles_(triangles), first_(grouped<Index>(points, [&](auto&& add) {
           for (Index t = 0; t < triangles.size(); ++t)
             for (const Index i : triangles[t]) add(i, t);
         })) {}
 
-  // Returns the triangles around a point, which stay until the mesh is changed.
+  // Returns the triangles around a point; the span is valid until the mesh is changed.
   std::span<const Index> around(Index point) const {
     const auto found = changed_.find(point);
     return found == changed_.end() ? first_[point] : std::span<const Index>(found->second);

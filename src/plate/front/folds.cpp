@@ -83,7 +83,8 @@ class Unfolder {
         fans_->around(point), [&](Index t) { return is_folded(places_, solid_.triangles[t]); }));
   }
 
-  // Moves a corner of a folded triangle so that fewer triangles around it are folded, if there is such a place.
+  // Moves a corner of a folded triangle so that fewer triangles around the corner are folded, if that is
+  // possible.
   void mend(const Triangle& t) {
     for (int steps = 1; steps <= most_steps; ++steps)
       for (const Index corner : t)
@@ -104,7 +105,7 @@ class Unfolder {
     return false;
   }
 
-  // Moves the point and those at the same place below it.
+  // Moves the point and the points below it, which have the same x and y.
   void move_all_at(Index corner, const Vec2& place) {
     std::vector<Index> together{corner};
     const auto [first, last] =
@@ -121,7 +122,7 @@ class Unfolder {
   std::vector<Vec2> places_;
   std::vector<std::uint8_t> is_fixed_;
   std::optional<Fans> fans_;
-  std::multimap<std::pair<double, double>, Index> at_place_;  // once there are walls
+  std::multimap<std::pair<double, double>, Index> at_place_;  // empty before walls are added
   double step_ = 0;
 };
 

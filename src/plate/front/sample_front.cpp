@@ -20,14 +20,15 @@
 namespace relievo {
 namespace {
 
-constexpr int band_rings = 3;  // of triangles beside creases that keep their points
+constexpr int band_rings = 3;  // rings of triangles beside creases that keep their points
 constexpr int most_divisions = 16;
-// Least distances in steps: of samples from the band's points (half of it in quarters of squares), and
-// between the band's points, but not on creases.
+// Smallest distances, in steps: between samples and points of the band (half of it in quarters of squares),
+// and between points of the band that are not on creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
-// Marks the triangles that are not smooth, and those up to some rings of smooth triangles beside them and the hull.
+// Marks the triangles that are not smooth, and band_rings rings of smooth triangles beside them and beside
+// the hull.
 std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
                                          std::span<const std::uint8_t> is_smooth) {
   std::vector<std::uint8_t> is_near(front.points.size(), 0), is_band(front.triangles.size());
@@ -89,7 +90,7 @@ class Sampler {
     return colour;
   }
 
-  // The points of the band, of the hull, and the highest and lowest of all keep their places.
+  // Adds the points that stay: those of the band and of the hull, and the highest and lowest of all.
   void add_old_points() {
     std::vector<std::uint8_t> is_kept(front_.points.size(), 0), is_fixed = is_kept;
     for (std::size_t t = 0; t < is_band_.size(); ++t)
@@ -113,8 +114,8 @@ class Sampler {
     }
   }
 
-  // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on the
-  // sides of creases stay on them.
+  // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on
+  // the sides of creases stay on them.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -163,8 +164,8 @@ class Sampler {
     }
   }
 
-  // Points of a scan may nearly coincide in the view. Keeps all points of creases, and one of others per
-  // place.
+  // Thins out the band, because points of a scan may nearly coincide in the view. Keeps all points of
+  // creases, and of the other points those that are not too close to an earlier one.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
@@ -183,7 +184,7 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a place near the middle of each square outside the band.
+  // Adds a point near the middle of each square outside the band.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
     Image<Vec2f> slopes = filled_image(width, height, Vec2f(Vec2f::Constant(no_slope)));
@@ -217,8 +218,8 @@ class Sampler {
     add(t, place, surface_.at(t, place));
   }
 
-  // Adds the middles of the quarters of a square that are not next to a point of the band. They are those of four squares of
-  // a grid twice as fine.
+  // Adds the middles of a square's quarters unless they are close to a point of the band. `quarters` is a
+  // grid twice as fine.
   void add_quarters(const SampleSquare& square, const SampleGrid& quarters) {
     for (int k = 0; k < 4; ++k) {
       const int x = 2 * square.x + k % 2, y = 2 * square.y + k / 2;
@@ -275,7 +276,8 @@ class Sampler {
     });
   }
 
-  // Returns whether a place is in the relief. It must be more than a square of the grid from the silhouette.
+  // Returns whether a place is in the relief. The place must be farther than a square of the grid from the
+  // silhouette.
   bool is_relief_around(const Vec2& place) const {
     const Vec2 pixel = grid_.pixel(place);
     const int x = std::clamp(static_cast<int>(pixel.x()), 0, grid_.input.width - 1),
@@ -292,8 +294,8 @@ class Sampler {
   SampleGrid grid_;
   PointSet band_points_;
   HeightFieldMesh out_;
-  std::vector<Vec2f> slopes_;           // of the points of out_; not numbers for those of the given front
-  std::vector<std::uint8_t> is_fixed_;  // per point of the band: it stays
+  std::vector<Vec2f> slopes_;           // of the points of out_; NaN for points of the given front
+  std::vector<std::uint8_t> is_fixed_;  // per point of the band
   double low_ = 0, high_ = 0;
   int divisions_ = 1;
 };

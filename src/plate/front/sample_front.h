@@ -1,4 +1,5 @@
-// Samples the smooth surface of a front by well-shaped triangles. Tested by tests/plate/sample_front_test.cpp.
+// Samples the smooth surface of a front by well-shaped triangles. Tested by
+// tests/plate/sample_front_test.cpp.
 #pragma once
 
 #include <span>
@@ -11,15 +12,15 @@ namespace relievo {
 struct FrontSampling {
   // Longest step between samples, > 0, where the surface is not plane.
   double resolution_mm = .15;
-  // Facets may turn by this much from one to the next, in radians, where the surface turns evenly: samples are up to 8
-  // steps apart where it turns less, and half a step where it turns more.
+  // Largest angle between neighbouring facets, in radians, where the surface turns evenly. Samples are up to
+  // 8 steps apart where the surface turns less, and half a step apart where it turns more.
   double facet_angle = .034;
 };
 
-// Returns a front over the same hull whose points lie on the smooth surface through the given one: on a grid of
-// squares, and near creases on the triangles of the given front, divided as finely. Creases are the edges between
-// smooth triangles and others, `is_smooth` per triangle; the others stay plane. Highest and lowest point stay. Errors:
-// `cancelled`.
+// Returns a front over the same hull whose points lie on the smooth surface through the given one: on a grid
+// of squares, and near creases on the triangles of the given front, divided equally finely. Creases are the
+// edges between triangles that are smooth (`is_smooth`, per triangle) and others; the others stay plane. The
+// highest and the lowest point stay. Errors: `cancelled`.
 Result<HeightFieldMesh> sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
                                      const FrontSampling& options, const Progress* progress = nullptr);
 

@@ -10,7 +10,8 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   const Box box = Box::of(front.points);
   SampleGrid grid;
   grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
-  // Sides are often whole numbers of steps: what is added leaves no decision to rounding.
+  // Sides are often whole numbers of steps. The added fraction keeps rounding errors from changing the number
+  // of cells.
   const auto cells = [&](double mm) { return (static_cast<int>(mm / grid.step + .37) / block + 1) * block; };
   grid.corner = {box.min.x(), box.max.y()};
   grid.input.width = cells(box.size().x());
@@ -20,7 +21,7 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
     const Vec2 place = grid.pixel(p.head<2>());
     grid.input.points.emplace_back(place.x(), place.y(), 0);
   }
-  // In pictures y points down, which turns triangles over.
+  // In pictures y points down, which reverses the orientation of triangles.
   grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
   draw_bands(grid.input, 32, [&](const RowBand& band) {
     const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));

@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// The places of a grid over the front, and which triangle each lies in.
+// A grid of points over the front, and the triangle that contains each point.
 struct SampleGrid {
   double step = 0;
   Vec2 corner;  // upper left
@@ -18,7 +18,8 @@ struct SampleGrid {
   Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
 };
 
-// Returns a grid whose squares have sides of `step` or, of a large front, more; `block` divides its width and height.
+// Returns a grid whose squares have sides of `step`, or more for a large front. Its width and height are
+// multiples of `block`.
 SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block);
 
 }  // namespace relievo

@@ -6,8 +6,8 @@
 namespace relievo {
 namespace {
 
-// A turn is even if it changes from one cell to the next by at most this share of itself. Where it does not, as on
-// rough surfaces, facets do not show.
+// A turn is even if it changes from one cell to the next by at most this share of itself. Where turns are
+// uneven, as on rough surfaces, facets are not visible.
 constexpr float most_change = .25F;
 // A turn of this many facet angles is a crease, which finer facets would not round.
 constexpr float crease = 3;
@@ -19,7 +19,7 @@ float turn_between(const Vec2f& a, const Vec2f& b) {
                    ((1 + a.squaredNorm()) * (1 + b.squaredNorm())));
 }
 
-// Returns whether the surface turns evenly, and by more than facets may, from one cell over the next to a third.
+// Returns whether the surface turns evenly over three cells in a row, and by more than facets may.
 bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, float facet_angle) {
   const float turn = turn_between(before, after) / 2, change = turn_between(before + after - middle, middle);
   return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;
@@ -36,7 +36,7 @@ struct SlopeRange {
   float turn() const { return turn_between(least, most); }
 };
 
-// The squares of one side: their slopes, and which are in use.
+// The squares of one size: their slopes, and whether each is in use.
 struct Level {
   Image<SlopeRange> ranges;
   Image<std::uint8_t> is_used;
@@ -57,8 +57,8 @@ Level cells_of(const Image<Vec2f>& slopes) {
   return cells;
 }
 
-// Returns whether all squares in and around a square of twice their side are in use. Next to smaller ones, it would
-// differ from them by a factor of four.
+// Returns whether all squares in and around a square of twice their side are in use. Otherwise the larger
+// square could be four times as wide as a neighbour.
 bool can_be_joined(const Level& parts, int x, int y) {
   for (int py = 2 * y - 2; py < 2 * y + 4; ++py)
     for (int px = 2 * x - 2; px < 2 * x + 4; ++px)
@@ -66,7 +66,8 @@ bool can_be_joined(const Level& parts, int x, int y) {
   return true;
 }
 
-// Joins four squares each to one of the next level where all of it turns by at most `most`; they are not in use then.
+// Joins four squares to one of the next level wherever the surface turns by at most `most` across it; the
+// four are then not in use.
 Level joined(Level& parts, float most) {
   Level whole(parts.ranges.width / 2, parts.ranges.height / 2);
   for (int y = 0; y < whole.ranges.height; ++y)
@@ -97,7 +98,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
   std::vector<Level> levels;
   levels.push_back(cells_of(slopes));
   for (int side = 2; side <= largest_square; side *= 2) {
-    // The slopes are those of the cells' middles, which do not reach as far as the square.
+    // The slopes are those at the cells' middles, which extend less far than the square.
     const float reach = static_cast<float>(side - 1) / static_cast<float>(side);
     levels.push_back(joined(levels.back(), reach * facet_angle));
   }

@@ -23,7 +23,7 @@ std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, st
   return leaving;
 }
 
-// A triangle around a pinched point; sorted, those of a point stand together.
+// A triangle around a pinched point. Sorting groups the triangles by point.
 struct Spoke {
   Index point, triangle;
   auto operator<=>(const Spoke&) const = default;
@@ -48,7 +48,7 @@ void mark_smaller_fans(std::span<const Spoke> around, std::span<const Triangle> 
 }
 
 // Removes triangles until the boundary passes every point at most once. Removing a fan may pinch other
-// points, hence the repetition; it ends since triangles only become fewer.
+// points, so it is repeated; this ends because each round removes triangles.
 void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
   while (true) {
     const std::vector<std::uint8_t> is_pinched = pinched_points(triangles, points);
@@ -87,15 +87,14 @@ void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& tria
                 [&](const Triangle& t) { return area[pieces.find(t[0])] < smallest_piece * whole; });
 }
 
-// The front of these triangles, with the points they use.
+// Returns the front of these triangles, with the points that they use.
 HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Triangle> triangles) {
   HeightFieldMesh alone{front.points, std::move(triangles), {}, front.ground_mm, front.colours};
   drop_unused(alone);
   return alone;
 }
 
-// The side of the silhouette on which a point of a simplified front lies: that of the point of the original front
-// that it is.
+// The side of the silhouette on which a point of a front lies.
 enum class Kind : std::uint8_t { ground, relief, boundary };
 
 std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary) {
@@ -150,7 +149,7 @@ std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const Heig
       return std::ranges::any_of(
           corners, [&](Index i) { return original[i] != no_index && kinds[original[i]] == kind; });
     };
-    // A triangle with a point on one side of the silhouette only lies on that side.
+    // A triangle with points on only one side of the silhouette lies on that side.
     if (has(Kind::ground) != has(Kind::relief)) {
       is_relief[t] = has(Kind::relief);
       return;

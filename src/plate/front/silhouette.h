@@ -1,4 +1,4 @@
-// The silhouette of a relief within its front: for plates without ground, and for simplifying their fronts.
+// The silhouette of a relief within its front, for plates without ground and for simplifying their fronts.
 // Tested by outline_test and simplify_test.
 #pragma once
 
@@ -20,14 +20,14 @@ std::vector<Triangle> relief_triangles(const HeightFieldMesh& front);
 
 // Returns, per triangle of a simplified front, whether it is part of the relief. `original` are the indices
 // of its points in the front that it was made of, no_index for new points. The simplified front must have all
-// points of the relief's boundary; where it lacks one of the boundary's edges, the centroid of a triangle
+// points of the relief's boundary; where one of the boundary's edges is missing, the centroid of a triangle
 // decides.
 std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const HeightFieldMesh& simpler,
                                         std::span<const Index> original);
 
 // Returns the relief without its ground: its triangles and points in their order, without a hull. Triangles
-// connected by a corner only are left out, since walls would meet in an edge there; so are pieces below a
-// thousandth of the whole area.
+// connected by a corner only are left out, because walls would meet in an edge there. So are connected parts
+// of less than a thousandth of the area.
 HeightFieldMesh relief_alone(const HeightFieldMesh& front);
 
 }  // namespace relievo

@@ -1,7 +1,7 @@
 // Greedy insertion after Garland and Heckbert, "Fast Polygonal Approximation of Terrains and Height Fields",
-// 1995, but in rounds: each adds the place with the largest error of every triangle that exceeds its tolerance,
-// and triangulates anew. Inserting one point at a time would need a triangulation that can be updated and a
-// queue of errors, and could not use threads.
+// 1995, but in rounds: each round adds the point with the largest error of every triangle that exceeds its
+// tolerance, and triangulates again. Inserting one point at a time would need a triangulation that can be
+// updated and a queue of errors, and could not use threads.
 #include "relievo/plate/simplify.h"
 
 #include <Eigen/Geometry>
@@ -22,15 +22,15 @@ namespace {
 
 constexpr int most_insertion_rounds = 200;
 constexpr std::size_t edges_per_block = 8192;
-// Triangles steeper than allowed get this tolerance: so near to the original they become as steep as its
-// triangles, which are within the limit. Less would be below what files can store.
+// Triangles steeper than allowed get this tolerance: so close to the original they become only as steep as
+// its triangles, which are within the limit. Files could not store a smaller difference.
 constexpr double steep_tolerance_mm = 1e-6;
 
 // A place where a triangle of the approximation exceeds its tolerance.
 struct Candidate {
   Index triangle;
   double error;
-  Index point;  // of the original; no_index for a place on one of its edges
+  Index point;  // of the original; no_index for a point on one of its edges
   Vec3 place;
   Colour colour = {};
 };
@@ -62,7 +62,7 @@ class Approximation {
   const Triangulation& mesh() const { return mesh_; }
 
   // Walks from triangle `start` to one that contains the place; returns no_index if the place is outside.
-  // Successive points of a scan are close, so that walks are short.
+  // Successive points of a scan are close to each other, so that walks are short.
   Index find(const Vec2& place, Index start) const {
     Index t = start, from = no_index;
     for (std::size_t steps = 0; steps <= mesh_.triangles.size(); ++steps) {
@@ -104,8 +104,8 @@ class Approximation {
            (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
   }
 
-  // Calls f(triangles left and entered, share of the way, height of this surface) wherever the segment from a
-  // to b, which begins in triangle t, crosses an edge.
+  // Calls f(triangles left and entered, share of the way, height of the approximation) wherever the segment
+  // from a to b, which begins in triangle t, crosses an edge.
   template <typename F>
   void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
     Index from = no_index;
@@ -176,7 +176,8 @@ class Simplifier {
       RELIEVO_CHECK(begin_stage(progress, "simplify", .95));
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
-      // If almost all points are needed, points on edges are added to them: then the front itself is simpler.
+      // If almost all points are needed, and points on edges in addition, the front itself has fewer
+      // triangles.
       if (now.mesh().triangles.size() >= front_.triangles.size()) return SimplifiedMesh{front_, 0};
       const std::size_t before = chosen_.size();
       std::vector<Candidate> worst = find_worst(now);
@@ -200,8 +201,9 @@ class Simplifier {
 
   bool is_limited() const { return options_.most_triangles != std::numeric_limits<std::size_t>::max(); }
 
-  // Leaves the candidates that the limit of triangles allows. With a limit the half with the smaller errors waits: when it
-  // is reached, errors are then alike everywhere. A point adds two triangles, one on the hull adds one.
+  // Keeps the candidates that the limit of triangles allows. With a limit, the half with the smaller errors
+  // is postponed, so that errors are alike everywhere when the limit is reached. A point adds two triangles,
+  // a point on the hull one.
   void limit(std::vector<Candidate>& worst, const Approximation& now) const {
     const bool is_beyond_hull = worst[0].error == 0;
     if (!is_limited() || is_beyond_hull) return;
@@ -217,9 +219,10 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // Starts with the corners of the hull, the boundary of the relief and of flat ground, and the extreme heights:
-  // errors are largest at extremes, and the plate's thickness and height must not change. With the ground's boundary
-  // its edges are Delaunay, too, so that flat ground stays flat.
+  // Starts with the corners of the hull, the boundary of the relief and of flat ground, and the extreme
+  // heights: errors are largest at extremes, and the plate's thickness and height must not change. With all
+  // points of the ground's boundary, the edges of that boundary are in the triangulation, so that flat ground
+  // stays flat.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -238,8 +241,9 @@ class Simplifier {
       if (extreme->z() != ground) choose(at_point(0, 0, static_cast<Index>(extreme - front_.points.begin())));
   }
 
-  // Returns the place with the largest error of each triangle that exceeds its tolerance; or, if there are any, the
-  // points outside all triangles, which rounding leaves beyond a hull. Sets error_ to the largest error of all.
+  // Returns the place with the largest error of each triangle that exceeds its tolerance; or, if there are
+  // any, the points outside all triangles, which can exist because the hull is rounded. Sets error_ to the
+  // largest error of all.
   std::vector<Candidate> find_worst(const Approximation& now) {
     containing_.resize(front_.points.size());
     slopes_sq_ = now.slopes_sq();
@@ -315,8 +319,8 @@ class Simplifier {
   }
 
   // The difference of two piecewise flat surfaces is extreme at the corners of their overlay: at the
-  // original's points, at the approximation's, which are among them, and where edges of the two cross. Edges
-  // within one triangle cross none.
+  // original's points (the approximation's are among them), and where edges of the two cross. Edges within
+  // one triangle cross none.
   void measure_edges(const Approximation& now, std::size_t begin, std::size_t end,
                      std::vector<Candidate>& found, double& worst) const {
     for (std::size_t e = begin; e < end; ++e) {
@@ -325,7 +329,7 @@ class Simplifier {
       const Vec3 &a = front_.points[edge.a], &b = front_.points[edge.b];
       now.walk(a.head<2>(), b.head<2>(), containing_[edge.a],
                [&](std::array<Index, 2> sides, double share, double height) {
-                 if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end, which was measured as a point
+                 if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end, measured as a point
                  const double error = std::abs(height - (a + share * (b - a)).z());
                  worst = std::max(worst, error);
                  if (const Index t = triangle_beyond(sides, error); t != no_index)
@@ -334,9 +338,9 @@ class Simplifier {
     }
   }
 
-  // Returns what to add for an error on an edge of the original: the nearer end, the other end, or an
-  // opposite corner, whichever is missing first. With all four the edge is an edge of the Delaunay
-  // triangulation, too, unless they lie on one circle: then the crossing itself becomes a point.
+  // Returns the point to add for an error on an edge of the original: the nearer end, the other end, or an
+  // opposite corner, whichever is the first not yet chosen. Once all four are chosen, the edge is an edge of
+  // the Delaunay triangulation, unless the four lie on one circle: then the crossing itself becomes a point.
   Candidate remedy(const Edge& edge, double share, Index t, double error) const {
     const bool is_near_a = share < .5;
     for (const Index i :

@@ -19,9 +19,10 @@ namespace {
 
 // Height of a triangle as a share of the front's size: 8 to 16 units in the last place of its coordinates.
 constexpr double thinnest = 0x1p-20;
-constexpr double most_moved_mm = 1e-3;  // by flipping an edge that files could store
+constexpr double most_moved_mm = 1e-3;  // limit for flips of triangles that files store unfolded
 
-// Flips one edge after the other. Each flip makes the thinner of two triangles wider, so that it ends.
+// Flips one edge after another. Each flip makes the thinner of two triangles wider, so that the flipping
+// ends.
 class Flipper {
  public:
   Flipper(Solid& front, bool may_lose_edges) : front_(front), may_lose_edges_(may_lose_edges) {
@@ -42,7 +43,7 @@ class Flipper {
 
  private:
   Vec2 at(Index i) const { return front_.points[i].head<2>(); }
-  // Returns the place as files store it. Without `volatile`, g++ 12 would drop the rounding of
+  // Returns the x and y of a point as files store them. Without `volatile`, g++ 12 would drop the rounding of
   // double(float(x)).
   Vec2 stored(Index i) const {
     const volatile auto x = static_cast<float>(at(i).x()), y = static_cast<float>(at(i).y());
@@ -65,7 +66,8 @@ class Flipper {
 
   bool is_thin(Index t) const { return width_mm(front_.triangles[t]) < thinnest_mm_; }
 
-  // Flips the longest edge of a thin triangle, or removes the triangle if that edge is one of the front.
+  // Flips the longest edge of a thin triangle, or removes the triangle if that edge is on the front's
+  // boundary.
   void widen(Index thin) {
     const Triangle abc = longest_first(front_.triangles[thin]);
     const Index other = fans_->left_of(abc[1], abc[0]);
@@ -78,7 +80,7 @@ class Flipper {
       }
   }
 
-  // Lets thin triangles beside a changed one try again.
+  // Puts thin triangles beside a changed one into the queue again.
   void wake_around(Index changed) {
     const Triangle& t = front_.triangles[changed];
     for (std::size_t i = 0; i < 3; ++i)
@@ -86,8 +88,8 @@ class Flipper {
         waiting_.push_back(beside);
   }
 
-  // Returns the triangles around a corner, from the one on one side of the edge between it and `other` to the last before
-  // the front ends, or before the first would come again.
+  // Returns the triangles around a corner in their order, from the triangle on the given side of the edge
+  // between corner and `other`, to the boundary of the front or once around.
   std::vector<Index> side_of(Index corner, Index other, bool is_left) const {
     std::vector<Index> side;
     for (Index end = other; side.size() < fans_->around(corner).size();) {
@@ -99,15 +101,16 @@ class Flipper {
     return side;
   }
 
-  // The front ends at the edge ab of the triangle abc. Returns whether, without that triangle, its parts would hang
-  // together by the corner c alone. They do not if all triangles on one side of c are thin: these are removed next.
+  // Returns whether removing the triangle abc, whose edge ab is on the front's boundary, would leave two
+  // parts that are connected by the corner c alone. The result is false if all triangles on one side of c are
+  // thin, because these are removed next.
   bool would_pinch(const Triangle& abc) const {
     const auto [a, b, c] = abc;
     const auto are_thin = [&](const std::vector<Index>& side) {
       return std::ranges::all_of(side, [&](Index t) { return is_thin(t); });
     };
     const std::vector<Index> before = side_of(c, a, false), after = side_of(c, b, true);
-    const bool is_inside = before.size() == fans_->around(c).size();  // it goes all around, up to abc
+    const bool is_inside = before.size() == fans_->around(c).size();  // they go all around c, up to abc
     return !is_inside && !are_thin(before) && !are_thin(after);
   }
 
@@ -118,8 +121,8 @@ class Flipper {
     wake_around(thin);
   }
 
-  // Replaces the edge ab of the thin triangle abc and of its neighbour by the one from c to the neighbour's opposite
-  // corner, if that makes wider triangles.
+  // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the
+  // neighbour's opposite corner, if that makes the triangles wider.
   bool flip(Index thin, const Triangle& abc, Index neighbour) {
     const auto [a, b, c] = abc;
     const Triangle& other = front_.triangles[neighbour];
@@ -137,7 +140,7 @@ class Flipper {
     return true;
   }
 
-  // Returns how far in z the corner c of a thin triangle is from the edge ab.
+  // Returns the distance in z of the corner c of a thin triangle from the edge ab.
   double moved_by(const Triangle& abc) const {
     const Vec3 &a = front_.points[abc[0]], &b = front_.points[abc[1]], &c = front_.points[abc[2]];
     const Vec2 along = (b - a).head<2>();

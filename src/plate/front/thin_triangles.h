@@ -6,11 +6,12 @@
 
 namespace relievo {
 
-// Flips the longest edges of triangles, seen from above, that are about as thin as coordinates are rounded in single
-// precision: rounded, they could be turned over or have no area. All triangles must be the front's, without walls. Such
-// triangles arise where points of a hull are almost on one line. Returns how far in z the surface moves at most; triangles
-// that are steep, so that it would move far, stay unless rounding does turn them over. Those whose longest edge is an edge
-// of the front are removed if it `may_lose_edges`, with points that nothing else uses.
+// Flips the longest edges of triangles that, seen from above, are hardly thicker than the rounding of
+// coordinates to single precision. Once rounded, such triangles could be turned over or have no area. The
+// solid must have only its front, without walls. Thin triangles arise where points of a hull are almost on
+// one line. Returns the largest change of the surface in z. Steep triangles, where it would change much, stay
+// unless rounding does turn them over. Triangles whose longest edge is on the front's boundary are removed if
+// `may_lose_edges`, together with points that nothing else uses.
 double flip_thin_triangles(Solid& front, bool may_lose_edges = false);
 
 }  // namespace relievo
