@@ -11,10 +11,10 @@
 namespace relievo {
 namespace {
 
-// The surface turns by more than this at a plate's edges, and by less between facets of its round parts.
+// The surface turns by more than this at a plate's edges, and by less between the facets of round parts.
 constexpr double sharpest_deg = 20;
 
-// Solids are rounded to single precision, so heights that are meant to be the ground's differ a little.
+// Solids are rounded to single precision, so the heights of points on the ground differ a little.
 constexpr double rounding_mm = 1e-6;
 
 bool is_at_ground(const Solid& solid, const Triangle& corners) {
@@ -46,7 +46,8 @@ Part part_of(const Solid& solid, std::size_t t) {
 
 }  // namespace
 
-// The ground and the rim's bevel are smoothed apart: they meet in an edge, however little they bend there.
+// The ground and the rim's bevel are smoothed separately, because they always meet in an edge, even at a
+// small angle.
 PlateParts plate_parts(const Solid& solid) {
   const std::size_t count = solid.triangles.size();
   PlateParts out{std::vector<Part>(count), std::vector<Index>(count, no_index), {}, solid.front_triangles};
@@ -73,8 +74,8 @@ PlateParts plate_parts(const Solid& solid) {
   return out;
 }
 
-// Level triangles take no part: those of the ground are large and thin, and would smear the relief's rim
-// across the ground.
+// Level triangles are ignored: those of the ground are large and thin, and would smear the shading of the
+// relief's rim across the ground.
 std::vector<Vec3f> relief_normals(const Solid& solid) {
   std::vector<Vec3f> normals(solid.points.size(), Vec3f::Zero());
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {

@@ -1,4 +1,5 @@
-// The triangles of a body, as the renderer takes them: a finished solid, or a frame on its plate.
+// The triangles of a body in the form that the renderer needs. A body is a finished solid, or a frame on its
+// plate.
 #pragma once
 
 #include <array>
@@ -15,42 +16,43 @@ struct SurfaceDetail;
 // The part of the body that a triangle belongs to, which decides how it is shaded.
 enum class Part : std::uint8_t {
   nothing,
-  relief,  // by the normals of its points, or flat if it is level
+  relief,  // shaded by the normals of its points, or flat if it is level
   ground,  // level, at height 0
-  curved,  // the rest of the front (a base, a rim), by normals of its own corners
-  wall     // sides and bottom, by normals of their own corners, without cast shadows
+  curved,  // the rest of the front (a base, a rim), shaded by normals of its own corners
+  wall     // sides and bottom, shaded like `curved`, without cast shadows
 };
 
-// The part of each triangle, and the normals of triangles that are not shaded with those of their points.
+// The part of each triangle, and corner normals for triangles that are not shaded by the normals of their
+// points.
 struct PlateParts {
   std::vector<Part> parts;                           // per triangle
-  std::vector<Index> corners_at;                     // per triangle: its index below, or no_index
+  std::vector<Index> corners_at;                     // per triangle: index into corner_normals, or no_index
   std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
-  std::size_t front_triangles = 0;                   // which come first
-  bool has_curved_ground = false;  // that of a base or of a body around which the plate is bent
+  std::size_t front_triangles = 0;                   // number of front triangles, which come first
+  bool has_curved_ground = false;                    // the ground is on a base, or the plate is bent
 };
 
 // Returns the parts of a solid. Corner normals are smooth where triangles of one part meet at less than 20
 // degrees.
 PlateParts plate_parts(const Solid& solid);
 
-// A body with x and y from the middle of its box and z from the ground. Triangles name its points by number:
-// those with heights, then those of `box_corners`. It refers to arrays of its owner.
+// A body with x and y from the middle of its box and z from the ground. Triangles refer to its points by
+// index: first those with heights, then `box_corners`. A DrawnBody does not own its arrays.
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
-  std::span<const Vec2> places;  // times mm_per_place
+  std::span<const Vec2> places;  // in units of mm_per_place
   double mm_per_place = 1;
-  std::span<const float> heights;  // times mm_per_height
+  std::span<const float> heights;  // in units of mm_per_height
   float mm_per_height = 1;
   std::span<const Vec3f> normals;         // of the points of the relief, unit length
-  float stretch = 1;                      // by which these normals are to be steeper
-  const SurfaceDetail* detail = nullptr;  // shown between the points, with `gains`, see Shown
+  float stretch = 1;                      // factor that makes these normals steeper
+  const SurfaceDetail* detail = nullptr;  // shown between the points with `gains`, see Shown
   std::span<const float> gains = {};
-  Vec2f middle = Vec2f::Zero();  // of the surface's points, where `detail` is
+  Vec2f middle = Vec2f::Zero();  // of the surface's points, in the coordinates of `detail`
   std::vector<Vec3> box_corners = {};
-  Box front = {};  // of the front's points, in mm
-  // No point of the front hides another from above, so that seen from there heights need not be known.
+  Box front = {};  // box of the front's points, in mm
+  // Seen from above, no point of the front hides another, so that heights are not needed for that view.
   bool is_height_field = false;
 
   Vec3 point(Index i) const {
@@ -67,7 +69,7 @@ class SolidBody {
  public:
   explicit SolidBody(const Solid& solid);
 
-  // Valid as long as this object and the solid are.
+  // Returns a body that is valid as long as this object and the solid.
   DrawnBody body() const;
 
  private:

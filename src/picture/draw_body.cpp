@@ -13,12 +13,13 @@
 namespace relievo {
 namespace {
 
-// Samples per pixel of fine pictures, in both directions: with 3 x 3 of them steps along slanting edges are not seen any more.
+// Samples per pixel of fine pictures, in each direction: with 3 x 3 samples, steps along slanting edges are
+// no longer visible.
 constexpr int fine_samples = 3;
 constexpr int most_samples = fine_samples * fine_samples;
 
 // Longer side of the map of light. Shadows are soft, so that it may be coarser than the picture; live
-// pictures take one whose shadows need only a few milliseconds.
+// pictures use a map whose shadows take only a few milliseconds.
 constexpr int fine_light_px = 640, least_light_px = 120, most_quick_light_px = 280;
 
 int light_map_px(const ScreenTransform& transform, bool is_fine) {
@@ -27,13 +28,14 @@ int light_map_px(const ScreenTransform& transform, bool is_fine) {
                  : std::clamp(side / 3, least_light_px, most_quick_light_px);
 }
 
-// Walls and bottom get the same light everywhere, a little less of the lamp than the front, so that its edge
-// stands out, and lean towards the viewer: plain walls in the dark would look like holes.
+// Walls and bottom get the same light everywhere, with a little less of the lamp than the front, so that the
+// front's edge stands out. Their normals lean towards the viewer, because dark walls would look like holes.
 constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls let light through as a plate of about mean thickness
 
-// Returns how the detail at a place differs from the surface's own normal there; bilinear between the cells' centres.
+// Returns the difference between the detail at a place and the surface's own normal there. The detail is
+// interpolated bilinearly between the cells' centres.
 Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& own) {
   const Vec2f at = (place - detail.corner) / detail.cell - Vec2f::Constant(.5F);
   const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
@@ -45,7 +47,7 @@ Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& ow
   return mean.allFinite() ? Vec2f(mean - own) : Vec2f(Vec2f::Zero());
 }
 
-// The colour of places on a body.
+// Computes the colour of points on a body.
 class Painter {
  public:
   Painter(const DrawnBody& body, const ScreenTransform& transform, const LightMap& light,
@@ -59,7 +61,7 @@ class Painter {
         shader_(params.material, direction_of(params.light), to_viewer_),
         tint_(params.reach, body.front) {}
 
-  // Returns the linear colour of a place, which is in pixels of the transform.
+  // Returns the linear colour of a point, given in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
     Lit lit{Vec3f::UnitZ(),
             {1, 1},
@@ -96,8 +98,8 @@ class Painter {
     return normal.normalized();
   }
 
-  // Returns the light with less of the map's shadows the more the surface turns away from the front. The map is made of
-  // the body as seen from there, so that it is wrong on the sides and the back of a bent one.
+  // Returns the light with the map's shadows faded out where the surface turns away from the front. The map
+  // shows the body as seen from the front, so it is wrong on the sides and the back of a bent body.
   static Light faded(const Light& light, const Vec3f& normal) {
     constexpr float hardly_seen = .35F, well_seen = .65F;
     const float share = std::clamp((normal.z() - hardly_seen) / (well_seen - hardly_seen), 0.F, 1.F);
@@ -128,15 +130,15 @@ void store(const Vec3f& colour, float coverage, const DisplayTable& display, std
   rgba[3] = static_cast<std::uint8_t>(coverage * 255 + .5F);
 }
 
-// A triangle that some of a pixel's samples show.
+// A triangle that is visible in some of a pixel's samples.
 struct SeenTriangle {
   Index triangle = no_index;
   int samples = 0;
-  Vec3f places = Vec3f::Zero();  // their sum
+  Vec3f places = Vec3f::Zero();  // sum of their positions
 };
 
-// The triangles that the n x n samples of a pixel show, each once: colours are computed for triangles, not for
-// samples.
+// Finds the triangles visible in the n x n samples of a pixel, each once, because colours are computed per
+// triangle and not per sample. Returns their number.
 int find_seen(const RowBand& band, int column, int row, int n, std::array<SeenTriangle, most_samples>& seen) {
   int count = 0;
   for (int y = row * n; y < row * n + n; ++y) {
@@ -154,7 +156,7 @@ int find_seen(const RowBand& band, int column, int row, int n, std::array<SeenTr
   return count;
 }
 
-// Draws with n x n samples per pixel, up to the band where it is cancelled; the painter's transform is that of the samples.
+// Draws with n x n samples per pixel, until it is cancelled. The painter's transform is in units of samples.
 void draw_triangles(const DrawnBody& body, const RasterInput& input, const Painter& painter, int n,
                     const Progress* progress, Image8& picture) {
   const Rasterizer rasterizer(input, 12 * n);
@@ -184,7 +186,7 @@ void draw_triangles(const DrawnBody& body, const RasterInput& input, const Paint
   parallel_for(rasterizer.bands(), draw_band, 1);
 }
 
-// Draws what is known to be visible, with a sample per pixel.
+// Draws the triangles of a visibility buffer, with one sample per pixel.
 void draw_visible(const VisibilityBuffer& visible, const Painter& painter, Image8& picture) {
   const DisplayTable& display = display_table();
   const auto draw_row = [&](std::size_t r) {
@@ -219,7 +221,7 @@ HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisib
     const VisiblePoint& seen = visible.pixels[i];
     field.z.pixels[i] = seen.part == Part::nothing ? 0 : height_mm(body, seen) - body.lowest_mm();
   });
-  if (body.is_height_field) return field;  // its plate is a rectangle, so that all pixels show it
+  if (body.is_height_field) return field;  // its plate is a rectangle, which covers all pixels
   field.is_beside.resize(field.z.width, field.z.height);
   std::ranges::transform(visible.pixels, field.is_beside.pixels.begin(),
                          [](const VisiblePoint& seen) { return seen.part == Part::nothing; });

@@ -18,8 +18,8 @@ struct DrawParams {
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
   bool has_shadows = true;
   bool is_fine = false;                         // more samples per pixel and finer shadows
-  std::shared_ptr<const ToolReach> reach = {};  // of the body's front: what is left of it is coloured
-  const Progress* progress = nullptr;           // of a picture that may be left unfinished
+  std::shared_ptr<const ToolReach> reach = {};  // material left on the front is coloured
+  const Progress* progress = nullptr;           // a cancelled picture is left unfinished
 };
 
 // Results that stay valid between pictures of the same body, if it is a height field.
@@ -27,8 +27,9 @@ struct DrawCache {
   CachedVisibility front, quick_light, fine_light;
 };
 
-// Overwrites the picture (4 channels) with the body and its drop shadow on nothing. The same body, transform
-// and parameters give the same pixels, for any number of threads and whatever was drawn before.
+// Overwrites the picture (4 channels) with the body and its drop shadow on a transparent background. The same
+// body, transform and parameters give the same pixels, for any number of threads and after any earlier
+// pictures.
 void draw_body(const DrawnBody& body, const ScreenTransform& transform, const DrawParams& params,
                DrawCache& cache, Image8& picture);
 

@@ -8,13 +8,14 @@
 namespace relievo {
 namespace {
 
-// Soft shadows need few pixels: the longer side of their coarser grid has at most this many.
+// Soft shadows need few pixels: the longer side of their coarser grid has at most this many cells.
 constexpr int most_cells = 160;
 
-// Opacity of the full shadow: as grey as a table under a lamp and a bright room.
+// Opacity of the full shadow: as grey as the shadow on a table in a bright room with a lamp.
 constexpr float shadow_opacity = .4F;
 
-// The radius of the shadow's edge and the shadow's distance from the body, in cells, for a plate's thickness.
+// The radius of the shadow's soft edge, and the shadow's largest distance from the body, in cells. The values
+// suit a plate's thickness.
 constexpr int softness = 2;
 constexpr float farthest = 2;
 
@@ -56,7 +57,7 @@ class DropShadow {
   Image<float> shade_;
 };
 
-// Lays a pixel over black of that opacity.
+// Composites a pixel over black of that opacity.
 void lay_over(std::uint8_t* rgba, float shade) {
   const float coverage = static_cast<float>(rgba[3]) / 255, opacity = coverage + (1 - coverage) * shade;
   if (opacity <= 0) return;

@@ -6,8 +6,8 @@
 
 namespace relievo {
 
-// Adds the shadow of the opaque pixels to the others of a picture with 4 channels, as black of some opacity.
-// `to_lamp` is the direction towards the lamp in the picture, y upwards, with length 1.
+// Adds the shadow of the opaque pixels to the other pixels of a picture with 4 channels, as black of some
+// opacity. `to_lamp` is the direction towards the lamp in the picture, y upwards, with length 1.
 void add_drop_shadow(Image8& picture, const Vec3f& to_lamp);
 
 }  // namespace relievo

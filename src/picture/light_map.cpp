@@ -9,25 +9,26 @@
 namespace relievo {
 namespace {
 
-// Radii within which hollows are darkened are the front's longer side divided by these: one for folds and
-// letters, one for a figure before its ground.
+// Radii within which hollows are darkened are the front's longer side divided by these: the first for folds
+// and letters, the second for a figure in front of its ground.
 constexpr int hollow_divisors[] = {120, 30};
 
-// Sky that is left in the deepest hollow: black ones would look like holes.
+// Share of the sky's light that is left in the deepest hollow: black hollows would look like holes.
 constexpr float darkest_hollow = .2F;
 
-// A hollow keeps 1/e of the sky that can be hidden where it lies this share of the radius below its mean
-// surroundings: about 24 degrees, the slope of a clear fold.
+// A hollow keeps 1/e of the sky that can be hidden where its depth below its mean surroundings is this share
+// of the radius. That is about 24 degrees, the slope of a clear fold.
 constexpr float hollow_depth = 1 / 2.2F;
 
 // Tangent of the lamp's apparent size: a soft box of a metre, one and a half metres away. Shadows of a small
 // lamp have edges that pass for edges of the relief.
 constexpr float lamp_width = .7F;
 
-// Share of the lamp's light that a full shadow takes: light from the room brightens a studio's shadows.
+// Share of the lamp's light that a full shadow takes away. The rest is light from the room, which brightens a
+// studio's shadows.
 constexpr float shadow_strength = .7F;
 
-// Steps on the way to the lamp, in pixels: longer ones miss narrow ridges, shorter ones find no more.
+// Steps on the way to the lamp, in pixels: longer steps miss narrow ridges, shorter ones find no more.
 constexpr double step_px = 1.5;
 
 // Darkens the sky where the surface lies below its surroundings within about `radius` pixels (after Luft,
@@ -44,8 +45,8 @@ void hide_sky(const HeightField& field, int radius, Image<Light>& light) {
 
 // The way from a pixel to the lamp, step by step.
 struct Ray {
-  float x, y;  // of a step, in pixels
-  float rise;  // of a step, in mm
+  float x, y;  // change per step, in pixels
+  float rise;  // change per step, in mm
 };
 
 Ray ray_to(const HeightField& field, const Vec3f& to_lamp) {
@@ -55,8 +56,8 @@ Ray ray_to(const HeightField& field, const Vec3f& to_lamp) {
           static_cast<float>(step_px * field.mm_per_pixel * lamp.z() / flat)};
 }
 
-// Share of a wide lamp seen from a pixel: walks towards it as long as the relief can still rise above the
-// ray.
+// Returns the share of a wide lamp that is visible from a pixel. It walks towards the lamp as long as the
+// relief can still rise above the ray.
 float lamp_share(const HeightField& field, int column, int row, const Ray& ray, float highest) {
   const float x = static_cast<float>(column) + .5F, y = static_cast<float>(row) + .5F;
   const auto width = static_cast<float>(field.z.width), height = static_cast<float>(field.z.height);
@@ -97,8 +98,8 @@ Light mean_light_around(const HeightField& field, const Image<Light>& light, int
   return count > 0 ? Light{sum.lamp / count, sum.sky / count} : Light{1, 1};
 }
 
-// Gives the pixels along the front's edge, but beside it, the mean light of their neighbours on it: between
-// pixels light is interpolated, and the shadow of the plate's edge must not reach onto the plate.
+// Gives the pixels just outside the front's edge the mean light of their neighbours on the front. Light is
+// interpolated between pixels, and the shadow beside the plate must not spread onto the plate.
 void light_edge(const HeightField& field, Image<Light>& light) {
   if (field.is_beside.empty()) return;
   const auto light_row = [&](std::size_t r) {

@@ -10,8 +10,8 @@ struct Light {
   float lamp = 0, sky = 0;
 };
 
-// Shares in [0, 1] over the front's plane; 1 is unhindered. They belong to the place, not to the viewer, so
-// that all views of a plate show the same light.
+// Shares of light in [0, 1] over the front's plane; 1 is full light. They depend on the place and not on the
+// viewer, so that all views of a plate show the same light.
 class LightMap {
  public:
   // `to_lamp` has length 1. A field without pixels gives a map of ones.
@@ -22,7 +22,7 @@ class LightMap {
 
  private:
   Image<Light> light_;
-  Vec2f origin_ = Vec2f::Zero();  // pixel of the place (0, 0)
+  Vec2f origin_ = Vec2f::Zero();  // pixel at the origin of the front's plane
   float pixels_per_mm_ = 1;
 };
 

@@ -1,4 +1,4 @@
-// The rectangular plate around a model's frames, as triangles that last while heights change.
+// The rectangular plate around a model's frames, as triangles that stay the same while heights change.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ namespace relievo {
 struct PlateMesh {
   std::vector<Triangle> triangles;
   PlateParts parts;
-  std::vector<Vec2> places;      // of the surface's points from the middle, in its units
-  Vec2 half = Vec2::Zero();      // half the size of their box
+  std::vector<Vec2> places;      // the surface's points relative to the middle, in its units
+  Vec2 half = Vec2::Zero();      // half the size of the points' box
   Vec2f middle = Vec2f::Zero();  // of their box
 };
 

@@ -15,14 +15,15 @@ namespace relievo {
 namespace {
 
 constexpr double preview_padding =
-    .06;  // around the plate for its shadow, as a share of the picture's longer side
-constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;  // of both pictures, with 3 samples per pixel
+    .06;  // space around the plate for its shadow, as a share of the picture's longer side
+constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;  // of each picture, with 3 samples per pixel
 
-// The ground behind the body, linear, from the top to the bottom: bright enough for the plate to stand out,
-// and darker below, as a wall that is lit from above.
+// Linear brightness of the background, from the top to the bottom: bright enough for the plate to stand out,
+// and darker at the bottom, like a wall that is lit from above.
 constexpr float brightest_wall = .90F, darkest_wall = .70F;
 
-// The oblique view is from above right: there the upper left lamp shows slopes and the plate's edge best.
+// The oblique view is from above right: from there the upper left lamp shows slopes and the plate's edge
+// best.
 constexpr double oblique_yaw_deg = -35, oblique_pitch_deg = 20;
 
 Mat3 oblique_rotation() {
@@ -82,7 +83,7 @@ std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, c
           ScreenTransform{width, height, std::min(scale, fit), rotation, middle, false}};
 }
 
-// Lays a picture with opacity over the wall, its left edge at column `left`.
+// Composites a picture with opacity over the background, with its left edge at column `left`.
 void lay_on_wall(const Image8& picture, int left, Image8& image) {
   const DisplayTable& display = display_table();
   const auto lay_row = [&](std::size_t row) {

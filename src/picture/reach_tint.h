@@ -1,4 +1,4 @@
-// Colours in pictures what a milling tool leaves standing. Tested by tests/picture/reach_tint_test.cpp.
+// Colours, in pictures, the material that a milling tool leaves. Tested by tests/picture/reach_tint_test.cpp.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@ class ReachTint {
   // Colours nothing if `reach` is null. `front` is the measured front's box, in the body's coordinates.
   ReachTint(std::shared_ptr<const ToolReach> reach, const Box& front);
 
-  // Returns the linear colour of a place on the front, in orange to red where more than the tolerance is left.
+  // Returns the linear colour of a point on the front: orange to red where more than the tolerance is left,
+  // else `colour`.
   Vec3f operator()(const Vec3f& colour, const Vec3f& place) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// The longer side, in pixels, of the heights that a profile is read from: a display shows fewer.
+// The longer side, in pixels, of the height field from which profiles are read. Displays show fewer pixels.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {
@@ -25,7 +25,7 @@ std::vector<float> depths_of(const Surface& surface) {
 struct FrameRenderer::State {
   std::shared_ptr<const ReliefModel> model;
   PlateMesh mesh{plate_mesh(model->surface())};
-  std::vector<float> depths{depths_of(model->surface())};  // of the model itself
+  std::vector<float> depths{depths_of(model->surface())};  // depths of the model itself
   float deepest = std::ranges::max(depths);
   DrawCache cache = {};
   CachedVisibility profile = {};

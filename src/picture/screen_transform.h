@@ -9,7 +9,8 @@ namespace relievo {
 
 // Orthographic: pixel = middle of the picture + pixels_per_mm * R_screen_body * (point - pan), y downwards.
 struct ScreenTransform {
-  // Points are kept this near to the picture's middle, in pixels: a rasterizer's integers take no more.
+  // Points are clamped to this distance from the picture's middle, in pixels, because the rasterizer's
+  // integers would overflow.
   static constexpr double farthest_px = 100000;
 
   int width = 0, height = 0;
@@ -35,7 +36,7 @@ struct ScreenTransform {
 
   Vec3f to_viewer() const { return R_screen_body.row(2).transpose().cast<float>(); }
 
-  // The same picture with more pixels.
+  // Returns the transform for the same picture with more pixels.
   ScreenTransform finer(int times) const {
     ScreenTransform out = *this;
     out.width *= times;

@@ -6,28 +6,30 @@
 namespace relievo {
 namespace {
 
-// Strengths of lamp and sky. Together they are 1, so that a place that faces both is as bright as its material
-// and nothing is clipped; with less sky the shadows' form is lost, with more the relief looks flat.
+// Strengths of lamp and sky. Their sum is 1, so that a place that faces both is as bright as its material and
+// nothing is clipped. With less sky, forms in shadow are lost; with more, the relief looks flat.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
-// The brightest sky is above, and a little on the side away from the lamp: slopes that are turned away from it
-// keep their form.
+// The brightest sky is above, and a little on the side away from the lamp: slopes that are turned away from
+// it keep their form.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// A raking lamp is turned up, as a photographer would do it. At this cosine of the angle between lamp and normal,
-// that of a lamp as far to the left and above as in front, the exposure is 1.
+// The exposure is raised for a raking lamp, as a photographer would do. It is 1 at this cosine of the angle
+// between lamp and normal, which belongs to a lamp as far to the left and above as in front.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
-// Between sRGB's 2.2 and linear: most of a relief lies in the middle tones, which 2.2 makes flat and pale.
+// The exponent lies between linear and sRGB's 2.2: most of a relief is in the middle tones, which 2.2 makes
+// flat and pale.
 constexpr float display_gamma = 1.45F;
 
-// Highlights above this lose their contrast little by little instead of being clipped.
+// Brightness above this value is compressed gradually instead of being clipped.
 constexpr float knee = .85F;
 
 const Vec3f plaster_colour(.93F, .91F, .87F);
 
-// Light that passes through thin porcelain and thick: exp(-1.45) is about a quarter, as in lithophanes.
+// Colours of light that passes through thin and thick porcelain. Thick porcelain transmits exp(-1.45), about
+// a quarter, as in lithophanes.
 const Vec3f thin_porcelain(1, .965F, .89F), thick_porcelain(.62F, .33F, .16F);
 constexpr float porcelain_absorption = 1.45F;
 
@@ -43,20 +45,21 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
   return a + t * (b - a);
 }
 
-// The room that metal and varnish mirror: a soft box around the lamp, a reflector on the other side, lower and dimmer,
-// walls that are bright above and dark below, and the dark of the room beside the plate. A soft box opens at the first
-// cosine and is full at the second. All were chosen by eye; silver was compared with a photograph of coins.
+// The room that metal and varnish mirror: a soft box around the lamp, a lower and dimmer reflector on the
+// other side, walls that are bright above and dark below, and the dark room beside the plate. The brightness
+// of box and reflector rises from 0 at the first cosine to its full value at the second. All were chosen by
+// eye; silver was compared with a photograph of coins.
 constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// The viewer stands this many times half of the body's longer side away, so that level ground mirrors another part of the
-// room at each place and is not of one tone.
+// The viewer stands this many times half of the body's longer side away, so that each place of level ground
+// mirrors another part of the room, and the ground is not of one tone.
 constexpr float viewer_distance = 3.6F;
 
 // The properties by which metals differ.
 struct Metal {
-  Vec3f bare, worn;       // colour where nothing covers it, and of edges that hands have polished
+  Vec3f bare, worn;       // colours of the bare metal, and of edges polished by hands
   Vec3f patina;           // in hollows
   float diffuse, mirror;  // strengths of scattered and of mirrored light
   float mottle;           // variation of the patina
@@ -68,8 +71,8 @@ const Metal& metal_of(Material material) {
   return material == Material::silver ? silver : bronze;
 }
 
-// Values in [0, 1] at the corners of a square grid, smooth in between. The values repeat after `period` cells, if that
-// is positive.
+// Returns value noise: random values in [0, 1] at the corners of a square grid, interpolated smoothly. The
+// values repeat after `period` cells, if that is positive.
 float smooth_noise(float x, float y, int period = 0) {
   const auto corner = [period](int i, int j) {
     if (period > 0) i %= period, j %= period;
@@ -85,9 +88,9 @@ float smooth_noise(float x, float y, int period = 0) {
   return low + t * (high - low);
 }
 
-// Patches of patina, in [-0.75, 0.75]: noise of 3 mm and of half a millimetre, repeating after 64 mm. Their grids stand
-// slantwise, as the eye finds grids that are level. A table, because the noise itself would take half of a picture's
-// time.
+// Patches of patina, in [-0.75, 0.75]: noise of 3 mm and of half a millimetre, repeating after 64 mm. The
+// noise grids are rotated, because the eye notices level grids. The values are tabulated, because computing
+// the noise would take half of a picture's time.
 class Patches {
  public:
   Patches() : values_(static_cast<std::size_t>(side) * side) {
@@ -100,7 +103,7 @@ class Patches {
   }
 
   float at(float x_mm, float y_mm) const {
-    constexpr float before = 1 << 16;  // makes it positive within 8 m: to round it down would take a call
+    constexpr float before = 1 << 16;  // makes the value positive within 8 m; std::floor would be slower
     const float x = x_mm * per_mm + before, y = y_mm * per_mm + before;
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
@@ -110,7 +113,7 @@ class Patches {
   }
 
  private:
-  // `period` times the vector (right, up) is a side of the table in cells of the grid.
+  // A rotated grid: `period` times the vector (right, up), in cells of the grid, is a side of the table.
   struct Slant {
     float right, up;
     int period;
@@ -137,7 +140,7 @@ const Patches& patches() {
   return table;
 }
 
-// Returns the light that comes from a direction of the room, which is a unit vector.
+// Returns the light that comes from a direction of the room, given as a unit vector.
 float light_from(const Vec3f& direction, const Vec3f& to_lamp) {
   const Vec3f to_reflector = Vec3f(-.8F * to_lamp.x(), -.45F * to_lamp.y() - .1F, .55F).normalized();
   const float up = smooth_step(-.8F, 1.F, direction.y() - .35F * direction.x());
@@ -187,7 +190,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       room_(material == Material::plaster ? Room() : Room(to_lamp)) {}
 
-// Returns the light of a place, from the direction that it faces and the shadows of lamp and sky on it.
+// Returns the light of lamp and sky on a place, computed from its normal and the shadows on it.
 Light Shader::facing(const Lit& lit) const {
   return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
           (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};
@@ -208,14 +211,14 @@ Vec3f Shader::colour(const Lit& lit) const {
   }
 }
 
-// Returns the light that the viewer sees mirrored at the place.
+// Returns the light from the room that the place mirrors towards the viewer.
 float Shader::mirrored_light(const Lit& lit) const {
   const Vec2f to_viewer = to_viewer_.head<2>() - lit.from_middle / viewer_distance;
   const float cosine = lit.normal.head<2>().dot(to_viewer) + lit.normal.z() * to_viewer_.z();
   return room_(2 * cosine * lit.normal.head<2>() - to_viewer);
 }
 
-// Patina stays in hollows and on low ground, in patches; hands polish what stands out.
+// Patina stays in hollows and on low ground, in patches; hands polish the raised parts.
 Vec3f Shader::metal(const Lit& lit) const {
   const Metal& m = metal_of(material_);
   const Light light = facing(lit);
@@ -229,9 +232,10 @@ Vec3f Shader::metal(const Lit& lit) const {
   return colour * (exposure_ * (m.diffuse * light.lamp + mirror) + .12F * light.sky);
 }
 
-// The grain runs upright and bends a little; as growth rings lie slantwise in the board, carving deeper moves
-// them aside. Lengths are in millimetres: rings are 3.3 mm apart, bend over some 30 and 80 mm, and the noise of
-// fibres and pores is ten to twenty times as long as wide. All were chosen by eye.
+// The grain runs vertically and bends a little. Growth rings are slanted in the board, so that they shift
+// sideways with the depth of the carving. Lengths are in millimetres: rings are 3.3 mm apart, bend over some
+// 30 and 80 mm, and the noise of fibres and pores is ten to twenty times as long as wide. All were chosen by
+// eye.
 Vec3f Shader::wood(const Lit& lit) const {
   const float x = lit.place.x() + 1.6F * lit.place.z(), y = lit.place.y();
   const float bend = 4 * smooth_noise(x * .03F + 7, y * .012F) + .5F * smooth_noise(x * .11F, y * .03F);
@@ -246,7 +250,8 @@ Vec3f Shader::wood(const Lit& lit) const {
   return exposure_ * (tone * (1.02F * light.lamp + .30F * light.sky) + varnish * oil);
 }
 
-// Lit by a lamp behind the middle, whose light falls off towards the edge; the glaze mirrors a little of the room.
+// The lamp is behind the middle, and its light falls off towards the edge. The glaze mirrors a little of the
+// room.
 Vec3f Shader::porcelain(const Lit& lit) const {
   const float behind = 1 - .22F * lit.from_middle.squaredNorm();
   const float glaze = .035F * mirrored_light(lit);

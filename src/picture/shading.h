@@ -1,4 +1,4 @@
-// From light to colour: the lamp, the sky and the materials of all pictures.
+// Converts light to colour: the lamp, the sky and the materials of all pictures.
 #pragma once
 
 #include <algorithm>
@@ -10,40 +10,41 @@
 
 namespace relievo {
 
-// A place of a body with the light on it.
+// A point of a body with the light on it.
 struct Lit {
   Vec3f normal;
-  Light light;                        // shares that reach the place
-  Vec3f place;                        // on the plate, mm
+  Light light;                        // shares of light that reach the point
+  Vec3f place;                        // position on the plate, in mm
   float height = 0;                   // share of the relief's height, 0 is its lowest point
-  Vec2f from_middle = Vec2f::Zero();  // of the body, over half of its longer side: in [-1, 1]
+  Vec2f from_middle = Vec2f::Zero();  // relative to half of the body's longer side, in [-1, 1]
 };
 
-// Returns the direction of that vector; zero for zero.
+// Returns the vector scaled to length 1; a zero vector stays zero.
 Vec3f direction_of(const Vec3f& light);
 
-// The light of the room around a body, by its direction. It is a table, as each pixel looks it up.
+// The light of the room around a body, by its direction. It is tabulated, because every pixel uses it.
 class Room {
  public:
-  // Dark everywhere.
+  // Makes a room that is dark everywhere.
   Room() = default;
 
   explicit Room(const Vec3f& to_lamp);
 
-  // Takes x and y of a unit vector that points to the viewer's side; others count as the nearest one that does.
+  // Returns the light from a direction, given as x and y of a unit vector towards the viewer's side. For
+  // other vectors it is the light from the nearest such direction.
   float operator()(const Vec2f& direction) const;
 
  private:
-  static constexpr int cells = 48;  // of a side, over [-1, 1]
+  static constexpr int cells = 48;  // cells per side, over [-1, 1]
   std::vector<float> light_;
 };
 
 class Shader {
  public:
-  // Both directions are seen from the plate and have length 1; no lamp if the first is zero.
+  // Both directions are seen from the plate and have length 1. If `to_lamp` is zero, there is no lamp.
   Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer);
 
-  // Red, green and blue in [0, 1], linear.
+  // Returns linear red, green and blue in [0, 1].
   Vec3f colour(const Lit& lit) const;
 
  private:
@@ -59,7 +60,7 @@ class Shader {
   Room room_;
 };
 
-// Display values of linear ones.
+// Converts linear values to display values.
 class DisplayTable {
  public:
   DisplayTable();
