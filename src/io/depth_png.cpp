@@ -1,4 +1,4 @@
-// PNG through libspng.
+// Reads PNG files with libspng.
 #include <spng.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t longest_side_px = 1'000'000;
 
-// Gives libspng the bytes of a file without its ancillary chunks. These may be large or broken, and libspng would allocate
-// what their lengths promise.
+// Gives libspng the bytes of a file without its ancillary chunks. These may be large or broken, and libspng
+// would allocate what their lengths promise.
 class NeededChunks {
  public:
   explicit NeededChunks(std::string_view bytes) : bytes_(bytes) {}
@@ -41,7 +41,7 @@ class NeededChunks {
     return 0;
   }
 
-  // Moves to the next critical chunk: the names of ancillary ones begin with a small letter.
+  // Moves to the next critical chunk: the names of ancillary chunks begin with a small letter.
   void find_needed() {
     constexpr std::size_t head = 8, around_data = 12;
     while (bytes_.size() - at_ >= head) {
@@ -56,7 +56,7 @@ class NeededChunks {
 
   std::string_view bytes_;
   std::size_t at_ = 0;
-  std::uint64_t end_ = 8;  // of the signature, or of the chunk that is being read
+  std::uint64_t end_ = 8;  // end of the signature or of the current chunk
 };
 
 class Reader {
@@ -84,7 +84,7 @@ class Reader {
   }
 
  private:
-  // Palettes become colours, and grey of few bits 8 bits of grey; alpha is read, but not used.
+  // Palettes are converted to colours, and grey of fewer than 8 bits to 8 bits. Alpha is read, but not used.
   void choose_format() {
     const int type = header_.color_type;
     const bool has_palette = type == SPNG_COLOR_TYPE_INDEXED, is_narrow = header_.bit_depth < 8;
@@ -116,8 +116,8 @@ class Reader {
     return image;
   }
 
-  // Returns the value of a pixel; nothing if its channels differ: then the picture is a photograph, or depths were
-  // painted in colours.
+  // Returns the value of a pixel; nothing if its channels differ, as in a photograph or in depths that are
+  // shown in colours.
   std::optional<float> value_of(const std::uint8_t* pixel) const {
     std::array<float, 3> all{};
     for (std::size_t c = 0; c < colours_; ++c) {
@@ -138,7 +138,7 @@ class Reader {
   std::unique_ptr<spng_ctx, decltype([](spng_ctx* spng) { spng_ctx_free(spng); })> spng_{spng_ctx_new(0)};
   spng_ihdr header_{};
   int format_ = SPNG_FMT_PNG;
-  std::size_t colours_ = 0, channels_ = 0, value_size_ = 0;  // channels: colours and alpha
+  std::size_t colours_ = 0, channels_ = 0, value_size_ = 0;  // channels are colours and alpha
 };
 
 }  // namespace

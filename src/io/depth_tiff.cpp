@@ -62,7 +62,7 @@ bool takes_luminance(const Layout& layout, const PictureChannels& wanted) {
          layout.channels >= 3;
 }
 
-// Sets the format of the samples, or says why they are not depths.
+// Sets the format of the samples, or returns an error that explains why they are not depths.
 Result<void> check_samples(const Source& source, Layout& layout, const PictureChannels& wanted) {
   const bool is_grey = layout.colours <= PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_RGB;
   if (!is_grey)
@@ -84,7 +84,8 @@ Result<void> check_samples(const Source& source, Layout& layout, const PictureCh
   return {};
 }
 
-// Returns how many samples a row has per pixel: transparency, which is not read, may stand between depths.
+// Returns the number of samples per pixel in a row. Besides depths, a pixel may have transparency, which is
+// not read.
 std::size_t samples_per_pixel(const Layout& layout) {
   return layout.planes == PLANARCONFIG_CONTIG ? layout.channels : 1;
 }
@@ -93,7 +94,7 @@ std::size_t row_size(const Layout& layout, std::size_t pixels) {
   return (pixels * samples_per_pixel(layout) * layout.bits + 7) / 8;
 }
 
-// Returns a row of the channel, which its plane has alone.
+// Returns a row of the channel; in separate planes, a row contains only that channel.
 SampleRow row_of(const Layout& layout, const unsigned char* bytes, std::uint16_t channel) {
   const bool has_all = layout.planes == PLANARCONFIG_CONTIG;
   return {bytes, has_all ? std::size_t{channel} : 0, samples_per_pixel(layout)};
@@ -151,8 +152,8 @@ std::string in_words_of_libtiff(const TiffBytes& file) {
   return "expected the data of a TIFF picture; libtiff says: " + printable(file.message(), 120);
 }
 
-// Says why a strip or tile cannot be read: most often the file is cut, which libtiff's own messages do not
-// say.
+// Returns an error that explains why a strip or tile cannot be read. Usually the file is truncated, which
+// libtiff's own messages do not state.
 std::unexpected<Error> broken_part(const Source& source, const TiffBytes& file, std::uint32_t number) {
   const std::string place = cat(TIFFIsTiled(file.handle()) ? "tile " : "strip ", number);
   const std::uint64_t first = TIFFGetStrileOffset(file.handle(), number),
@@ -164,7 +165,7 @@ std::unexpected<Error> broken_part(const Source& source, const TiffBytes& file, 
                                                     : in_words_of_libtiff(file));
 }
 
-// Says why libtiff finds no picture in the file.
+// Returns an error that explains why libtiff finds no picture in the file.
 std::unexpected<Error> no_directory(const Source& source, const TiffBytes& file) {
   const std::string_view bytes = source.bytes;
   const bool is_big = bytes.size() >= 16 && (bytes[2] == '+' || bytes[3] == '+'),
@@ -189,7 +190,8 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-// Terrain models have the lowest number of single precision where nothing is known, not always with a tag that says so.
+// Terrain models have the lowest number of single precision where nothing is known, not always with a tag
+// that states it.
 constexpr float lowest_height = -1e38F;
 
 // Inverts the values if the file stores white as 0, and makes missing ones NaN.

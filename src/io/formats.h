@@ -1,5 +1,5 @@
-// All file formats that are known: those that are read, and those that errors can only name. A new format
-// needs its source, which defines the two functions declared here, and its row in `formats`.
+// All known file formats: the supported ones, and others that errors can name. A new format needs a source
+// file, which defines the two functions declared here, and a row in `formats`.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace relievo::io {
 
-// Return true if the content, or else the name, is that of a file of the format. `source` may hold only the
+// Return true if the content, or else the name, is that of a file of the format. `source` may be only the
 // beginning of a file.
 bool is_ply(const Source& source);
 bool is_pcd(const Source& source);
@@ -25,29 +25,31 @@ bool is_stl(const Source& source);
 bool is_obj(const Source& source);
 bool is_text(const Source& source);
 
-// Return the content of a file, with as many points as the file has. Errors: kind input. What is read:
+// Return the content of a file, with as many points as the file has. Errors: kind input. These parts of the
+// formats are read:
 //
 // - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
-//   order, among any other properties and elements. Of these, `face` and `tristrips` are
-//   read, be they before or after the vertices. Each ascii row begins on a new line.
-// - OBJ: v, vn and f. The normal of a vertex is the mean of those that faces name for it; or, if no face
-//   names any, that of the vn in the same place of the file. A face may name normals that are not there.
+//   order, among any other properties and elements. Of the other elements, `face` and `tristrips` are read,
+//   before or after the vertices. Each ascii row begins on a new line.
+// - OBJ: v, vn and f. The normal of a vertex is the mean of the normals that faces refer to for it. If no
+//   face refers to any, it is the vn with the same index. Faces may refer to normals that are missing.
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
 // - OFF, with normals (NOFF) and colours (COFF).
-// - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the scene,
-//   transformed by its nodes; without nodes, of all meshes. They may be quantised, and compressed by
-//   EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
-// - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
+// - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
+//   scene, transformed by its nodes; without nodes, those of all meshes. They may be quantised, and
+//   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
+// - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y
+//   normal_z and rgb.
 // - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS
 //   compressed by LASzip 2 or later.
 // - E57: all scans, moved by their poses, of cartesian or spherical coordinates; with colours and normals if
-//   all scans have them. Points that the file calls invalid are NaN. Every checksum must be right.
+//   all scans have them. Points that the file marks as invalid are NaN. Every checksum must be right.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
-//   to 255 or of fractions from 0 to 1 are colours. Allowed are a first line with the number of points (more may
-//   follow, but not fewer), comments (#, //) and a line of column names, which then decide. Other columns may
-//   contain anything. Numbers have a decimal point, or a comma if semicolons separate them; they may stand in
-//   quotation marks.
+//   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
+//   points may follow, but not fewer), and so are comments (#, //) and a line of column names, which then
+//   decide. Other columns may contain anything. Numbers have a decimal point, or a decimal comma if
+//   semicolons separate them; they may be in quotation marks.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_laz(const Source& source);
@@ -59,8 +61,8 @@ Result<RawCloud> read_stl(const Source& source);
 Result<RawCloud> read_obj(const Source& source);
 Result<RawCloud> read_text(const Source& source);
 
-// Return where the points are in a file that begins with `head`. Errors: those of the format's header, and
-// kind input for a file of the format that cannot be read row by row.
+// Return the location of the points in a file that begins with `head`. Errors: those of the format's header,
+// and kind input for a file of the format that cannot be read row by row.
 Result<StreamRecords> find_ply_rows(const Source& head);
 Result<StreamRecords> find_pcd_rows(const Source& head);
 Result<StreamRecords> find_las_rows(const Source& head);
@@ -90,9 +92,9 @@ inline constexpr std::array formats = {
     Format{"OBJ", ".obj", Content::triangles, is_obj, read_obj},
     Format{"XYZ, PTS", ".xyz .pts .txt .csv .asc", Content::points, is_text, read_text}};
 
-// A format that is not read.
+// An unsupported format that errors can name.
 struct ForeignFormat {
-  std::string_view mark;  // how the content begins, or how the name ends
+  std::string_view mark;  // the beginning of the content, or the ending of the name
   std::string_view what;  // for people
 };
 
@@ -124,11 +126,11 @@ inline constexpr std::array<ForeignFormat, 10> foreign_endings = {
      {".tiff", "a TIFF picture"},
      {".ply", "a file that does not begin with the line 'ply'"}}};
 
-// Returns what the file is, "a ZIP archive", if it is in a format that is not read, or binary data without a
-// mark; empty for text that no foreign format claims.
+// Returns a description such as "a ZIP archive" of a file in an unsupported format, or of unknown binary
+// data; empty for text without the mark of such a format.
 std::string foreign_format(const Source& source);
 
-// Returns the names of the formats that hold points or triangles: "PLY, PCD, LAS".
+// Returns the names of the formats with that content: "PLY, PCD, LAS".
 std::string format_names(Content content);
 
 // Returns the names of the formats that can be read row by row: "PLY, PCD or LAS".

@@ -21,7 +21,8 @@ using Decode = void (*)(const char* first, std::size_t stride, std::size_t rows,
 
 Decode decoder(NumberType type, bool is_big_endian);
 
-// Returns the number of type T at `from`, which need not be aligned, in the machine's byte order or the other one.
+// Returns the number of type T at `from`, which need not be aligned, in the machine's byte order or in the
+// opposite one.
 template <typename T, bool is_swapped>
 T number_at(const char* from) {
   using Sizes = std::tuple<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>;

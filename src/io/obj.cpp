@@ -9,7 +9,7 @@
 namespace relievo::io {
 namespace {
 
-// A corner of a face; `normal` is no_index if the face names none.
+// A corner of a face; `normal` is no_index if the face has none.
 struct Corner {
   Index vertex, normal;
 };
@@ -36,7 +36,7 @@ class ObjReader {
   }
 
  private:
-  // Reads the next line, together with those that a backslash at its end continues.
+  // Reads the next line, together with the lines that follow a backslash at its end.
   bool next_line() {
     const auto line = lines_.next();
     if (!line) return false;
@@ -90,7 +90,7 @@ class ObjReader {
     return static_cast<Index>(index - 1);
   }
 
-  // This comes last because faces may precede their vertices.
+  // This check comes last because faces may precede their vertices.
   Result<void> check_vertices() const {
     if (corners_.empty() || highest_vertex_ < points_.size()) return {};
     return lines_.source().error_in_line(
@@ -98,13 +98,14 @@ class ObjReader {
                            highest_vertex_ + std::size_t{1}));
   }
 
-  // Some programs number normals that they do not write. The geometry is whole without them.
+  // Some programs refer to normals that they do not write. The geometry is complete without these normals.
   void forget_missing_normals() {
     for (Corner& c : corners_)
       if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;
   }
 
-  // Returns one normal per point, the mean of the normals that faces name for it; none at all if no face names any.
+  // Returns one normal per point, the mean of the normals to which faces refer for it. The result is empty if
+  // no face refers to a normal.
   std::vector<Vec3f> point_normals() const {
     const bool has_named =
         std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
@@ -120,7 +121,7 @@ class ObjReader {
   // Returns the triangles of the faces; corners without a normal get none.
   void add_mesh(RawCloud& raw) const {
     std::size_t begin = 0;
-    std::vector<Vec3> polygon;  // kept for its memory
+    std::vector<Vec3> polygon;  // reused to keep its memory
     for (const std::size_t end : face_ends_) {
       add_face_of(std::span(corners_).subspan(begin, end - begin), polygon, raw);
       begin = end;
@@ -155,17 +156,17 @@ class ObjReader {
   SourceLines lines_;
   std::string_view line_;
   std::string joined_;
-  std::size_t first_line_ = 0;  // where line_ begins
+  std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
   std::vector<Corner> corners_;         // of all faces
-  std::vector<std::size_t> face_ends_;  // behind the last corner of each face
-  Index highest_vertex_ = 0;            // that a face has named
+  std::vector<std::size_t> face_ends_;  // index after the last corner of each face
+  Index highest_vertex_ = 0;            // highest index in a face
   std::size_t highest_line_ = 0;        // where
 };
 
 }  // namespace
 
-// Recognises a text by its first word: lines of OBJ begin with few different ones.
+// Recognises a text by its first word, because lines of OBJ begin with only a few different words.
 bool is_obj(const Source& source) {
   if (!foreign_format(source).empty()) return false;
   if (has_ending(source.name, ".obj")) return true;

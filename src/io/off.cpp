@@ -1,5 +1,5 @@
-// OFF: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a vertex. The
-// keyword may be missing.
+// OFF: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a vertex.
+// The keyword may be missing.
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +11,7 @@
 namespace relievo::io {
 namespace {
 
-// The numbers that follow the position of a vertex, by the keyword [ST][C][N]OFF.
+// The properties that follow the position of a vertex, according to the keyword [ST][C][N]OFF.
 struct Kind {
   bool has_colours = false, has_normals = false;
 };
@@ -61,7 +61,8 @@ class OffReader {
     return Words();
   }
 
-  // Returns the next word, of this line or a later one: the format is free-form. is_wrapped_ is then true.
+  // Returns the next word, of this line or a later one, because the format is free-form. In a later line,
+  // is_wrapped_ becomes true.
   std::string_view next_word(Words& words) {
     std::string_view word = words.next();
     while (word.empty() && !is_at_end_) {
@@ -72,8 +73,8 @@ class OffReader {
     return word;
   }
 
-  // Further words in a line belong to properties that are not read; but where a row went over the end of its
-  // line, they show that the line was too short.
+  // Further words in a line belong to properties that are not read. In a row that was wrapped over several
+  // lines, however, they are an error.
   Result<void> end_row(Words words) {
     const std::string_view word = words.next();
     const bool is_bad = std::exchange(is_wrapped_, false) && !word.empty();
@@ -123,7 +124,7 @@ class OffReader {
     return end_row(words);
   }
 
-  // Components are whole numbers up to 255, or fractions of 1 with a decimal point.
+  // Colour components are whole numbers up to 255, or fractions of 1 with a decimal point.
   Result<void> take_colour(Words& words) {
     Colour colour;
     for (std::uint8_t& value : colour) {
@@ -158,7 +159,8 @@ class OffReader {
     return lines_.fail(expected_corners(corners_, cloud_.points));
   }
 
-  // Returns whether words behind a face may be another face. A face's colour has other numbers, as a rule.
+  // Returns whether the words after a face may be another face. The words of a face's colour usually do not
+  // look like one.
   static bool is_face(Words words) {
     const auto length = parse_integer(words.next());
     std::int64_t corners = 0;

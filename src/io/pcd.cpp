@@ -1,4 +1,4 @@
-// PCD 0.7 and its forerunners: ascii, binary, and binary_compressed (LZF, one field after the other).
+// Reads PCD 0.7 and earlier versions: ascii, binary, and binary_compressed (LZF, one field after the other).
 #include "io/pcd.h"
 
 #include <lzf.h>
@@ -107,7 +107,8 @@ class PcdHeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // their product would, too
+    const bool fits =
+        height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // then the product fits, too
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})
       return lines_.fail(cat("expected the number of points before DATA, up to 4294967294, found ",
@@ -147,7 +148,7 @@ class PcdHeaderReader {
     return all.empty() ? "none" : all;
   }
 
-  // Returns the type of a field's numbers; nothing for types that are not read, as 64-bit integers.
+  // Returns the type of a field's numbers; nothing for unsupported types, such as 64-bit integers.
   static std::optional<NumberType> type_of(const Field& f) {
     using enum NumberType;
     if (f.type == 'F')
@@ -159,7 +160,7 @@ class PcdHeaderReader {
     return is_signed ? int32 : uint32;
   }
 
-  // Returns the columns of three fields; nothing unless all exist.
+  // Stores the columns of three fields. Returns false unless all three exist.
   bool place(const std::array<std::string_view, 3>& names, std::array<RecordColumn, 3>& to,
              std::array<std::size_t, 3>& ascii) const {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -203,7 +204,7 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   SourceLines lines(source, header.records.offset, header.lines);
   Cloud cloud;
   std::vector<double> values(header.columns);
-  std::string spaced;  // a line without the commas that some programs put between its numbers
+  std::string spaced;  // a line without commas, which some programs put between numbers
   const auto vector = [&](const std::array<std::size_t, 3>& c) {
     return Vec3(values[c[0]], values[c[1]], values[c[2]]);
   };
@@ -238,8 +239,8 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   return cloud;
 }
 
-// Decompresses `in` to fill `out`. Returns false unless that takes all bytes of `in`. The library accepts no
-// empty input or output.
+// Decompresses `in` to fill `out`. Returns false if the sizes do not match. Empty input is handled here,
+// because the library refuses it.
 bool unpack_lzf(std::string_view in, std::vector<char>& out) {
   if (in.empty() || out.empty()) return in.size() == out.size();
   const auto in_size = static_cast<unsigned>(in.size()), out_size = static_cast<unsigned>(out.size());
@@ -257,7 +258,7 @@ Result<Cloud> read_compressed(const Source& source, const PcdHeader& header) {
   if (packed > data.size() - 8)
     return source.error_at_byte(records.offset,
                                 cat("expected ", packed, " compressed bytes, found ", data.size() - 8));
-  const std::size_t most_growth = 264;  // no compressed byte can stand for more
+  const std::size_t most_growth = 264;  // LZF expands a byte to at most this many
   if (size != records.count * records.stride || size / most_growth > packed)
     return source.error_at_byte(records.offset + 4, cat("expected ", records.count * records.stride,
                                                         " bytes of points, found ", size));

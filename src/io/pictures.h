@@ -8,10 +8,11 @@
 
 namespace relievo::io {
 
-// 2^27 depths take 512 MB of memory; a picture that promises more is taken for broken.
+// 2^27 depths take 512 MB of memory; a picture that promises more is treated as broken.
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
-// Deflate packs 1 : 1032 at best. A picture that promises more bytes than this many times its file is broken.
+// Deflate compresses by a factor of 1032 at best. A picture that promises more bytes than this factor times
+// the file's size is broken.
 inline constexpr std::size_t best_packing = 1100;
 
 // Return true if the content begins as files of the format do.
@@ -22,7 +23,7 @@ bool is_tiff(const Source& source);
 Result<DepthImage> read_depth_png(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels);
 
-// Messages about several channels end with this way out.
+// Messages about several channels end with this advice.
 inline constexpr std::string_view way_out_of_colours =
     "; the option channel takes one of them, and depth-values luminance their brightness";
 

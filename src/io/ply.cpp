@@ -12,8 +12,8 @@ namespace {
 constexpr std::array<std::string_view, VertexColumns::most> column_names = {"x",  "y",   "z",     "nx",  "ny",
                                                                             "nz", "red", "green", "blue"};
 
-// Returns the index of the property with that name, or else with that name in another case, as in X and Y; the number of
-// properties if there is none.
+// Returns the index of the property with that name, or else with that name in upper or lower case, such as X;
+// the number of properties if there is none.
 std::size_t find_property(const PlyElement& element, std::string_view name) {
   const auto& all = element.properties;
   auto found = std::ranges::find(all, name, &PlyProperty::name);
@@ -32,7 +32,7 @@ std::string names_of(const PlyElement& element) {
   return names.empty() ? "none" : names;
 }
 
-// Normals and colours count only if all three of their properties exist.
+// Normals and colours are read only if all three of their properties exist.
 Result<VertexColumns> find_columns(const Source& source, const PlyElement& vertex) {
   VertexColumns columns;
   for (std::size_t c = 0; c < VertexColumns::most; ++c) {

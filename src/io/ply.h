@@ -20,13 +20,13 @@ namespace relievo::io {
 struct VertexColumns {
   static constexpr std::size_t most = 9;
   std::array<bool, most> is_there = {};
-  std::array<std::size_t, most> property = {};  // index of each column's property
+  std::array<std::size_t, most> property = {};  // index of the property that is read into each column
 
   bool has_normals() const { return is_there[3]; }
   bool has_colours() const { return is_there[6]; }
 };
 
-// A file after its header has been read. Faces are read, whether they stand before or behind the vertices.
+// A file after its header has been read. Faces are read, whether they are before or after the vertices.
 struct PlyBody {
   const Source& source;
   const PlyHeader& header;
@@ -42,7 +42,7 @@ struct PlyContent {
 };
 
 // Return the vertices and faces. Errors: kind input, with the place, for a body that ends early, a word that
-// is no number, and a face with a vertex that does not exist. Bytes after the faces are ignored.
+// is not a number, and a face with a vertex that does not exist. Bytes after the faces are ignored.
 Result<PlyContent> read_ascii_body(const PlyBody& body);
 Result<PlyContent> read_binary_body(const PlyBody& body);
 
@@ -55,12 +55,12 @@ Cloud sized_cloud(std::size_t points, const VertexColumns& columns);
 // Returns the factor that scales colours of that type to [0, 255].
 double colour_scale(NumberType type);
 
-// The list property of a face element that has its vertices.
+// The list property of a face element that contains the face's vertices.
 struct FaceList {
   std::size_t property;
   FaceKind kind;
 };
-// Returns that property; nothing if the element has none.
+// Returns the list property of an element; nothing if it has none.
 std::optional<FaceList> find_face_list(const PlyElement& element);
 
 template <typename Rows>
@@ -77,7 +77,7 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, Rows& r
   return {};
 }
 
-// Reads a body by its rows, ascii or binary. Faces before the vertices are read after them.
+// Reads a body through `rows`, ascii or binary. Faces that precede the vertices are read after them.
 template <typename Rows>
 Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
   std::vector<std::pair<const PlyElement*, Rows>> early_faces;

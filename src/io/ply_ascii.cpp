@@ -27,8 +27,8 @@ class AsciiRows {
       }
     }
     const std::string_view word = words_.next();
-    // MeshLab writes colours of a face's corners, which its header does not declare. Only vertices must be
-    // right.
+    // MeshLab writes colours of a face's corners that its header does not declare. Therefore only vertex rows
+    // with too many words are errors.
     if (!word.empty() && element.name == "vertex") return fail_in_long_row(element, word);
     words_ = Words();
     ++rows_;
@@ -67,7 +67,7 @@ class AsciiRows {
   Result<void> fail(std::string expected) const { return lines_.fail(std::move(expected)); }
 
  private:
-  // Returns the next word, on this line or a later one; empty at the end of the file.
+  // Returns the next word, in this line or a later one; empty at the end of the file.
   std::string_view next_word() {
     std::string_view word = words_.next();
     while (word.empty()) {
@@ -119,7 +119,8 @@ bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
 
-// If the header promises more vertices than the bytes can contain, an error follows: no memory is taken then.
+// Allocates no memory if the header promises more vertices than the bytes can contain; reading then ends with
+// an error.
 Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
   cloud = sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns);
@@ -130,7 +131,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
       body.columns.has_colours() ? colour_scale(body.vertex.properties[body.columns.property[6]].type) : 1;
   std::array<double, VertexColumns::most> values = {};
   const auto take = [&](std::size_t property, std::string_view word) {
-    if (column_of[property] == VertexColumns::most) return true;  // it may be a text, such as True
+    if (column_of[property] == VertexColumns::most) return true;  // not read: it may be a text, such as True
     const auto value = parse_number(word);
     if (value) values[column_of[property]] = *value;
     return value.has_value();

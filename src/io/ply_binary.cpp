@@ -5,7 +5,7 @@
 namespace relievo::io {
 namespace {
 
-// Walks over the bytes of the body; row by row if rows have lists.
+// Walks over the bytes of the body, row by row if rows have lists.
 class BinaryRows {
  public:
   BinaryRows(const Source& source, const PlyHeader& header)
@@ -80,7 +80,8 @@ class BinaryRows {
  private:
   std::size_t left() const { return source_.bytes.size() - at_; }
 
-  // Returns the length of the list that begins here; nothing if so many values cannot follow.
+  // Returns the length of the list that begins here, or an error if the file is too short for that many
+  // values.
   Result<std::size_t> list_length(const PlyProperty& list) {
     if (left() < size_in_bytes(*list.count_type)) return std::unexpected(fail_at_end(list).error());
     double length = 0;
@@ -103,11 +104,11 @@ class BinaryRows {
   const Source& source_;
   PlyFormat format_;
   std::size_t at_;
-  std::vector<double> values_;  // of the list read last, kept for its memory
+  std::vector<double> values_;  // of the last list, reused to keep its memory
 };
 
-// Rows with lists have different sizes: each is copied without its lists, and the copies are decoded as
-// usual.
+// Rows with lists differ in size. Each row is therefore copied without its lists, and the copies are decoded
+// as usual.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;

@@ -9,7 +9,7 @@
 namespace relievo::io {
 namespace {
 
-// The names of each type in the order of NumberType, in twos.
+// Two names of each type, in the order of NumberType.
 constexpr std::array<std::string_view, 16> type_names = {
     "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
     "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
@@ -23,13 +23,13 @@ std::optional<NumberType> type_named(std::string_view name) {
   return static_cast<NumberType>(found / 2);
 }
 
-// One pass over the lines; each step gets the words after the line's keyword.
+// Reads the header in one pass over the lines; each step gets the words after the line's keyword.
 class PlyHeaderReader {
  public:
   explicit PlyHeaderReader(const Source& source) : lines_(source) {}
 
   Result<PlyHeader> read() {
-    lines_.next();  // "ply", which the caller has seen
+    lines_.next();  // skips "ply", which the caller has checked
     while (const auto line = lines_.next()) {
       Words words(*line);
       const std::string_view keyword = words.next();
@@ -45,7 +45,7 @@ class PlyHeaderReader {
     if (keyword == "format") return take_format(words);
     if (keyword == "element") return take_element(words);
     if (keyword == "property") return take_property(words);
-    // Old versions of Blender wrote their comment without the word.
+    // Old versions of Blender wrote a comment without the keyword "comment".
     if (header_.elements.empty()) return {};
     return lines_.fail("expected format, element, property, comment, obj_info or end_header, found " +
                        in_quotes(keyword));

@@ -1,7 +1,7 @@
-// Ear clipping. Whatever triangles are cut off, their signed areas add up to the polygon's, and so do their
-// winding numbers at every place. If none of them is turned over, they therefore cover the inside of a
-// polygon that does not cross itself exactly once. The tests whether a triangle is an ear only serve to find
-// such a sequence.
+// Ear clipping. For any sequence of triangles that are cut off, the signed areas add up to the polygon's, and
+// so do the winding numbers at every point. So if no triangle is turned over, the triangles cover the inside
+// of a polygon that does not cross itself exactly once. The tests for ears only serve to find such a
+// sequence.
 #include "io/polygon.h"
 
 #include <Eigen/Geometry>
@@ -15,12 +15,11 @@
 namespace relievo::io {
 namespace {
 
-// The share of the polygon's area that a triangle may be turned over by, because corners in a line are
-// rounded to the float numbers of a file.
+// The largest negative area of a triangle, as a share of the polygon's area. It is not 0, because collinear
+// corners are rounded to the floats of a file.
 constexpr double rounding = 1e-6;
 
-constexpr std::size_t most_corners =
-    10'000;  // of a polygon that is not convex; the time grows with its square
+constexpr std::size_t most_corners = 10'000;  // limit for non-convex polygons; the time is quadratic in it
 
 std::vector<std::array<Index, 3>> fan_of(std::size_t corners) {
   std::vector<std::array<Index, 3>> fan;
@@ -39,7 +38,7 @@ Vec3 area_of(std::span<const Vec3> corners) {
   return area;
 }
 
-// Cuts ears off a polygon in the plane that runs counter-clockwise.
+// Cuts ears off a counter-clockwise polygon in the plane.
 class EarClipper {
  public:
   EarClipper(std::vector<Vec2> corners, double area)
@@ -73,7 +72,7 @@ class EarClipper {
   // Returns twice the signed area of the triangle at corner i.
   double turn(Index i) const { return cross(at_[i] - at_[before_[i]], at_[next_[i]] - at_[before_[i]]); }
 
-  // Returns the next ear, or else a corner whose triangle has next to no area.
+  // Returns the next ear, or else a corner whose triangle has almost no area.
   std::optional<Index> find_ear(Index from, std::size_t left) const {
     std::optional<Index> flat;
     for (std::size_t k = 0; k < left; ++k, from = next_[from]) {
@@ -83,7 +82,8 @@ class EarClipper {
     return flat;
   }
 
-  // Only a reflex corner can be in the triangle of a corner unless the polygon crosses itself.
+  // Returns whether the triangle of a corner contains no other corner. Only reflex corners are tested,
+  // because others cannot be inside unless the polygon crosses itself.
   bool is_empty(Index ear) const {
     const Vec2 &a = at_[before_[ear]], &b = at_[ear], &c = at_[next_[ear]];
     for (const Index i : reflex_) {
@@ -107,7 +107,7 @@ class EarClipper {
     return is_between(at_[next_[i]]) || is_between(at_[before_[i]]);
   }
 
-  // Cuts the ear off. This can make ears only of the corners beside it.
+  // Cuts the ear off. Only the two neighbouring corners can become ears by this.
   void cut(Index ear) {
     const Index before = before_[ear], next = next_[ear];
     next_[before] = next;
@@ -120,7 +120,7 @@ class EarClipper {
   double slack_;
   std::vector<Index> next_, before_;
   std::vector<bool> is_ear_;
-  std::vector<Index> reflex_;  // those left whose angle is 180 degrees or more
+  std::vector<Index> reflex_;  // remaining corners whose angle is 180 degrees or more
 };
 
 // Returns the corners in the plane of their vector area, in which they run counter-clockwise.

@@ -9,12 +9,12 @@
 
 namespace relievo::io {
 
-// Returns triangles that cover a polygon, as numbers of its corners, in its sense of rotation. The polygon is
-// taken as flat: what lies on top of itself in the plane of its vector area counts. A fan from the first
-// corner is returned if it covers the polygon, and also if no triangles do: for polygons that cross
-// themselves, have no area or a corner that is not finite, and for those of more than 10,000 corners that are
-// not convex, which would take too long. Corners may coincide, as in polygons with holes that a seam connects
-// with the outline.
+// Returns triangles that cover a polygon, as indices of its corners, with the polygon's orientation. The
+// polygon is treated as flat: it is projected onto the plane of its vector area. The result is a fan from the
+// first corner if the fan covers the polygon. It is also a fan if no triangulation is found: for polygons
+// that cross themselves, that have no area or a non-finite corner, and for non-convex polygons of more than
+// 10,000 corners, which would take too long. Corners may coincide, as in polygons with holes that a seam
+// connects with the outline.
 std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners);
 
 // Returns true if triangulate() returns the fan from the first corner because the fan covers the polygon.

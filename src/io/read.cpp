@@ -29,10 +29,12 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
   return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
-// Depth cameras write 0, 0, 0 where they have not measured anything. Fewer such points may be a corner of the model.
+// Depth cameras write 0, 0, 0 where they have not measured anything. A small number of such points may belong
+// to the model.
 constexpr std::size_t most_at_origin = 16;
 
-// Returns the number of points at 0, 0, 0 that were not measured; 0 in a mesh, or if most points are there.
+// Returns the number of points at 0, 0, 0 that count as not measured; 0 for a mesh, or if most points are
+// there.
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
@@ -43,9 +45,9 @@ std::size_t count_unmeasured(const CloudFile& file) {
   return zeros < finite ? zeros : 0;
 }
 
-// Removes points that are not finite or not measured. If some points have no normal, they are removed if they
-// are the minority, else all normals are: losing a few points is better than losing all normals, but losing
-// most points is worse.
+// Removes points that are not finite or not measured. If some points have no normal, these points are removed
+// if they are the minority; otherwise all normals are removed. Losing a few points is better than losing all
+// normals, but losing most points is worse.
 void drop_unusable(CloudFile& file) {
   Cloud& cloud = file.cloud;
   file.unmeasured_points = count_unmeasured(file);

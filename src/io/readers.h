@@ -14,8 +14,8 @@ namespace relievo::io {
 // The bytes of a file, or of its beginning.
 struct Source {
   std::string_view bytes;
-  std::string_view name;                // of the file, for messages and for its ending
-  const FilesBeside* beside = nullptr;  // the files in the same folder, if they can be had
+  std::string_view name;                // name of the file, for messages and for its ending
+  const FilesBeside* beside = nullptr;  // access to files in the same folder; null if there is none
 
   std::unexpected<Error> error(std::string place, std::string expected) const {
     return input_error(std::string(name), std::move(place), std::move(expected));
@@ -28,7 +28,7 @@ struct Source {
   }
 };
 
-// The lines of a text file, and errors that name them.
+// The lines of a text file, with errors that state the line.
 class SourceLines : public Lines {
  public:
   // Begins with the file's first line, or behind its header.
@@ -43,7 +43,7 @@ class SourceLines : public Lines {
   std::unexpected<Error> fail(std::string expected) const {
     return source_.error_in_line(number(), std::move(expected));
   }
-  // Returns an error behind the last line, in which the file was to go on with something.
+  // Returns an error in the line after the last one, where more was expected.
   std::unexpected<Error> fail_at_end(const std::string& expected, const std::string& after = {}) const {
     return source_.error_in_line(number() + 1,
                                  "expected " + expected + ", found the end of the file" + after);
@@ -58,10 +58,10 @@ struct RawCloud {
   Cloud cloud;         // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
   std::string format;  // for people
   Mesh mesh = {};      // a copy of the same points with the file's triangles; empty if it has none
-  std::size_t missing_points = 0;  // promised by the header, beyond the end of the file
+  std::size_t missing_points = 0;  // promised by the header, but missing because the file ends early
 };
 
-// Returns true if the first 4,096 bytes contain a control character that no text has.
+// Returns true if the first 4,096 bytes contain a control character that does not occur in text.
 bool has_control_bytes(std::string_view bytes);
 
 // Returns true if the file's name ends with `ending` (".obj"), in upper or lower case.

@@ -1,4 +1,4 @@
-// STL, binary and ascii: single triangles. Their coincident corners are merged.
+// Reads STL, binary and ascii. A file has separate triangles; coincident corners are merged.
 #include <algorithm>
 
 #include "geometry/weld.h"
@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t header_size = 84, triangle_size = 50;
 
-// Returns true for a binary file. Some begin with "solid" although the format forbids it, and some text does
-// not, so the size decides first, then the zeros that any binary file of less than 800 MB has in its number
-// of triangles.
+// Returns true for a binary file. Some binary files begin with "solid" although the format forbids it, and
+// some text files do not. So the size decides first, and then the zero bytes in the number of triangles of
+// any binary file of less than 800 MB.
 bool is_binary(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (bytes.size() < header_size) return has_control_bytes(bytes);
@@ -101,7 +101,7 @@ class AsciiReader {
   }
 
  private:
-  // Some programs end no lines.
+  // Lines are not relied on, because some programs do not write line ends.
   Result<void> take(std::string_view keyword, Words& words) {
     if (equals_ignoring_case(keyword, "vertex")) return take_vertex(words);
     if (equals_ignoring_case(keyword, "endfacet")) return end_facet();
@@ -109,11 +109,11 @@ class AsciiReader {
     has_end_ = has_end_ || is_end;
     if (is_end || equals_ignoring_case(keyword, "solid")) skip_name(words);
     if (equals_ignoring_case(keyword, "facet"))
-      for (int i = 0; i < 4; ++i) words.next();  // normal and its numbers
+      for (int i = 0; i < 4; ++i) words.next();  // skips "normal" and its numbers
     return {};
   }
 
-  // A solid's name goes up to its first facet; its words mean nothing, whatever they are.
+  // Skips a solid's name, which goes up to the first facet and may contain any words.
   static void skip_name(Words& words) {
     Words ahead = words;
     for (auto word = ahead.next(); !word.empty(); word = ahead.next()) {

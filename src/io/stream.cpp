@@ -14,9 +14,9 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t head_size = 1 << 20;                       // bytes, more than any header has
+constexpr std::size_t head_size = 1 << 20;                       // bytes; more than any header has
 constexpr std::size_t piece_size = 8 << 20;                      // bytes read at a time
-constexpr std::size_t sample_points = 200000, sample_run = 200;  // points of the sample, and per read
+constexpr std::size_t sample_points = 200000, sample_run = 200;  // points in the sample, and points per read
 
 // Reads and decodes the rows of the file piece by piece.
 class Rows {
@@ -59,10 +59,10 @@ class Rows {
   std::vector<std::byte> bytes_;
 };
 
-// Returns runs of rows from all over the file.
+// Returns a sample of rows: runs from all over the file.
 Result<Cloud> take_sample(Rows& rows) {
   const std::uint64_t count = rows.records().count;
-  if (count == 0) return Cloud{};  // their place may lie behind the end of the file
+  if (count == 0) return Cloud{};  // their offset may lie behind the end of the file
   const std::uint64_t runs =
       std::max<std::uint64_t>(1, std::min(count, std::uint64_t{sample_points}) / sample_run);
   Cloud sample, run;
@@ -87,7 +87,7 @@ struct Scout {
   float sign = 1;             // -1 if the normals point inwards
 };
 
-// The outlier radius is that of outliers(): 20 times the distance that 90 % of the points keep.
+// The outlier radius is that of outliers(): 20 times the distance within which 90 % of the points lie.
 Scout scout(const Cloud& sample) {
   Scout it;
   std::vector<double> values(sample.size());
@@ -105,8 +105,8 @@ Scout scout(const Cloud& sample) {
 }
 
 // A grid over the view that keeps, per square, the sums of the front-most points. Memory is bounded by the
-// number of squares, so each of three passes over the file adds one piece of knowledge: the box, the front
-// depth, the sums.
+// number of squares, so three passes over the file are made: they find the box, the front depth of each
+// square, and the sums.
 class ViewGrid {
  public:
   ViewGrid(const View& view, const Scout& scout, bool has_normals, bool has_colours)
@@ -160,8 +160,8 @@ class ViewGrid {
       if (p.counts) top_[p.square] = std::max(top_[p.square], static_cast<float>(p.at.z()));
   }
 
-  // Third pass: adds up the points near that depth. On a slope a square spans a range of depths, by the
-  // normal or, without one, by a slope of 2.
+  // Third pass: adds up the points near that depth. On a slope a square spans a range of depths, which
+  // follows from the normal or, without one, from a slope of 2.
   void gather(const Cloud& piece) {
     if (sums_.empty()) sums_.resize(top_.size());
     place(piece);
@@ -207,7 +207,7 @@ class ViewGrid {
   struct Sum {
     Vec3 at = Vec3::Zero();
     Vec3f normal = Vec3f::Zero();
-    std::array<std::uint32_t, 3> colour = {};  // whole numbers, as floats lose ones above 2^24
+    std::array<std::uint32_t, 3> colour = {};  // integers, because floats above 2^24 lose additions of 1
     std::uint32_t count = 0;
   };
 

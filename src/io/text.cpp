@@ -9,15 +9,15 @@
 namespace relievo::io {
 namespace {
 
-// Returns infinity or zero for a number beyond the range of double; from_chars does not say which of both it
-// is.
+// Returns whether a number beyond the range of double is too small rather than too large. from_chars does not
+// distinguish the two.
 bool is_tiny(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
   return word.substr(0, word.find('.')).find_first_of("123456789") == std::string_view::npos;
 }
 
-// from_chars refuses the plus sign that some programs write.
+// Returns the word without a plus sign, which from_chars refuses but some programs write.
 std::string_view without_plus(std::string_view word) {
   const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return word.substr(has_plus ? 1 : 0);

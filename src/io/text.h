@@ -42,7 +42,7 @@ constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// Iterates over the words of a line, which blanks separate; returns an empty view at the end.
+// Iterates over the words of a line, which are separated by blanks; returns an empty view at the end.
 class Words {
  public:
   explicit Words(std::string_view line = {}) : at_(line.data()), end_(line.data() + line.size()) {}
@@ -62,15 +62,15 @@ class Words {
 // Returns the text without blanks at its ends.
 std::string_view trim(std::string_view text);
 
-// Returns the text before the comment that '#' begins. It begins none in 1.#QNAN.
+// Returns the text before a comment, which begins with '#'. The '#' in 1.#QNAN does not begin one.
 std::string_view before_comment(std::string_view line);
 
-// Returns the number that the whole word spells: decimal, with exponent (after e, or d as in Fortran) and either sign, or
-// nan and inf in their spellings. It is infinite beyond the range of double, and zero if too small. Nothing if the word is
-// no number.
+// Returns the number that the whole word spells: a decimal with optional sign and exponent (after e, or d as
+// in Fortran), or a spelling of nan or inf. The number is infinite if it is too large for a double, and zero
+// if it is too small. Returns nothing if the word is not a number.
 std::optional<double> parse_number(std::string_view word);
 
-// Returns the integer that the whole word spells, nothing if it is none or beyond 64 bits.
+// Returns the integer that the whole word spells; nothing for other words and beyond 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
 // Return the text for messages, shortened to `most` bytes and with '?' for unprintable ones; in_quotes() puts
@@ -78,7 +78,7 @@ std::optional<std::int64_t> parse_integer(std::string_view word);
 std::string printable(std::string_view text, std::size_t most = 32);
 std::string in_quotes(std::string_view text);
 
-// Returns true if both are equal but for the case of ASCII letters.
+// Returns true if both are equal apart from the case of ASCII letters.
 bool equals_ignoring_case(std::string_view a, std::string_view b);
 
 // Returns 3 if the text begins with a UTF-8 byte order mark, else 0.

@@ -55,7 +55,7 @@ tmsize_t TiffBytes::read(thandle_t self, void* to, tmsize_t wanted) {
 
 tmsize_t TiffBytes::write(thandle_t self, void* from, tmsize_t wanted) {
   auto& it = *static_cast<TiffBytes*>(self);
-  if (!it.out_ || !from) return 0;  // libtiff passes null for texts that it had no memory to copy
+  if (!it.out_ || !from) return 0;  // libtiff passes null if it had no memory to copy a text
   const std::size_t end = it.at_ + static_cast<std::size_t>(wanted);
   if (end > it.out_->size()) it.out_->resize(end);
   std::memcpy(it.out_->data() + it.at_, from, static_cast<std::size_t>(wanted));

@@ -9,7 +9,7 @@
 
 namespace relievo::io {
 
-// A TIFF over bytes in memory. libtiff's first error message is kept instead of printed.
+// A TIFF over bytes in memory. libtiff's first error message is stored instead of printed.
 class TiffBytes {
  public:
   explicit TiffBytes(std::string_view bytes);       // to read
@@ -18,10 +18,11 @@ class TiffBytes {
   TiffBytes& operator=(const TiffBytes&) = delete;
   ~TiffBytes() { close(); }
 
-  TIFF* handle() const { return tiff_; }  // null if the bytes are no TIFF
+  TIFF* handle() const { return tiff_; }  // null if the bytes are not a TIFF
   const std::string& message() const { return message_; }
   void close();
-  // Gives the handle up without closing it, because libtiff crashes when it closes a file whose tags lacked memory.
+  // Abandons the handle without closing it, because libtiff crashes when it closes a file whose tags could
+  // not be stored for lack of memory.
   void abandon() { tiff_ = nullptr; }
 
  private:

@@ -24,7 +24,7 @@ std::uint64_t packed(const unsigned char* row, std::size_t first_bit, unsigned b
   return value;
 }
 
-// Converts IEEE 754's numbers of 16 bits.
+// Converts a number of 16 bits (IEEE 754 half precision).
 float half(std::uint64_t bits) {
   const auto exponent = static_cast<int>(bits >> 10 & 31), fraction = static_cast<int>(bits & 1023);
   const float sign = bits >> 15 & 1 ? -1.F : 1.F;

@@ -15,12 +15,12 @@ struct SampleFormat {
   unsigned bits = 1;
 };
 
-// Returns the format of the tags SampleFormat and BitsPerSample if it is read: whole numbers of 1 to 32 and
-// of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are taken as
-// whole numbers.
+// Returns the format of the tags SampleFormat and BitsPerSample if it is supported: whole numbers of 1 to 32
+// and of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are
+// taken as whole numbers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits);
 
-// Returns what a picture has instead, for messages: "4-bit whole numbers".
+// Returns a description of the samples for messages: "4-bit whole numbers".
 std::string describe_samples(unsigned sample_format, unsigned bits);
 
 // A row as libtiff returns it. Every `step`-th sample is read, from the sample `first` on.
@@ -29,8 +29,8 @@ struct SampleRow {
   std::size_t first = 0, step = 1;
 };
 
-// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the
-// machine's byte order, which is little-endian, and all others packed, the most significant bit first.
+// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the machine's byte order, which is
+// little-endian, and all other widths packed, the most significant bit first.
 void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to);
 
 }  // namespace relievo::io

@@ -10,7 +10,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns colours as bytes. The largest value shows their range: up to 1, 255 or 65535. Returns no colours if
+// Returns colours as bytes. The largest value determines their range: 1, 255 or 65535. Returns no colours if
 // it is larger.
 std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
   float largest = 0;
@@ -85,10 +85,10 @@ class XyzReader {
 
   const XyzLayout& layout_;
   SourceLines lines_;
-  std::vector<std::size_t> slots_;  // where the value of each column goes; most_wanted if it is not read
+  std::vector<std::size_t> slots_;  // index in values_ of each column; most_wanted if it is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
   Cloud cloud_;
-  std::vector<Vec3f> colours_;  // as they stand in the file
+  std::vector<Vec3f> colours_;  // as in the file
 };
 
 std::string to_string(const XyzLayout& layout) {

@@ -13,9 +13,8 @@
 
 namespace relievo::io {
 
-// Iterates over the fields of a line: words if `separator` is ' ', else the text between separators, without
-// blanks and quotation marks around it.
-// A separator at the end of the line ends the last field.
+// Iterates over the fields of a line: words if `separator` is ' ', else the texts between separators, without
+// surrounding blanks and quotation marks. A separator at the end of the line ends the last field.
 class Fields {
  public:
   Fields(std::string_view line, char separator) : line_(line), words_(line), separator_(separator) {}
@@ -28,7 +27,7 @@ class Fields {
   char separator_;
 };
 
-// Returns the line without comment (# or //) and blanks at its ends.
+// Returns the line without a comment (# or //) and without blanks at its ends.
 std::string_view without_comment(std::string_view line);
 
 using ColumnNames = std::vector<std::string_view>;
@@ -36,33 +35,35 @@ using ColumnNames = std::vector<std::string_view>;
 struct XyzLayout {
   static constexpr std::size_t most_wanted = 9, first_normal = 3, first_colour = 6;
   char separator = ' ';
-  bool has_decimal_commas = false;                          // instead of points
-  std::size_t columns = 0;                                  // of every line
+  bool has_decimal_commas = false;                          // instead of decimal points
+  std::size_t columns = 0;                                  // number of columns of every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
   bool has_normals = false, has_colours = false;
-  std::optional<std::int64_t> promised_points;  // if a first line states their number
+  std::optional<std::int64_t> promised_points;  // number of points, if a first line states it
   std::size_t promising_line = 0;
-  std::size_t first_line = 0;  // of data, counted from 1
+  std::size_t first_line = 0;  // first line of data, counted from 1
   std::size_t data_offset = 0;
 };
 
 // Returns the number that a field spells, with a decimal comma if the layout has them.
 std::optional<double> parse_field(std::string_view field, const XyzLayout& layout);
 
-// Returns true if x, y and z are among the names, or easting, northing and elevation, or other names of these.
+// Returns true if x, y and z are among the names, or easting, northing and elevation, or other names of
+// coordinates.
 bool has_coordinates(const ColumnNames& names);
 
 // Returns true if the only coordinates among the names are longitude and latitude.
 bool has_degrees(const ColumnNames& names);
 
-// Sets the columns of coordinates, normals and colours: those of that name, or else those whose values are unit vectors or
-// colours in lines all over the file. The first three columns are coordinates, or, if `has_name` and no line shows
-// otherwise, those after the first.
+// Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
+// find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
+// first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
+// with a number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data
-// (separator, number of columns) and from lines all over the file (normals, colours).
+// (separator, number of columns) and from lines throughout the file (normals, colours).
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

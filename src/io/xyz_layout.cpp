@@ -21,7 +21,7 @@ std::string_view plain_name(std::string_view field) {
   return field.substr(first, field.find_last_not_of(around) + 1 - first);
 }
 
-// Returns the names of columns in a line, which separators other than those of the data may part.
+// Returns the names of columns in a line. Their separator may differ from that of the data.
 ColumnNames split_names(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of("#/ \t\v\f"), line.size()));
   const std::size_t separator = line.find_first_of(line.contains(';')   ? ";"
@@ -74,7 +74,7 @@ std::size_t end_of_quoted(std::string_view line) {
   return 0;
 }
 
-// Returns the line without its quoted fields, in which separators separate nothing.
+// Returns the line without its quoted fields, because separators inside them do not count.
 std::string without_quoted(std::string_view line) {
   std::string plain;
   bool begins_field = true;
@@ -91,8 +91,8 @@ std::string without_quoted(std::string_view line) {
   return plain;
 }
 
-// Returns true for commas that cannot all be separators, as in "1,5 2,5". In "1, 2,5" a comma counts as
-// decimal only if no number has a decimal point.
+// Returns true if not all commas can be separators, as in "1,5 2,5". Commas as in "1, 2,5" count as decimal
+// only if no number has a decimal point.
 bool has_decimal_commas(std::string_view line) {
   std::size_t commas = 0, spaced_commas = 0;
   Fields fields(line, ',');
@@ -107,7 +107,8 @@ bool has_decimal_commas(std::string_view line) {
   return spaced_commas > 0 && spaced_commas < commas && !line.contains('.');
 }
 
-// Returns whether each field between tabs is a number with a decimal point or comma; the first may be a name.
+// Returns whether each field between tabs is a number with a decimal point or comma; the first field may be a
+// name.
 bool is_between_tabs(std::string_view line) {
   if (!line.contains('\t')) return false;
   XyzLayout commas;
@@ -127,8 +128,9 @@ char likely_separator(std::string_view line) {
   return plain.contains(',') && !is_between_tabs(line) ? ',' : ' ';
 }
 
-// Returns whether the first column is a name, which begins with a letter, and three numbers follow. Between blanks the
-// numbers are those of whole vectors, three or six or nine: else "Point 1 10 20 30" would have its number as x.
+// Returns whether the first column is a name, which begins with a letter, and three numbers follow. If blanks
+// separate the fields, there must be three, six or nine numbers; otherwise, in "Point 1 10 20 30", the number
+// 1 would be read as x.
 bool begins_with_name(std::string_view line) {
   XyzLayout layout;
   layout.separator = likely_separator(line);
@@ -165,8 +167,8 @@ class Preamble {
 
   std::size_t line() const { return lines_.number(); }
 
-  // A line of names must have as many as there are columns; a comment is taken for names only if it has as
-  // many.
+  // A line of names must have as many names as there are columns. A comment counts as names only if it has
+  // that many.
   Result<void> name_columns() {
     if (names_.empty() && commented_names_.size() == layout_.columns && has_coordinates(commented_names_)) {
       names_ = commented_names_;
@@ -188,7 +190,7 @@ class Preamble {
       layout_.promising_line = lines_.number();
       return false;
     }
-    // Below names of columns, the first column may be a text.
+    // After a line of names, the first column may be a text.
     const bool has_number =
         std::ranges::any_of(words, [](auto word) { return parse_number(word).has_value(); });
     if (!words.empty() && (parse_number(words[0]) || (!names_.empty() && has_number))) return true;
@@ -243,7 +245,7 @@ std::optional<double> parse_field(std::string_view field, const XyzLayout& layou
 std::string_view without_comment(std::string_view line) {
   for (const char mark : {'#', '/'}) {
     for (std::size_t i = line.find(mark); i < line.size(); i = line.find(mark, i + 1)) {
-      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // it does not in 1.#QNAN
+      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // false in 1.#QNAN
       if (begins_word && is_comment(line.substr(i))) line = line.substr(0, i);
     }
   }
@@ -257,7 +259,8 @@ Result<XyzLayout> find_layout(const Source& source) {
   layout.first_line = preamble.line();
   RELIEVO_TRY(const auto separator, find_separator(source, line, layout.first_line));
   layout.separator = separator;
-  // Between semicolons or tabs a comma is no separator. A later line may be the first that has one.
+  // Between semicolons or tabs a comma is not a separator. It is then a decimal comma, which may first occur
+  // in a later line.
   const bool has_other_separators =
       layout.separator == ';' || (layout.separator == ' ' && line.contains('\t'));
   layout.has_decimal_commas = has_other_separators && !line.contains('.');

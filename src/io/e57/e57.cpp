@@ -1,4 +1,5 @@
-// E57 1.0 (ASTM E2807-11): the points of all scans, each moved by its pose. Pictures and intensities are not read.
+// E57 1.0 (ASTM E2807-11): the points of all scans, each moved by its pose. Pictures and intensities are not
+// read.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +22,7 @@ Vec3 position_at(const E57Scan& scan, std::size_t row) {
   return p[0] * Vec3(std::cos(p[2]) * std::cos(p[1]), std::cos(p[2]) * std::sin(p[1]), std::sin(p[2]));
 }
 
-// Colours of floats are scaled here; those of integers already are.
+// Scales colours that are stored as floats. Integer colours are already scaled.
 std::uint8_t as_byte(const PackedColumn& column, std::size_t row) {
   double value = column.value(row);
   if (column.kind != PackedColumn::Kind::integer) value = column.scale * value + column.shift;

@@ -9,7 +9,8 @@
 namespace relievo::io {
 namespace {
 
-// The name without its prefix: normals are an extension of the standard, whose prefix files are free to choose.
+// Returns the name without its prefix. Normals are an extension of the standard, and files may choose any
+// prefix for it.
 std::string_view local_name(std::string_view name) {
   return name.substr(name.find(':') + 1);
 }
@@ -137,8 +138,8 @@ class ScanParser {
     return elements_[element].text.empty() ? 0 : parse_number(elements_[element].text).value_or(unset);
   }
 
-  // The range of colours stands in colorLimits or else in the columns' own limits; fractions without any are in
-  // [0, 1].
+  // Takes the range of colours from colorLimits or else from the columns' own limits. Floating-point columns
+  // without limits are in [0, 1].
   void scale_colours() {
     if (!scan_.colour) return;
     const std::size_t limits = find_child(elements_, element_, "colorLimits");

@@ -13,19 +13,19 @@
 namespace relievo::io {
 
 struct E57Scan {
-  using Triple = std::array<std::size_t, 3>;  // numbers of columns
+  using Triple = std::array<std::size_t, 3>;  // indices of columns
 
   E57Section section;
   std::vector<PackedColumn> columns;
   Triple position = {};  // x, y and z, or range, azimuth and elevation
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
-  std::optional<std::size_t> invalid;    // not 0 for points that the scanner could not measure
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // from the scanner's frame to that of the file,
-  Vec3 origin = Vec3::Zero();                                // before this is added
+  std::optional<std::size_t> invalid;    // column that is not 0 for points the scanner could not measure
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // from the scanner's frame to the file's,
+  Vec3 origin = Vec3::Zero();                                // and the translation that follows it
 };
 
-// Returns the scan that the element of data3D describes. Errors name the element.
+// Returns the scan that an element of data3D describes. Errors name the element.
 Result<E57Scan> parse_e57_scan(const Source& source, const XmlElements& elements, std::size_t element);
 
 }  // namespace relievo::io

@@ -9,7 +9,7 @@ namespace relievo::io {
 namespace {
 
 constexpr std::size_t section_header = 32, data_header = 6;
-constexpr std::size_t padding = 9;  // so that 64 bits can be read from every bit
+constexpr std::size_t padding = 9;  // so that 64 bits can be read from any bit position
 
 std::uint64_t bits_at(const char* bytes, std::uint64_t bit, unsigned count) {
   const char* const first = bytes + bit / 8;

@@ -1,5 +1,6 @@
-// The pages of an E57 file. A file is divided into pages of 1,024 bytes, of which the last four are a checksum.
-// Offsets in the file count these ("physical"); lengths and contents do not ("logical").
+// The pages of an E57 file. A file is divided into pages of 1,024 bytes, of which the last four are a
+// checksum. Physical offsets, which the file states, include the checksums; logical offsets and lengths do
+// not.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,8 @@ struct E57Pages {
   E57Pages() = default;
   E57Pages(E57Pages&&) = delete;  // `xml` points into `bytes`
 
-  // Converts between the two kinds of offsets. A physical one within a checksum becomes the end of all bytes.
+  // Converts between the two kinds of offsets. A physical offset within a checksum becomes the end of all
+  // bytes.
   std::uint64_t logical(std::uint64_t physical) const;
   std::uint64_t physical(std::uint64_t logical) const;
 };

@@ -1,5 +1,5 @@
-// A reader of the XML in E57 files: elements, attributes and texts, as views of the given bytes. It knows neither
-// document types nor entities, which the numbers that are read do not need.
+// A reader of the XML in E57 files: elements, attributes and texts, as views of the given bytes. Document
+// types and entities are not supported, because the numbers that are read do not need them.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@ namespace relievo::io {
 struct XmlElement {
   std::string_view name;        // with its prefix, "nor:normalX"
   std::string_view attributes;  // the text between the name and the end of the tag
-  std::string_view text;        // the first text or CDATA section in it, without blanks at its ends
-  std::size_t end = 0;          // the number of the first element after it and all that it contains
+  std::string_view text;        // its first text or CDATA section, without blanks at the ends
+  std::size_t end = 0;          // index of the first element after this one and its descendants
 
-  // Returns the value of the attribute, empty if there is none.
+  // Returns the value of the attribute; empty if there is none.
   std::string_view attribute(std::string_view wanted) const;
 };
 
-// The elements in the order of the text, the root first. The elements that element i contains are i + 1 to
-// elements[i].end - 1. `text` must outlive it.
+// The elements in the order of the text, the root first. The descendants of element i are i + 1 to
+// elements[i].end - 1. The text must outlive the elements.
 using XmlElements = std::vector<XmlElement>;
 
 // Reads a whole document. Errors name `source` and the line of the XML.
 Result<XmlElements> parse_xml(std::string_view text, const Source& source);
 
-// Returns the number of the child of that name, or 0, which no child has.
+// Returns the index of the child of that name, or 0, which is the root and no child.
 std::size_t find_child(const XmlElements& elements, std::size_t parent, std::string_view name);
 
 }  // namespace relievo::io

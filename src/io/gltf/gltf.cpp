@@ -15,7 +15,7 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
-constexpr std::size_t most_vertices = 100'000'000;  // a small file can ask for more: nodes may repeat a mesh
+constexpr std::size_t most_vertices = 100'000'000;  // nodes of a small file can repeat a mesh
 
 constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // of copies, applied in this order
 
@@ -50,8 +50,8 @@ std::optional<Transform> transform_of(const Json& node) {
   return transform.scale(Vec3((*s)[0], (*s)[1], (*s)[2]));
 }
 
-// Returns whether the positions and triangles of a file that requires an extension are read: the extension is known here,
-// or is about how surfaces look.
+// Returns whether a file that requires this extension can be read: the extension is supported, or it only
+// affects the look of surfaces.
 bool is_readable_with(std::string_view extension) {
   for (const char* const known :
        {"KHR_mesh_quantization", "KHR_meshopt_compression", "EXT_meshopt_compression",
@@ -63,7 +63,7 @@ bool is_readable_with(std::string_view extension) {
   return false;
 }
 
-// The vertices of a primitive, whose number its positions decide.
+// The vertices of a primitive; their number is that of the positions.
 struct Vertices {
   AccessorValues positions, normals, colours;
 
@@ -116,7 +116,7 @@ class GltfReader {
     return {};
   }
 
-  // Returns the root nodes of the scene; without a scene, all nodes that are nobody's child.
+  // Returns the root nodes of the scene; without a scene, all nodes without a parent.
   std::vector<std::size_t> roots() const {
     std::vector<std::size_t> found;
     const auto collect = [&](const Json& list) {
@@ -148,8 +148,8 @@ class GltfReader {
     return {};
   }
 
-  // Visits each node once. In a valid file no node has two parents; in others this keeps cycles from being
-  // endless.
+  // Visits each node once. In a valid file no node has two parents; in an invalid one this avoids endless
+  // cycles.
   Result<void> walk_nodes(const std::vector<std::size_t>& first) {
     std::vector<Visit> open;
     for (const std::size_t i : first) open.push_back({i, Transform::Identity()});
@@ -184,7 +184,8 @@ class GltfReader {
     return {};
   }
 
-  // Returns where the node's mesh is: at the node, or where EXT_mesh_gpu_instancing puts copies of it.
+  // Returns the transforms of the node's mesh: that of the node, or those of its copies by
+  // EXT_mesh_gpu_instancing.
   Result<std::vector<Transform>> copies_of(const Json& node, const Transform& transform,
                                            const std::string& place) {
     const Json* attributes = &node;
@@ -230,7 +231,7 @@ class GltfReader {
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object())
       return source_.error(place, "expected attributes, found none");
-    // The format says to skip what has no positions.
+    // The format requires readers to skip primitives without positions.
     if (!attributes->contains("POSITION")) return {};
     const auto mode = number_in(primitive, "mode", triangles_mode);
     const bool is_read = mode && (*mode == points_mode || (*mode >= triangles_mode && *mode <= fan_mode));
@@ -253,7 +254,7 @@ class GltfReader {
     return {};
   }
 
-  // Returns the vertices that the corners of the triangles are, one after the other.
+  // Returns the vertex indices of the triangles' corners, one after the other.
   Result<std::vector<std::int64_t>> order_of(const Json& primitive, std::size_t vertices,
                                              const std::string& place) {
     std::vector<std::int64_t> order;
@@ -274,7 +275,7 @@ class GltfReader {
     return order;
   }
 
-  // Returns an attribute's vectors of `wanted` numbers; colours may have another for transparency.
+  // Returns an attribute's vectors of `wanted` numbers; colours may have one more number, for transparency.
   Result<AccessorValues> attribute(const Json& attributes, const char* name, std::size_t wanted,
                                    const std::string& place) {
     const auto number = number_in(attributes, name, no_index);
@@ -318,8 +319,8 @@ class GltfReader {
     }
   }
 
-  // Adds triangles among the vertices from number `first` on. A mirrored one would have its outside inside, so its corners
-  // change their order.
+  // Adds triangles among the vertices from number `first` on. Mirroring turns triangles inside out, so the
+  // order of their corners is reversed.
   void add_triangles(std::vector<std::int64_t> corners, std::size_t mode, std::size_t first,
                      bool is_mirrored) {
     const auto before = static_cast<std::ptrdiff_t>(triangles_.size());

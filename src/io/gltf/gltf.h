@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 struct AccessorValues {
   std::size_t components = 1;
   std::vector<double> numbers;
-  NumberType type = NumberType::float32;  // as which the file has them
+  NumberType type = NumberType::float32;  // type of the numbers in the file
 
   std::size_t count() const { return numbers.size() / components; }
 };
@@ -40,7 +40,7 @@ class GltfFile {
   const Json* element(std::string_view array, std::size_t i) const;
 
   // Returns the numbers of accessor i. Errors: kind input, at `place`, if it does not exist, does not fit
-  // into its buffer, or the buffer cannot be had.
+  // into its buffer, or if the buffer is not available.
   Result<AccessorValues> accessor(std::size_t i, const std::string& place);
 
  private:
@@ -68,18 +68,17 @@ class GltfFile {
   Json json_;
   std::string_view binary_;                                // GLB's own buffer
   std::map<std::string, std::vector<std::byte>> loaded_;   // by uri
-  std::map<std::size_t, std::vector<std::byte>> decoded_;  // bytes of compressed views, by number
+  std::map<std::size_t, std::vector<std::byte>> decoded_;  // bytes of compressed views, by the view's index
 };
 
-// Returns the non-negative integer that a value is, also if it is written as 4.0; nothing if it is anything
-// else.
+// Returns the value as a non-negative integer, also if it is written as 4.0; nothing for any other value.
 std::optional<std::size_t> whole_number(const Json& value);
 
 // Returns a member that is a non-negative integer; `otherwise` if it is missing; nothing if it is anything
 // else.
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
 
-// Returns the members of these names that the object has, as a message shows them: count -4, type "VEC3".
+// Returns the object's members with these names, as text for a message: count -4, type "VEC3".
 std::string shown_members(const Json& object, std::initializer_list<const char*> names);
 
 // Returns a member that is an object, else null.

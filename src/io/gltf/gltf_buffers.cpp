@@ -1,5 +1,5 @@
-// The buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it; and their views, which
-// may be compressed.
+// The buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it; and their
+// views, which may be compressed.
 #include <algorithm>
 #include <charconv>
 #include <span>
@@ -12,8 +12,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns the bytes; nothing for text that is not base64: then `wrong` is the index of its first bad
-// character.
+// Returns the bytes of a base64 text. For any other text it returns nothing, and `wrong` is the index of the
+// first bad character.
 std::optional<std::vector<std::byte>> decode_base64(std::string_view text, std::size_t& wrong) {
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -33,7 +33,7 @@ std::optional<std::vector<std::byte>> decode_base64(std::string_view text, std::
   return bytes;
 }
 
-// Returns the text with the byte of each escape %XX in its place; an incomplete escape stays as it is.
+// Returns the text with each escape %XX replaced by its byte; an incomplete escape stays as it is.
 std::string without_escapes(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -57,7 +57,7 @@ bool has_parent_part(std::string_view name) {
   return false;
 }
 
-// Returns a member that is a text; `otherwise` if it is anything else.
+// Returns a member if it is a text, else `otherwise`.
 std::string text_in(const Json& object, const char* name, const char* otherwise) {
   const auto found = object.find(name);
   return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
@@ -76,13 +76,14 @@ std::optional<MeshoptLayout> meshopt_layout(const Json& json) {
 std::optional<std::string> name_in_uri(std::string_view uri) {
   std::string name = without_escapes(uri);
   const bool leads_out = name.starts_with('/') || name.starts_with('\\') || has_parent_part(name);
-  // A colon before the first slash ends a scheme, or the letter of a drive.
+  // A colon before the first slash follows a scheme or the letter of a drive.
   const bool has_scheme = name.find(':') < name.find('/');
   if (name.empty() || leads_out || has_scheme || name.contains('\0')) return std::nullopt;
   return name;
 }
 
-// Returns the bytes that follow the first comma of a URI "data:", in base64 or as they are; both may have escapes.
+// Returns the bytes after the first comma of a "data:" URI, which are base64 or plain text. Both may contain
+// escapes.
 Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const std::string& place) const {
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos)
@@ -100,7 +101,7 @@ Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const
   return std::move(*decoded);
 }
 
-// Returns the bytes that a URI contains or names.
+// Returns the bytes that a URI contains, or those of the file to which it refers.
 Result<std::string_view> GltfFile::load(const std::string& uri, const std::string& place) {
   const auto known = loaded_.find(uri);
   std::vector<std::byte> bytes;
@@ -150,7 +151,7 @@ Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::s
   return bytes.substr(*start, *length);
 }
 
-// The extension of a compressed view names the buffer of its bytes; the view's own buffer may be missing.
+// A compressed view's extension states the buffer of its bytes; the view's own buffer may be missing.
 Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place) {
   const Json* json = element("bufferViews", i);
   if (!json) return source_->error(place, "expected a bufferView, found none");

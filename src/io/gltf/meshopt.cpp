@@ -18,7 +18,8 @@ using Bytes = std::vector<std::byte>;
 constexpr std::size_t triangles_tail = 16, indices_tail = 4;
 constexpr unsigned char triangles_header = 0xE1, indices_header = 0xD1;
 
-// Returns the bytes between the header and the tail; nothing if the header is another or the bytes are too few.
+// Returns the bytes between the header and the tail; nothing if the header differs or there are too few
+// bytes.
 std::optional<std::string_view> body_of(std::string_view compressed, unsigned char header, std::size_t tail) {
   if (compressed.size() < 1 + tail || static_cast<unsigned char>(compressed[0]) != header)
     return std::nullopt;
@@ -49,7 +50,7 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   const auto body = body_of(compressed, indices_header, indices_tail);
   if (!body || layout.count > body->size()) return std::nullopt;
   MeshoptBytes from(*body);
-  std::array<std::uint32_t, 2> last{};  // the lowest bit says which of them a difference is to
+  std::array<std::uint32_t, 2> last{};  // the lowest bit of a number selects the one that it changes
   std::vector<std::uint32_t> indices(layout.count);
   for (std::uint32_t& index : indices) {
     const std::uint32_t number = from.next_number();
@@ -58,7 +59,7 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   return from.is_at_end() ? std::optional(in_bytes(indices, layout.stride)) : std::nullopt;
 }
 
-// Unfolds unit vectors from the octahedron, in place. The third number means 1; the fourth stays.
+// Decodes octahedron-encoded unit vectors, in place. The third number stands for 1; the fourth stays.
 template <typename Integer>
 bool unfold_octahedron(Bytes& bytes) {
   constexpr float most = std::numeric_limits<Integer>::max();
@@ -80,7 +81,7 @@ bool unfold_octahedron(Bytes& bytes) {
   return true;
 }
 
-// Makes floats of numbers with 8 bits of exponent and 24 bits of mantissa, both signed.
+// Converts numbers with 8 bits of exponent and 24 bits of mantissa, both signed, to floats.
 void expand_exponents(Bytes& bytes) {
   for (std::size_t at = 0; at + 4 <= bytes.size(); at += 4) {
     std::int32_t packed = 0;
@@ -92,8 +93,8 @@ void expand_exponents(Bytes& bytes) {
   }
 }
 
-// Makes red, green, blue and opacity of brightness, two differences of colours and opacity, in place. The highest bit of
-// the last number says how many bits all of them have.
+// Converts brightness, two colour differences and opacity to red, green, blue and opacity, in place. The
+// highest set bit of the last number gives the number of bits of all four.
 template <typename Integer>
 bool mix_colours(Bytes& bytes) {
   using Signed = std::make_signed_t<Integer>;

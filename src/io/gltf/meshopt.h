@@ -1,5 +1,6 @@
-// Buffer views that the glTF extensions KHR_meshopt_compression and EXT_meshopt_compression have compressed. The format is
-// specified in appendices A and B of the former, which has all that the latter has. Tested by tests/io/meshopt_test.cpp.
+// Decodes buffer views that are compressed by the glTF extensions KHR_meshopt_compression and
+// EXT_meshopt_compression. Appendices A and B of the former specify the format; it includes all of the
+// latter. Tested by tests/io/meshopt_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,8 @@ enum class MeshoptMode { attributes, triangles, indices };
 
 enum class MeshoptFilter { none, octahedral, exponential, colour };
 
-// Describes how a view was compressed, as the JSON of the file states it. The view has `count` elements of `stride` bytes.
+// Describes how a view was compressed, as the JSON of the file states it. The view has `count` elements of
+// `stride` bytes.
 struct MeshoptLayout {
   MeshoptMode mode = MeshoptMode::attributes;
   MeshoptFilter filter = MeshoptFilter::none;
@@ -26,7 +28,7 @@ std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
 // Returns the count * stride bytes of a view. Nothing if the compressed bytes do not have that many elements,
-// or if the extensions do not allow the layout. The memory it takes is at most 1,024 times that of the
+// or if the extensions do not allow the layout. The memory taken is at most 1,024 times that of the
 // compressed bytes.
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout);

@@ -15,16 +15,16 @@ constexpr std::size_t channel_size = 4, most_stride = 256, most_in_block = 256;
 constexpr unsigned char version_0 = 0xA0, version_1 = 0xA1;
 constexpr std::size_t least_tail_0 = 32, least_tail_1 = 24;
 
-// The bits that a difference takes, for each of the four codes of a group.
+// The number of bits of a difference, for each of the four codes of a group.
 using Widths = std::array<unsigned, 4>;
 constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// Says how version 1 stores the differences of one byte position in a block, by a code of two bits.
+// A code of two bits for the way in which version 1 stores the differences of one byte position in a block.
 enum class Control : std::uint8_t { narrow, wide, all_zero, literal };
 
 using Group = std::array<std::uint8_t, group_size>;
 
-// Reads the differences of a group. All bits set mean that the difference follows in a byte.
+// Reads the differences of a group. If all bits are set, the difference follows in a byte of its own.
 Group next_differences(MeshoptBytes& from, unsigned bits) {
   Group differences{};
   if (bits == 0) return differences;
@@ -47,7 +47,7 @@ using Column = std::array<std::uint8_t, most_in_block>;
 
 void read_groups(MeshoptBytes& from, std::size_t elements, const Widths& widths, Column& to) {
   const std::size_t groups = (elements + group_size - 1) / group_size;
-  std::array<std::uint8_t, 4> codes{};  // of at most 16 groups, two bits each
+  std::array<std::uint8_t, 4> codes{};  // codes of at most 16 groups, two bits each
   for (std::size_t i = 0; i < (groups + 3) / 4; ++i) codes[i] = from.next();
   for (std::size_t group = 0; group < groups; ++group) {
     const Group differences = next_differences(from, widths[codes[group / 4] >> 2 * (group % 4) & 3U]);
@@ -71,8 +71,8 @@ std::uint32_t number_of(const ChannelBytes& bytes) {
          std::uint32_t{bytes[3]} << 24;
 }
 
-// Changes a channel of the element before to that of the next. The mode says what the differences are: of bytes, of
-// words, or which bits change, rotated by the upper half of the mode.
+// Changes a channel of one element to that of the next. Depending on the mode, the differences are those of
+// bytes or words, or are bits to flip, rotated by the upper half of the mode.
 void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last) {
   if (mode == 0) {
     for (std::size_t i = 0; i < channel_size; ++i)
@@ -91,11 +91,11 @@ void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last
   for (std::size_t i = 0; i < channel_size; ++i) last[i] = static_cast<std::uint8_t>(now >> 8 * i);
 }
 
-// A stream of attributes: a header, blocks of elements, and a tail with the element before the first one and, in version 1,
-// the mode of each channel.
+// A stream of attributes: a header, blocks of elements, and a tail. The tail has an element that precedes the
+// first one and, in version 1, the mode of each channel.
 class Attributes {
  public:
-  // Returns nothing if the specification lacks the header or the modes, or if the tail is cut.
+  // Returns nothing if the header or the modes are not in the specification, or if the tail is truncated.
   static std::optional<Attributes> open(std::string_view stream, std::size_t stride) {
     if (stream.empty() || stride == 0 || stride % channel_size != 0 || stride > most_stride)
       return std::nullopt;
@@ -115,8 +115,8 @@ class Attributes {
 
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
-    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block, in bytes
-    // Checked before memory is taken. Where addresses have 32 bits, the product may have more.
+    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block, bytes
+    // Checks the sizes before memory is allocated. On 32-bit systems the product could overflow.
     if (count / block > body_size_ / least_size || count > std::numeric_limits<std::size_t>::max() / stride_)
       return std::nullopt;
     std::vector<std::byte> decoded(count * stride_);
@@ -157,7 +157,7 @@ class Attributes {
 
   MeshoptBytes from_;
   std::size_t body_size_, stride_;
-  bool has_modes_;                                // as in version 1
+  bool has_modes_;                                // in version 1
   std::array<std::uint8_t, most_stride> last_{};  // the element before
   std::array<std::uint8_t, most_stride / channel_size> modes_{};
 };

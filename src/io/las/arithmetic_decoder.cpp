@@ -3,13 +3,13 @@
 namespace relievo::io {
 namespace {
 
-constexpr unsigned symbol_bits = 15, bit_bits = 13;  // of the probabilities
+constexpr unsigned symbol_bits = 15, bit_bits = 13;  // precision of the probabilities
 
 }  // namespace
 
 SymbolModel::SymbolModel(std::uint32_t symbols)
     : symbols_(symbols), cycle_(symbols), starts_(symbols), counts_(symbols, 1) {
-  const std::uint32_t few = 16;  // symbols, which are found as fast without a table
+  const std::uint32_t few = 16;  // so few symbols are found equally fast without a table
   if (symbols > few) {
     unsigned bits = 3;
     while (symbols > 1U << (bits + 2)) ++bits;
@@ -68,7 +68,7 @@ std::uint32_t ArithmeticDecoder::bit(BitModel& model) {
 }
 
 std::uint32_t ArithmeticDecoder::bits(unsigned count) {
-  const unsigned most = 19;  // at a time, so that the interval stays long enough
+  const unsigned most = 19;  // bits at a time, so that the interval stays long enough
   if (count > most) {
     const std::uint32_t low = bits(16);
     return bits(count - 16) << 16 | low;

@@ -1,5 +1,5 @@
-// The adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding", HPL-2004-76): 32-bit
-// intervals, models of symbol frequencies that are updated periodically.
+// The adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding", HPL-2004-76):
+// it has 32-bit intervals, and models of symbol frequencies that are updated periodically.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace relievo::io {
 
-// The frequencies of `symbols` different symbols, 2 to 2048, at first all equal.
+// The frequencies of `symbols` different symbols, 2 to 2048. Initially all are equal.
 class SymbolModel {
  public:
   explicit SymbolModel(std::uint32_t symbols);
@@ -20,10 +20,10 @@ class SymbolModel {
 
   std::uint32_t symbols_, table_shift_ = 0;
   std::uint32_t total_ = 0, cycle_ = 0, until_update_ = 0;
-  std::vector<std::uint32_t> starts_;  // of each symbol's part of the interval, in 2^-15
+  std::vector<std::uint32_t> starts_;  // start of each symbol's part of the interval, in units of 2^-15
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t>
-      table_;  // the first symbol to try for the highest bits of a number; empty if few
+      table_;  // the first symbol to try, by the highest bits of a number; empty for few symbols
 };
 
 // The frequencies of 0 and 1.
@@ -43,9 +43,9 @@ class ArithmeticDecoder {
 
   std::uint32_t symbol(SymbolModel& model);
   std::uint32_t bit(BitModel& model);
-  std::uint32_t bits(unsigned count);  // 1 to 32 bits that have no model
+  std::uint32_t bits(unsigned count);  // returns 1 to 32 bits without a model
 
-  // Returns true if more was decoded than the bytes contain. Missing bytes are read as zeros.
+  // Returns true if decoding went beyond the end of the bytes. Missing bytes are read as zeros.
   bool is_beyond_end() const { return at_ > bytes_.size() + 4; }
 
  private:

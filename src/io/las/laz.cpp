@@ -1,5 +1,5 @@
-// LAZ: LAS compressed by LASzip 2 or later (M. Isenburg, "LASzip: lossless compression of LiDAR data", 2013, and the
-// specification of LAZ 1.4), point formats 0 to 10, in chunks or as a whole.
+// LAZ: LAS compressed by LASzip 2 or later (M. Isenburg, "LASzip: lossless compression of LiDAR data", 2013,
+// and the specification of LAZ 1.4), point formats 0 to 10, in chunks or as a whole.
 #include <atomic>
 #include <memory>
 
@@ -42,7 +42,7 @@ std::unique_ptr<PointItem> make_item(const LazItem& item) {
   }
 }
 
-// Decodes a chunk point by point. Returns false if it is shorter than its points.
+// Decodes a chunk point by point. Returns false if the chunk ends before its points.
 bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoints& to) {
   auto position = std::make_unique<PositionItem>();
   auto colour = std::make_unique<ColourItem>();
@@ -68,7 +68,8 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   return true;
 }
 
-// The layers of a chunk: after the first point stand the number of points, the size of each layer, and the layers.
+// The layers of a chunk. The first point is followed by the number of points, the size of each layer, and the
+// layers.
 class LayerSizes {
  public:
   LayerSizes(std::string_view bytes, std::size_t first_size, std::size_t layers)

@@ -9,10 +9,10 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::size_t record_header = 54;   // of a variable-length record
-constexpr std::uint32_t chunks_vary = ~0U;  // as the number of points in a chunk
+constexpr std::size_t record_header = 54;   // size of the header of a variable-length record
+constexpr std::uint32_t chunks_vary = ~0U;  // this number of points per chunk means that it varies
 constexpr std::uint64_t most_points_a_byte =
-    256;  // measured: 40 where all points are in a row of equal steps
+    256;  // limit; 40 was measured for a row of points at equal steps
 
 class LayoutReader {
  public:
@@ -98,7 +98,7 @@ class LayoutReader {
                                                item.version, "; newer LASzip can convert the file"));
   }
 
-  // Writers that cannot go back leave the place of the table at the end of the file.
+  // Finds the table of chunks. Writers that cannot seek backwards store its offset at the end of the file.
   Result<void> find_table() {
     const std::uint64_t size = source_.bytes.size(), points = header_.records.offset;
     if (points > size || size - points < 8)

@@ -9,7 +9,7 @@
 
 namespace relievo::io {
 
-// A part of each point, by the number that LASzip gives its type.
+// A part of each point. The numbers of the types are LASzip's.
 struct LazItem {
   enum Type : std::uint16_t {
     bytes = 0,
@@ -37,8 +37,8 @@ struct LazLayout {
   std::vector<LazChunk> chunks;
 };
 
-// Reads the variable-length record of LASzip and the table of chunks. All chunks together have the points that
-// the header promises, and lie within the file. Errors name the byte.
+// Reads the variable-length record of LASzip and the table of chunks. All chunks lie within the file, and
+// together they have the number of points that the header promises. Errors name the byte.
 Result<LazLayout> read_laz_layout(const Source& source, const LasHeader& header);
 
 }  // namespace relievo::io

@@ -1,4 +1,4 @@
-// Version 2 of the items (1 of wave packets), which all LASzip since 2011 write.
+// Version 2 of the items (version 1 of wave packets), which LASzip has written since 2011.
 #include "io/las/point_items.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace relievo::io {
 namespace {
 
-// Similar returns of a pulse share a context for their statistics. A row has the contexts for one number of
-// returns, in the order of the returns.
+// The context of a point's models, by the number of returns of its pulse (row) and the return's number
+// (column). Similar returns share a context.
 constexpr std::uint8_t return_contexts[8][8] = {
     {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},   {13, 1, 2, 4, 7, 11, 11, 10},
     {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},  {10, 10, 11, 12, 13, 14, 14, 13},
@@ -39,7 +39,7 @@ void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
   const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
   const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
   colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
-  if (!has(6)) {  // grey
+  if (!has(6)) {  // the colour is grey
     colour[1] = colour[2] = colour[0];
     return;
   }
@@ -84,8 +84,7 @@ void PositionItem::decode_attributes(ArithmeticDecoder& decoder, std::uint32_t c
         decoder, intensities_[context], static_cast<std::uint32_t>(std::min<std::size_t>(context, 3))));
   }
   if ((changes & 8) != 0) classification_models_.next(decoder, classification_);
-  if ((changes & 4) != 0)
-    decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // of the angle, which nothing needs
+  if ((changes & 4) != 0) decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // the angle is not used
   if ((changes & 2) != 0) user_data_models_.next(decoder, user_data_);
   if ((changes & 1) != 0) source_ = static_cast<std::uint16_t>(source_decoder_.next(decoder, source_));
 }
@@ -128,7 +127,7 @@ void TimeItem::decode_whole(ArithmeticDecoder& decoder) {
   now_ = newest_;
 }
 
-// Returns false if the time is one of another sequence, which becomes the current one.
+// Returns false if the time belongs to another sequence, which becomes the current one.
 bool TimeItem::decode_first_step(ArithmeticDecoder& decoder) {
   const std::uint32_t kind = decoder.symbol(first_steps_);
   Sequence& now = sequences_[now_];
@@ -145,7 +144,8 @@ bool TimeItem::decode_first_step(ArithmeticDecoder& decoder) {
   return true;
 }
 
-// The step is predicted as a multiple of the usual one; steps far from that become the usual one in time.
+// Decodes a step as a multiple of the usual step. After several steps that differ much, the usual step is
+// replaced.
 bool TimeItem::decode_multiple(ArithmeticDecoder& decoder) {
   constexpr std::int32_t most = 500, least = -10, unchanged = most - least + 1, whole = unchanged + 1;
   const auto kind = static_cast<std::int32_t>(decoder.symbol(multiples_));

@@ -1,4 +1,4 @@
-// The parts of points in the point formats 0 to 5: one decoder reads them in turn, point by point.
+// The parts of points in the point formats 0 to 5, which one decoder reads in turn, point by point.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace relievo::io {
 
-// Decodes one part of each point. Unused parts are decoded, too, because the others follow them.
+// Decodes one part of each point. Unused parts are decoded, too, because other parts follow them in the same
+// stream.
 class PointItem {
  public:
   PointItem() = default;
@@ -20,7 +21,7 @@ class PointItem {
   PointItem& operator=(const PointItem&) = delete;
   virtual ~PointItem() = default;
 
-  virtual void start(const char* raw) = 0;  // takes the first point, which is not compressed
+  virtual void start(const char* raw) = 0;  // begins with the first point, which is not compressed
   virtual void next(ArithmeticDecoder& decoder) = 0;
 };
 
@@ -59,7 +60,7 @@ class PositionItem : public PointItem {
   const std::array<std::int32_t, 3>& position() const { return position_; }
 
  private:
-  // Models for the values of a byte that change, by the value before.
+  // Models for a byte that changes: one for each previous value.
   class ByteModels {
    public:
     void next(ArithmeticDecoder& decoder, std::uint8_t& value);
@@ -91,7 +92,7 @@ class TimeItem : public PointItem {
   void next(ArithmeticDecoder& decoder) override;
 
  private:
-  // Times are of up to four sequences, each with its usual step.
+  // Times belong to up to four sequences, each with its usual step.
   struct Sequence {
     std::uint64_t time = 0;
     std::int32_t step = 0;

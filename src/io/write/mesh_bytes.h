@@ -1,4 +1,4 @@
-// Numbers as little-endian bytes, for all writers of meshes.
+// Writes numbers as little-endian bytes, for all writers of meshes.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace relievo::detail {
 
-// Writes the bytes of a number and returns the place behind them.
+// Writes the bytes of a number and returns the address after them.
 template <typename T>
 std::byte* put(std::byte* to, T value) {
   static_assert(std::endian::native == std::endian::little, "the files are little-endian");

@@ -1,4 +1,4 @@
-// OBJ: text, vertices numbered from 1.
+// Writes OBJ: text, with vertices numbered from 1.
 #include <charconv>
 
 #include "io/write/mesh_bytes.h"
@@ -11,7 +11,8 @@
 namespace relievo {
 namespace {
 
-// Room for a number and the separator before it: shortest float 15 characters, index 10.
+// Space for a number and the separator before it: the shortest text of a float has up to 15 characters, an
+// index 10.
 constexpr std::size_t most_per_number = 16, most_per_line = 2 + 3 * most_per_number;
 
 template <typename T>

@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-// Float keeps seven digits: enough unless most of them state the cloud's position rather than its shape.
+// Returns whether float is too imprecise. It has seven digits, which suffice unless most of them are needed
+// for the cloud's position rather than its shape.
 bool needs_double(const Cloud& cloud) {
   const Box box = bounds(cloud);
   if (box.is_empty()) return false;

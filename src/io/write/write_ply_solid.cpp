@@ -1,4 +1,4 @@
-// Binary little-endian PLY with float vertices and triangles.
+// Writes binary little-endian PLY with float vertices and triangles.
 #include "io/write/mesh_bytes.h"
 #include "relievo/core/length.h"
 #include "relievo/core/parallel.h"

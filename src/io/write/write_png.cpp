@@ -1,4 +1,4 @@
-// PNG through libspng.
+// Writes PNG with libspng.
 #include <spng.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using Texts = std::span<const std::pair<std::string, std::string>>;
 using Encoder = std::unique_ptr<spng_ctx, decltype([](spng_ctx* spng) { spng_ctx_free(spng); })>;
 using Encoded = std::unique_ptr<void, decltype([](void* bytes) { std::free(bytes); })>;
 
-constexpr std::uint32_t longest_side_px = 1'000'000;  // read_depth_image() takes no longer ones
+constexpr std::uint32_t longest_side_px = 1'000'000;  // read_depth_image() accepts no longer sides
 
 template <typename T>
 bool has_pixels(const Image<T>& image) {
@@ -40,7 +40,7 @@ bool set_header(spng_ctx* spng, const Image<T>& image) {
   header.height = static_cast<std::uint32_t>(image.height);
   header.bit_depth = 8 * sizeof(T);
   header.color_type = static_cast<std::uint8_t>(colour_type(image.channels));
-  // Smooth shading packs nearly as well at level 3 as at 9, several times faster.
+  // Level 3 compresses smooth shading nearly as well as level 9, and is several times faster.
   return spng_set_image_limits(spng, longest_side_px, longest_side_px) == 0 &&
          spng_set_ihdr(spng, &header) == 0 && spng_set_option(spng, SPNG_ENCODE_TO_BUFFER, 1) == 0 &&
          spng_set_option(spng, SPNG_IMG_COMPRESSION_LEVEL, 3) == 0 &&

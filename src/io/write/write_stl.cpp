@@ -1,4 +1,4 @@
-// Binary STL: a header of 80 bytes, the number of triangles, 50 bytes for each.
+// Writes binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
 #include <Eigen/Geometry>
 
 #include "io/write/mesh_bytes.h"
@@ -20,7 +20,7 @@ std::byte* put_vector(std::byte* to, const Vec3f& v) {
 }
 
 void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  // The normal is that of the rounded corners: readers compute it from these, and compare.
+  // The normal is that of the rounded corners, because some readers compute it from these and compare.
   const Vec3 normal = (b - a).cast<double>().cross((c - a).cast<double>());
   to = put_vector(to, normal.stableNormalized().cast<float>());
   for (const Vec3f& corner : {a, b, c}) to = put_vector(to, corner);
@@ -32,7 +32,7 @@ void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c)
 std::vector<std::byte> write_stl(const Solid& solid) {
   const std::size_t n = solid.triangles.size();
   std::vector<std::byte> bytes(header_size + 4 + n * triangle_size);
-  // Must not begin with "solid": readers would take the file for text.
+  // The header must not begin with "solid", or readers would treat the file as text.
   detail::put_text(bytes.data(), cat("relievo ", version, " binary STL, unit ", name_of(solid.unit)));
   detail::put(bytes.data() + header_size, static_cast<std::uint32_t>(n));
   std::byte* const triangles = bytes.data() + header_size + 4;

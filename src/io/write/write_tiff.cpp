@@ -39,13 +39,13 @@ std::vector<std::byte> write_tiff(const HeightsMm& heights) {
     return {};
   std::vector<std::byte> bytes;
   io::TiffBytes file(bytes);
-  const auto check = [&](bool is_done) {  // writing into memory, libtiff fails for want of memory alone
+  const auto check = [&](bool is_done) {  // writing to memory, libtiff fails only if memory runs out
     if (is_done) return;
     file.abandon();
     throw std::bad_alloc();
   };
   check(file.handle() && set_tags(file.handle(), heights));
-  std::vector<float> row(width);  // the predictor works in place
+  std::vector<float> row(width);  // libtiff's predictor changes the row in place
   for (int r = 0; r < image.height; ++r) {
     std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(r) * width),
                 width, row.begin());
