@@ -12,22 +12,22 @@
 namespace relievo {
 namespace {
 
-// Shares of a tolerance: that of curved bases, and that of flips of thin triangles' edges.
+// Shares of the tolerance that curved bases and flips of thin triangles' edges may use.
 constexpr double bending_share = .25, turning_share = .01;
-constexpr double least_error_mm = 1e-4;  // files store no less; used if only triangles are limited
-constexpr double rim_bevel = .3;         // of the rim's height: 17 degrees from upright, so dies come off
+constexpr double least_error_mm = 1e-4;  // limit of files; used if only the number of triangles is limited
+constexpr double rim_bevel = .3;         // of the rim's height: 17 degrees off the vertical, so dies come off
 
-// The share of the steepest slope that simpler fronts keep. It is more than the 0.999 that limit_draft() keeps, so that
-// simplification has some room, and less than 1, which leaves some for rounding.
+// The limit for slopes of simplified fronts, as a share of the steepest slope allowed. It is above the 0.999
+// of limit_draft(), to give simplification some freedom, and below 1 because of rounding.
 constexpr double front_share = .9995;
-constexpr double most_held_mm = 1e-5;  // what enforce_draft_in_float() moves points by, as a rule
-constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper
+constexpr double most_held_mm = 1e-5;  // usual upper limit of moves by enforce_draft_in_float()
+constexpr double rounded_up = 1.002;   // curved rims are polygons, which makes their bevels steeper
 
 bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
 }
 
-// Returns how wide the bevel of a rim that high must be to lean by that angle off the vertical.
+// Returns the width of the bevel with which a rim of that height leans by that angle off the vertical.
 double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
@@ -45,7 +45,7 @@ RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
   const double width = *options.rim_mm;
-  const double most = width / lean;  // height at which the usual bevel takes all of the width
+  const double most = width / lean;  // height at which the usual bevel is as wide as the rim
   const double usual_height = options.rim_bevel_mm ? relief_mm : std::min(most, relief_mm);
   const double height = options.rim_height_mm.value_or(usual_height);
   const double usual_bevel = height < most ? lean * height : width;
@@ -59,7 +59,7 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-// A bevel that the user asks for may be too steep: it must lean as walls must.
+// A given bevel may be too steep: it must lean at least as much as walls.
 Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
   const RimOptions rim = formed_rim(options, height_mm);

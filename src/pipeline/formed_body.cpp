@@ -8,9 +8,9 @@
 namespace relievo {
 namespace {
 
-// Each attempt is a simplification. The first guess of the front's share is right on plane ground.
+// Limit of simplifications. On plane ground the first guess of the front's share of triangles is right.
 constexpr int most_attempts = 4;
-constexpr double close_enough = .98;  // of the triangles asked for
+constexpr double close_enough = .98;  // share of the triangles asked for
 
 Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress* progress) {
   RELIEVO_TRY(FormedFront formed, simplified_front(std::move(full), options, progress));
@@ -29,7 +29,8 @@ double count(const FormedBody& made) {
   return static_cast<double>(made.body.solid.triangles.size());
 }
 
-// Returns the body whose front has as many triangles as fit, given the one with all.
+// Returns the body whose front has as many triangles as the limit allows, given the full front and the body
+// with all triangles.
 Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole, const ReliefOptions& options,
                                Progress* progress) {
   const double most = *options.triangles, in_front = static_cast<double>(whole.body.plate().front_triangles);

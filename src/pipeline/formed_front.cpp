@@ -16,19 +16,20 @@
 namespace relievo {
 namespace {
 
-// Lowest and highest point of the front, ground included.
+// Returns the heights of the lowest and the highest point of the front, ground included.
 std::pair<double, double> span_of(const HeightFieldMesh& front) {
   double lowest = front.ground_mm, highest = lowest;
   for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
   return {lowest, highest};
 }
 
-// The triangles between the points keep a draft angle, and the heights of a lithophane are not a surface's.
+// Returns whether the front is resampled. With a draft angle it is not, because the angle is ensured for the
+// triangles between the given points; nor is a lithophane, whose heights are not those of a surface.
 bool is_sampled(const ReliefOptions& options) {
   return !options.draft_deg && options.form != Form::lithophane;
 }
 
-// Returns whether a triangle belongs to one surface: it is no ground, no wall and does not span a jump.
+// Returns whether a triangle belongs to one surface: it is not ground, not a wall, and does not span a jump.
 std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   std::vector<std::uint8_t> is_smooth(surface.triangulation.triangles.size());
   const Boundary& boundary = surface.boundary;
@@ -41,7 +42,8 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   return is_smooth;
 }
 
-// At arm's length the eye separates about a 700th of a plate that it sees as a whole.
+// Returns the distance between samples. The default follows from the eye's resolution: at arm's length, about
+// a 700th of a plate that is seen as a whole.
 Result<double> sample_step(const Surface& surface, const ReliefOptions& options) {
   constexpr double samples = 700, most_samples = 10'000;
   const double width_mm = options.effective_width_mm(), least_mm = width_mm / most_samples;

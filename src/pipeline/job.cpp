@@ -15,7 +15,7 @@ namespace {
 // From this u on, weights are 1 to the last bit.
 constexpr double uncompressed_u = 1e12;
 
-// Stretching by less than this is not seen while things move.
+// Stretching by less than this is not noticed while the picture moves.
 constexpr double moving_tolerance = .03;
 
 // The sizes on which the largest width of a relief in a plate of given size depends.
@@ -41,7 +41,7 @@ struct LiveModel::State {
 
   TurnedRelief shown;
   std::vector<SampleNote> notes;
-  double longer_side;  // of the surface
+  double longer_side;  // of the surface, in its units
 
   std::optional<FrameMaker> maker;        // none before the first frame
   std::optional<FrameRenderer> renderer;  // none before the first picture
@@ -51,7 +51,7 @@ struct LiveModel::State {
   LiveFrame last;
 
   std::shared_ptr<const ToneCurve> curve;  // of the last frame that had one
-  std::vector<double> sizes;               // of the plate for which the largest width is known
+  std::vector<double> sizes;               // sizes of the plate for which most_width_mm was computed
   std::optional<double> most_width_mm;
 
   FrameMaker& frames() {
@@ -59,7 +59,8 @@ struct LiveModel::State {
     return *maker;
   }
 
-  // A tone curve is kept as long as its points are, so that frames with the same curve are known to be the same.
+  // The same tone curve object is reused as long as its points are the same, so that equal frames compare as
+  // equal.
   FrameOptions frame_options(const ReliefOptions& options) {
     FrameOptions wanted{shape_of(options), std::nullopt, nullptr};
     wanted.shape.boundary_width *= shown.spacing_ratio;
@@ -72,7 +73,7 @@ struct LiveModel::State {
   LiveFrame make(const FrameOptions& wanted, double mm_per_unit) {
     const bool is_known = made == wanted;
     if (!is_known) {
-      made.reset();  // so that nobody takes a frame for it that was only begun when memory ran out
+      made.reset();  // so that an unfinished frame is not reused if memory runs out
       last = {};
       frames().make(wanted, frame);
       if (shown.detail) frames().write_gains(gains);
@@ -132,13 +133,13 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
     const auto largest = relievo::with_width(model().surface(), sized);
     if (!largest)
       return relievo::with_width(model().surface(),
-                                 options);  // whose error names the width that was asked for
+                                 options);  // its error names the requested width
     state_->sizes = std::move(sizes);
     most_mm = largest->width_mm;
   }
   sized.width_mm = options.width_mm.value_or(*most_mm);
   if (*sized.width_mm > *most_mm)
-    return relievo::with_width(model().surface(), sized);  // which says why it is refused
+    return relievo::with_width(model().surface(), sized);  // its error says why the width is refused
   return sized;
 }
 

@@ -20,7 +20,7 @@
 namespace relievo {
 namespace {
 
-// Heights of the base under the surface's points, in its units; none for a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; none for a plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();
@@ -34,7 +34,7 @@ Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOpt
   return heights;
 }
 
-// Makes the relief of the height that its shape gives it, which must not be 0.
+// Makes the relief with the height that follows from its shape. Errors: kind geometry if that height is 0.
 Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
   Relief relief = model.make(shape);
   const double least = 1e-6 * model.surface().longer_side();
@@ -44,16 +44,16 @@ Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
       "which the steps between level parts can take");
 }
 
-// Returns the shape with full height in all places: u of (6) is infinite.
+// Returns the shape without compression: u of (6) is infinite.
 Shape uncompressed(Shape shape) {
   shape.compression.u = std::numeric_limits<double>::infinity();
   return shape;
 }
 
-// Makes the relief of the height that the options give, or of the shape's own where they give none.
+// Makes the relief of the height that the options give, or else of the height that follows from the shape.
 Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, const Shape& shape,
                             Progress* progress) {
-  // A lithophane has no height to reach: its own is exact by construction.
+  // For a lithophane no height is searched: its height is exact by construction.
   if (options.form == Form::lithophane) return model.make(shape);
   const double scale = mm_per_unit(model.surface(), options), height = options.height_mm.value_or(0) / scale;
   const Method method = options.effective_method();
@@ -70,8 +70,8 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
-// Makes the relief of the height that was asked for, or of the usual one: if the view does not reach that, the relief is
-// as high as its slopes make it.
+// Makes the relief of the given height, or else of the usual one. If the view does not reach the usual
+// height, the relief gets the height of its uncompressed slopes.
 Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
   const bool is_usual = !options.height_mm && options.effective_height_mm();
   options.height_mm = options.effective_height_mm();
@@ -84,7 +84,7 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
-// Returns what decides the memory of a body: the number of its points, and the wanted resolution.
+// Returns the number of points and the wanted resolution, which determine the memory that a body takes.
 MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }

@@ -16,7 +16,7 @@ std::vector<std::string_view> all_method_names() {
   return names;
 }
 
-// These functions take a second argument besides the text.
+// These wrappers have the text as their only argument.
 Result<Method> method_of(std::string_view text) {
   return parse_method(text);
 }
@@ -40,7 +40,7 @@ Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
   return option_error({}, cat("expected a whole number, found ", channel));
 }
 
-// The words for whether the view has crumbs, or a support plane.
+// The words of options that drop or keep crumbs or a support plane.
 constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", true}}};
 
 // A row is easier to read in few long lines than with a line for each member.
@@ -105,7 +105,7 @@ std::vector<OptionRow> limit_rows() {
   };
 }
 
-// Returns the rows of the side of the model that the relief shows.
+// Returns the rows of options that select the part of the model to show.
 std::vector<OptionRow> view_rows() {
   return {
       {.name = "view", .unit = "SIDE", .stage = view,
@@ -174,7 +174,7 @@ std::vector<OptionRow> plate_rows() {
   };
 }
 
-// Returns the rows by which the solid is bent and formed.
+// Returns the rows of options that bend and form the solid.
 std::vector<OptionRow> body_rows() {
   return {
       {.name = "base", .unit = "SHAPE", .stage = body, .choices = names_of(base_choices),
@@ -221,7 +221,7 @@ std::vector<OptionRow> triangle_rows() {
   };
 }
 
-// Returns the rows by which a depth image is read.
+// Returns the rows of options for reading a depth image.
 std::vector<OptionRow> depth_rows() {
   return {
       {.name = "depth-values", .unit = "KIND", .stage = input, .choices = names_of(depth_value_choices),

@@ -1,5 +1,5 @@
-// Stores the options while they are read from values, and has the functions by which rows of the table read
-// them.
+// Stores the options while they are read from values, and contains the functions that read them for rows of
+// the table.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace relievo {
 struct OptionTargets {
   ReliefOptions relief;
   DepthOptions depth;
-  std::string side = "front", up;  // make the view together
-  std::optional<Outline> outline;  // otherwise a circle with a diameter
+  std::string side = "front", up;  // the two together give the view
+  std::optional<Outline> outline;  // default: a circle if there is a diameter
 };
 
 template <typename T, typename Owner>
@@ -45,7 +45,8 @@ std::optional<double> ruling_number(const ReliefOptions& options) {
     return options.*of;
 }
 
-// Reads a number into a member. `ruling` is that member, or the function that returns its default, too.
+// Reads a number into a member. `ruling` returns the number that applies: it is the same member, or a
+// function that includes the default.
 template <auto member, auto ruling = member>
 constexpr OptionAccess number{read_number<member>, ruling_number<ruling>};
 

@@ -65,7 +65,7 @@ Result<void> check_draft(const ReliefOptions& options) {
   return {};
 }
 
-// Returns the option that gives the plate a size, and the lesser side of it.
+// Returns the name of the option that gives the plate a size, and the shorter side of that size.
 std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
   if (options.diameter_mm) return {"diameter", *options.diameter_mm};
   return {"plate", options.plate_mm ? options.plate_mm->minCoeff() : 0};

@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-// Returns a value of the option's type: that of a length may be a text with a unit.
+// Returns the value in the option's type. A length may be given as a text with a unit.
 Result<OptionValue> typed_value(const OptionRow& option, const OptionValue& value) {
   if (std::holds_alternative<double>(value) == option.is_number()) return value;
   if (!option.is_length() || !option.is_number()) return option_error({}, std::string(expected_type(option)));
@@ -23,7 +23,7 @@ Result<void> read_value(const OptionRow& option, const OptionValue& given, Optio
   return option.access.read(value, to);
 }
 
-// Reads the values of the options of the relief, or of the other options, which read a depth image.
+// Reads the values of the relief's options, or of the other options, which are for depth images.
 Result<OptionTargets> read_values(const OptionValues& values, bool is_of_relief) {
   OptionTargets to;
   for (const OptionRow& option : option_table()) {

@@ -28,7 +28,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Fills in the heights of a front that a tool has changed: what was narrow and deep is filled.
+// Fills in the heights of a front that a tool has changed; it leaves material in narrow, deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)

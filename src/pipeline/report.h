@@ -1,4 +1,4 @@
-// Puts the report on a relief together.
+// Makes the report on a relief.
 #pragma once
 
 #include "pipeline/body.h"

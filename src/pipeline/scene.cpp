@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // in heights of a model
+constexpr double gap = .08, widest = 1.5;  // in units of a model's height
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");
@@ -28,8 +28,8 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-// Returns `count` of the cloud's points. They are spread over the file by multiples of the golden ratio, because equal
-// steps could meet the rows of a scanner.
+// Returns `count` of the cloud's points. They are spread over the file by multiples of the golden ratio,
+// because equal steps could meet the rows of a scanner.
 Cloud some_of(const Cloud& cloud, std::size_t count) {
   constexpr double golden_ratio = .6180339887498949;
   Cloud some;
@@ -44,8 +44,7 @@ Cloud some_of(const Cloud& cloud, std::size_t count) {
   return some;
 }
 
-// Calls f for each point that counts: for the corners of a mesh's triangles, or for the points of a cloud that are no
-// outliers.
+// Calls f for the corners of a mesh's triangles, or for the points of a cloud that are not outliers.
 template <typename F>
 void each_point(const CloudFile& file, F&& f) {
   for (const Triangle& triangle : file.mesh.triangles)
@@ -77,7 +76,7 @@ PlacedModel placed_as_told(const SceneModel& model) {
   return placed;
 }
 
-// Lets models stand in a row.
+// Arranges models in a row.
 class Row {
  public:
   explicit Row(const Mat3& to_view) : to_view_(to_view) {}
@@ -106,12 +105,12 @@ class Row {
 
   Mat3 to_view_;
   double height_ = 0;
-  Vec3 at_ = Vec3::Zero();  // where the next one's left, bottom and middle of the depth will be
+  Vec3 at_ = Vec3::Zero();  // left, bottom and middle of the depth of the next model
 };
 
 }  // namespace
 
-// Exactly the identity where nothing is to be turned.
+// The result is exactly the identity if the pose does not turn.
 Mat3 turn_of(const Pose& pose) {
   const auto about = [&](int axis) {
     return Eigen::AngleAxisd(to_radians(pose.rotate_deg[axis]), Vec3(Vec3::Unit(axis))).toRotationMatrix();

@@ -13,12 +13,12 @@
 namespace relievo {
 namespace {
 
-// A cloud stays as it is unless its points are so much closer, or so much further apart, than those of the
-// scene.
+// A cloud keeps its points unless its sampling distance, divided by the scene's, is below the first or above
+// the second of these factors.
 constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
 constexpr Colour white{255, 255, 255};
 
-// A cloud as it stands, outward normals included, and as the viewer sees it.
+// A cloud in its place in the scene, with outward normals, and the same cloud in view coordinates.
 struct PlacedCloud {
   std::string name;
   Cloud cloud, viewed;
@@ -27,7 +27,7 @@ struct PlacedCloud {
 
 struct Parts {
   std::vector<PlacedCloud> clouds;
-  Mesh mesh;  // all in one
+  Mesh mesh;  // all meshes of the scene in one
   std::size_t left_out = 0;
   std::vector<SampleNote> notes;
 };
@@ -37,7 +37,8 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Adds the colours of `added` points to those of `size`, white where one of them has none.
+// Appends the colours of `added` points to those of `size` points. If only one of the two has colours, the
+// other's are white.
 void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector<Colour>& from,
                     std::size_t added) {
   if (to.empty() && from.empty()) return;
@@ -88,7 +89,7 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   placed.cloud = without_repeated_points(std::move(placed.cloud));
   if (placed.cloud.size() < given)
     parts.notes.push_back({SampleNote::Kind::repeated, model.name, given - placed.cloud.size()});
-  placed.cloud.is_height_field = false;  // others may stand before it
+  placed.cloud.is_height_field = false;  // other models may stand in front of it
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
   for (Vec3f& n : placed.cloud.normals) n = turn * n;
@@ -126,7 +127,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// Returns the area that points facing the viewer cover; all layers of points behind each other count.
+// Returns the area that points facing the viewer cover. Layers of points behind each other all count.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -136,7 +137,7 @@ double shown_area(const PlacedCloud& cloud) {
   return sum;
 }
 
-// Returns this area for triangles, whichever side is their front.
+// Returns the same area for triangles, whose orientation is ignored.
 double shown_area(const Mesh& mesh, const View& view) {
   const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;
@@ -147,7 +148,7 @@ double shown_area(const Mesh& mesh, const View& view) {
   return sum;
 }
 
-// The distance at which all points are to be.
+// Returns the sampling distance that all points should have.
 double common_spacing(const Parts& parts, const View& view, double points) {
   double area = shown_area(parts.mesh, view), finest = std::numeric_limits<double>::infinity();
   for (const PlacedCloud& cloud : parts.clouds) {
@@ -158,7 +159,7 @@ double common_spacing(const Parts& parts, const View& view, double points) {
   return parts.mesh.empty() ? std::max(wanted, finest) : wanted;
 }
 
-// The front of a coarse cloud, in the scene's frame.
+// Returns the front of a coarse cloud as a mesh in the scene's frame.
 Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   Mesh mesh = front_mesh(placed.viewed, placed.spacing);
   const Mat3 back = view.R_view_model.transpose();

@@ -24,17 +24,17 @@ struct Waiting {
 // The state that the callers and the session's thread share.
 struct Shared {
   std::optional<Waiting> waiting;
-  std::shared_ptr<Progress> progress;  // of the preparation that runs
+  std::shared_ptr<Progress> progress;  // of the running preparation
   std::shared_ptr<const ReliefModel> model;
-  std::weak_ptr<const Cloud> of_model;  // the points that the model was made of
+  std::weak_ptr<const Cloud> of_model;  // the points from which the model was made
   SessionStatus status;
   Measured measured;  // last
   std::function<Preparation::Points(Progress&)> all_sides;
   std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
-  std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
-  std::optional<TurnedRelief> first;           // of the measured points in first_view, until there is a model
+  std::shared_ptr<Progress> turning;           // progress of the newest turn(), until it returns
+  std::optional<TurnedRelief> first;           // in first_view, until there is a model
   View first_view;
-  std::shared_ptr<Progress> making_first;  // while `first` is made; status() offers no turn() then
+  std::shared_ptr<Progress> making_first;  // not null while `first` is made; status() then refuses turn()
 
   void cancel_turning() {
     if (turning) turning->cancel();
@@ -61,9 +61,9 @@ struct Shared {
 
 struct Session::State {
   Guarded<Shared> shared;
-  BackgroundLoop loop{[this] { return step(); }};  // last: it starts when all else is there
+  BackgroundLoop loop{[this] { return step(); }};  // the last member, because the thread starts at once
 
-  // Prepares the model that waits, if any; returns whether there was one.
+  // Prepares the waiting model, if any; returns whether there was one.
   bool step() {
     const std::optional<Waiting> next = shared.with([&](Shared& s) {
       std::optional<Waiting> first = std::exchange(s.waiting, std::nullopt);
@@ -80,7 +80,7 @@ struct Session::State {
   void finish(const Preparation& wanted, const Progress& progress, Result<Preparation::Model> made) {
     shared.with([&](Shared& s) {
       s.progress = nullptr;
-      if (s.waiting) return;  // a newer opening has overtaken this one
+      if (s.waiting) return;  // a newer open() has replaced this one
       if (progress.is_cancelled()) return s.forget_unused();
       s.status.is_preparing = false;
       if (made && wanted.ready) made = within_memory([&] { return wanted.ready(*made), made; });
@@ -125,7 +125,8 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes the relief of the next turn(), if it is wanted, before the model: both at once would take longer.
+  // Makes the relief of the next turn(), if it is wanted. This is done before the model, because doing both
+  // at once would take longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
@@ -149,7 +150,7 @@ struct Session::State {
     return made;
   }
 
-  // Measures the points, unless they were measured last for a view that asks for the same.
+  // Measures the points, unless the last measurement is of the same points and also serves this view.
   Result<std::shared_ptr<const MeasuredCloud>> measure(const std::shared_ptr<const Cloud>& points,
                                                        const View& view, Progress& progress) {
     const Measured last = shared.with([](const Shared& s) { return s.measured; });
