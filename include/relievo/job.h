@@ -42,7 +42,7 @@ struct FrameWish {
   bool is_quick = false;
 };
 
-// Checks the size of a picture and where its camera stands. Errors: kind option, naming the field.
+// Checks the size of a picture and the position of its camera. Errors: kind option, naming the field.
 Result<void> check(const RenderOptions& options);
 
 // A prepared model with all that its frames and pictures need. Results that take a pass over all points are
@@ -50,7 +50,7 @@ Result<void> check(const RenderOptions& options);
 // Not for concurrent use.
 class LiveModel {
  public:
-  // Shares the model. `notes` say how its points were sampled.
+  // Shares ownership of the model. `notes` describe how its points were sampled.
   explicit LiveModel(TurnedRelief shown, std::vector<SampleNote> notes = {});
   LiveModel(LiveModel&&) noexcept;
   ~LiveModel();
@@ -60,7 +60,7 @@ class LiveModel {
   // Returns the solid. It may be called concurrently. Errors: those of make_relief().
   Result<MadeRelief> relief(const ReliefOptions& options, Progress* progress = nullptr) const;
 
-  // Returns the frame of the relief that the options ask for. Errors: those of with_width(); kind option for
+  // Returns the frame of the relief that the options describe. Errors: those of with_width(); kind option for
   // a method that has no frames.
   Result<LiveFrame> frame(const ReliefOptions& options);
 

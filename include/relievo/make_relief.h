@@ -1,5 +1,6 @@
-// One call from a scan to a body that can be cut. Its steps: points that show a view (sample_for_view), their
-// surface with its factored system (prepare), and a relief of it as a body (make_relief).
+// Makes a body that can be cut from a scan, in one call. Its steps can be called separately: sample the
+// points that show a view (sample_for_view), find their surface and factor its system (prepare), and make its
+// relief as a body (make_relief).
 #pragma once
 
 #include <optional>
@@ -36,8 +37,8 @@ struct ScanReport {
   std::optional<FoundPlane> plane;
 
   bool lacks_plane = false;            // a plane was to be left out, but none was found
-  bool has_estimated_normals = false;  // the points had none
-  bool has_turned_normals = false;     // they pointed inwards
+  bool has_estimated_normals = false;  // the points had none, so they were estimated
+  bool has_turned_normals = false;     // they pointed inwards and were reversed
 
   // Returns the facts about the points of a surface.
   static ScanReport of(const Surface& surface);
@@ -55,7 +56,7 @@ struct ReliefReport : ScanReport {
   std::optional<double> height_usual_mm;  // the default, if none was requested, see effective_height_mm()
   double height_mm = 0;        // height reached, lowest to highest point of the front, above its base
   double below_ground_mm = 0;  // the part of height_mm that lies below the flat ground, in a die all of it
-  double steepest_deg = 0;     // of the front's triangles, with coordinates rounded as in files
+  double steepest_deg = 0;     // slope of the front's steepest triangle, rounded as in files
 
   // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. This is
   // exact in x and y. In z the model keeps its uncompressed depth, and its lowest visible point lies on the
@@ -71,7 +72,7 @@ struct ReliefReport : ScanReport {
   // Largest difference between the simplified front and the full one, if a tolerance or a number of triangles
   // was given.
   std::optional<double> simplification_error_mm;
-  std::size_t front_triangles = 0, full_triangles = 0;  // of the front, and of the full relief
+  std::size_t front_triangles = 0, full_triangles = 0;  // in the front, and in the full relief
 
   // The measures of a wrap: the ground's diameter, the angle that the plate covers, and the length of one
   // degree on the ground, which is the same in the flat plate.
@@ -106,8 +107,8 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
                                Progress* progress = nullptr);
 
 // Returns the height in mm of the highest relief whose walls keep the draft angle of the options, or of the
-// highest relief of all if the options give no draft angle. The method must be one with a shape, as
-// has_shape() says. Errors: those of make_relief().
+// highest relief of all if the options give no draft angle. The method must be one with a shape, see
+// has_shape(). Errors: those of make_relief().
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 

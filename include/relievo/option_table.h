@@ -59,7 +59,7 @@ struct OptionAccess {
 // A row of the table.
 struct OptionRow {
   std::string_view name;  // the command-line flag without its dashes, and the key in JSON
-  std::string_view unit;  // of the value, for help
+  std::string_view unit;  // unit of the value, for help
   OptionStage stage = OptionStage::view;
   double min = -std::numeric_limits<double>::infinity();  // smallest and largest value of a number
   double max = std::numeric_limits<double>::infinity();

@@ -19,14 +19,14 @@ namespace relievo {
 // The options that are plain numbers; option_table() has their ranges. Most comments end with the default.
 struct NumericOptions {
   std::optional<double> width_mm;      // longer side of the relief, without margin; see effective_width_mm()
-  std::optional<double> diameter_mm;   // of the plate, then a circle; as small as the relief allows
+  std::optional<double> diameter_mm;   // diameter of a round plate; as small as the relief allows
   std::optional<double> height_mm;     // lowest to highest point of the front; see effective_height_mm()
   std::optional<double> alpha;         // the paper's height coefficient; 4
   std::optional<double> saturation;    // the paper's beta; see effective_saturation()
   std::optional<double> detail;        // the paper's gamma; see effective_detail()
   std::optional<double> steepest_deg;  // steepest slope asked of the surface; 76
   std::optional<double> draft_deg;     // least angle of walls off the vertical, kept by every triangle; any
-  std::optional<double> boundary_width;  // of (7), in units of rho; see effective_boundary_width()
+  std::optional<double> boundary_width;  // width of (7), in rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height that depth jumps take, see Shape
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
@@ -58,11 +58,11 @@ struct ReliefOptions : NumericOptions {
   View view;
   Outline outline = Outline::rectangle;
   std::optional<Vec2> plate_mm;  // width and height of the plate; default: as small as the relief allows
-  Vec2 shift_mm = Vec2::Zero();  // of the relief from the middle of a plate with a given size, right and up
+  Vec2 shift_mm = Vec2::Zero();  // shift of the relief in a plate with a given size, right and up
   BaseOptions base;              // a base of kind image includes its height map
   WrapOptions wrap;
   Form form = Form::relief;
-  std::optional<Tool> tool;  // its reach is reported
+  std::optional<Tool> tool;  // the report states which part it reaches
   Finish finish = Finish::full;
 
   bool operator==(const ReliefOptions&) const = default;
@@ -80,7 +80,7 @@ struct ReliefOptions : NumericOptions {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
   }
   double effective_alpha() const { return alpha.value_or(4); }
-  double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // that of Shape::max_slope
+  double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // as Shape::max_slope
   // The margin is small where a diameter is given, as on coins.
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // The plate of a lithophane is thin, because light has to pass through its thinnest places.

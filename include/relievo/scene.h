@@ -1,4 +1,4 @@
-// Several models in one relief: how they are placed, and what a viewer sees of them together.
+// Several models in one relief: placing them, and sampling the points of all that a viewer sees.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ struct ReliefOptions;
 // which excludes outliers, and then moved.
 struct Pose {
   Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z, all fixed axes; 90 about z takes x to y
-  std::optional<Vec3> translate = {};  // in the units of the files
+  std::optional<Vec3> translate = {};  // translation in the units of the files
   double scale = 1;                    // above 0
   bool is_mirrored = false;            // x is reversed, before all else
 
@@ -32,7 +32,7 @@ struct Pose {
 Mat3 turn_of(const Pose& pose);
 
 struct SceneModel {
-  std::string name;                       // in errors and notes
+  std::string name;                       // name in errors and notes
   std::shared_ptr<const CloudFile> file;  // not null
   Pose pose = {};
   std::vector<std::string> remarks = {};  // lines on parts of the file that were not read, and why
@@ -53,8 +53,9 @@ struct PlacedModel {
   Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + offset; }
 };
 
-// Returns where each model stands.
-// - If any pose has a `translate`, they stand where the poses say: files that share one frame fit together.
+// Returns the place of each model.
+// - If any pose has a `translate`, the models are placed as the poses say: files with a common frame fit
+//   together.
 // - One model alone stays where it is.
 // - Otherwise the models are arranged as the view shows them: side by side from left to right, on one ground
 //   line, their middles equally deep, a gap of 8 % of their height between them. The first keeps its size
@@ -81,8 +82,8 @@ View chosen_view(const Scene& scene, const View& view);
 // smooth.
 double usual_points(const Scene& scene);
 
-// Returns the points of all models as they stand, in the scene's frame; without a number of points,
-// usual_points().
+// Returns the points of all placed models, in the scene's frame. `points` is the wanted number of points, by
+// default usual_points().
 // - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds come
 //   whole, without outliers.
 // - All models get about the same sampling distance: that of the finest cloud, or the distance at which the

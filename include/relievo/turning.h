@@ -26,7 +26,7 @@ class Turntable {
   // The approximate number of points inside a turned relief; some 3,000 along outlines are added.
   static constexpr std::size_t points = 15'000;
 
-  // Copies what it needs of the cloud.
+  // Copies the parts of the cloud that it needs.
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 

@@ -1,4 +1,4 @@
-// The points from which a view's relief is made, and what was done to the scans to get them.
+// The points from which a view's relief is made, and notes on how the scans were sampled.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@ struct SampleNote {
   };
 
   Kind kind = Kind::outliers;
-  std::string model = {};  // its name in a scene; empty where there is only one
+  std::string model = {};  // name of the model in a scene; empty if there is only one
   std::size_t points = 0, of = 0;
 
   bool operator==(const SampleNote&) const = default;
 };
 
 struct ViewSample {
-  std::shared_ptr<const Cloud> cloud;  // in the scene's frame; the file's own if no point was changed
+  std::shared_ptr<const Cloud> cloud;  // points in the scene's frame; the file's own if none was changed
   std::size_t left_out = 0;            // number of outliers of all models together
   std::vector<SampleNote> notes;
 };

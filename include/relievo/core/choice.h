@@ -1,4 +1,4 @@
-// Words that stand for the values of an enumeration: one table reads them, writes them and names them in
+// Words for the values of an enumeration: one table is used to read them, to write them and to list them in
 // errors.
 #pragma once
 

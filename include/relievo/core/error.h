@@ -9,7 +9,7 @@
 namespace relievo {
 
 enum class ErrorKind {
-  input,      // a file's bytes are not what their format promises
+  input,      // a file's bytes contradict their format
   option,     // a parameter is out of its range, or two contradict each other
   geometry,   // the points do not determine a relief
   cancelled,  // Progress::cancel() was called
@@ -23,7 +23,7 @@ constexpr std::string_view name_of(ErrorKind kind) {
   return names[static_cast<int>(kind)];
 }
 
-// Describes what went wrong: in which input, where in it, and what was expected there.
+// Describes an error: the input, the place in it, and what was expected there and found instead.
 struct Error {
   ErrorKind kind = ErrorKind::input;
   // The name that the caller gave to the input or option, "scan.ply" or "height"; may be empty.

@@ -37,8 +37,8 @@ void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 inline constexpr std::size_t default_grain = 4096;
 
 // Calls f(begin, end) for consecutive ranges of at most `grain` elements that together are [0, n). The ranges
-// run concurrently, so f may only write what belongs to its own range. If f throws, some later ranges are
-// skipped, and the calling thread gets the exception. This applies to all functions below.
+// run concurrently, so f may only write data of its own range. If f throws, some later ranges are skipped,
+// and the calling thread gets the exception. This applies to all functions below.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {

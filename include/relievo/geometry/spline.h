@@ -39,7 +39,7 @@ class MultilevelSpline {
  public:
   // Scratch memory of fit(), so that it allocates nothing.
   struct Workspace {
-    std::vector<float> rest;        // per site, the residual of the levels so far
+    std::vector<float> rest;        // residual of the levels so far, per site
     std::vector<float> coarser;     // nodes of the level before
     std::vector<float> correction;  // per node
   };

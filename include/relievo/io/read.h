@@ -58,9 +58,9 @@ struct PictureChannels {
 
 // Returns the depths in a PNG (grey, 8 or 16 bits; colour if all channels are equal) or TIFF (grey; whole
 // numbers of 1 to 32 and 64 bits or fractions of 16, 32 and 64, strips or tiles, any compression that libtiff
-// knows). Transparency is not read. Values that GDAL's no-data tag states become NaN. In pictures where 0 is
-// white, whole numbers are inverted, so that bright pixels have large values. Errors: kind input for other or
-// broken pictures and palettes, for a missing channel, and for more than 2^27 pixels or fewer than 4 x 4.
+// supports). Transparency is not read. Values that GDAL's no-data tag states become NaN. In pictures where 0
+// is white, whole numbers are inverted, so that bright pixels have large values. Errors: kind input for other
+// or broken pictures and palettes, for a missing channel, and for more than 2^27 pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 

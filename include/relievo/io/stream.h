@@ -30,9 +30,9 @@ class ByteSource {
 
 // A large cloud, reduced.
 struct StreamedCloud {
-  Cloud cloud;                       // in the frame of the file
-  std::string format;                // for people
-  std::uint64_t input_points = 0;    // in the file
+  Cloud cloud;                       // points in the frame of the file
+  std::string format;                // name of the format, for people
+  std::uint64_t input_points = 0;    // number of points in the file
   std::uint64_t ignored_faces = 0;   // faces of the file, which are not read
   std::uint64_t missing_points = 0;  // promised by the header, but missing because the file ends early
 };

@@ -22,14 +22,14 @@ std::vector<std::byte> write_ply(const Solid& solid);
 std::vector<std::byte> write_obj(const Solid& solid);
 
 // Returns the solid as 3MF (core specification 1.3): one object with the solid's unit and coordinates, in
-// single precision. `metadata` becomes the model's metadata, keys being names that the specification knows
+// single precision. `metadata` becomes the model's metadata, whose keys must be names of the specification
 // (Title, Description, Designer, Copyright, Application ...). The same solid gives the same bytes, because
 // the file contains no dates. The result is empty if memory does not suffice. The solid must pass
 // check_solid().
 std::vector<std::byte> write_3mf(const Solid& solid,
                                  std::span<const std::pair<std::string, std::string>> metadata = {});
 
-// A file in an archive. Its content must live as long as the entry.
+// A file in an archive. Its content must outlive the entry.
 struct ZipEntry {
   std::string name;  // in UTF-8, with its folders
   std::span<const std::byte> content;

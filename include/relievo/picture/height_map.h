@@ -10,7 +10,7 @@ namespace relievo {
 
 struct HeightMap {
   Image16 image;            // 0 is the lowest point of the front, 65535 the highest
-  double mm_per_pixel = 0;  // in x and y
+  double mm_per_pixel = 0;  // size of a pixel in x and y
   double mm_per_grey = 0;   // height of one grey step
 };
 

@@ -10,7 +10,7 @@
 namespace relievo {
 
 struct PreviewOptions {
-  int longer_side_px = 1200;      // of each of the two pictures, front and oblique
+  int longer_side_px = 1200;      // longer side of each of the two pictures, front and oblique
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
   Material material = Material::plaster;
   // The body before it was bent. If given, the front picture shows it instead, because bending to the inside

@@ -1,4 +1,4 @@
-// A picture of what a milling tool reaches.
+// A picture of the surface that a milling tool reaches.
 #pragma once
 
 #include "relievo/plate/tool.h"

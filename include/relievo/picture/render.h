@@ -34,8 +34,8 @@ struct Camera {
 };
 
 struct RenderOptions {
-  int width = 800, height = 600;  // of the picture, in pixels, see has_size()
-  double mm_per_unit = 1;         // of the model
+  int width = 800, height = 600;  // size of the picture in pixels, see has_size()
+  double mm_per_unit = 1;         // millimetres per unit of the model
   double margin_mm = 5, thickness_mm = 3;
   Camera camera;
   Material material = Material::plaster;
@@ -60,7 +60,7 @@ struct SurfaceDetail {
 
 // The heights and normals with which a surface is drawn, one entry per point.
 struct Shown {
-  std::span<const float> heights;                  // in the model's units, above the ground
+  std::span<const float> heights;                  // heights above the ground, in the model's units
   std::span<const Vec3f> normals;                  // unit length
   float stretch = 1;                               // factor of the heights and normals in the picture, > 0
   std::optional<std::array<float, 2>> range = {};  // lowest and highest; searched for if not given

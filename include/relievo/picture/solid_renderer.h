@@ -1,4 +1,4 @@
-// Pictures of a finished solid from any side, for programs that show what a file contains.
+// Pictures of a finished solid from any side, for programs that show the content of a file.
 #pragma once
 
 #include <memory>

@@ -35,7 +35,7 @@ inline constexpr std::array<Choice<BaseKind>, 6> base_choices{{{"plane", BaseKin
 // straight along one direction.
 struct BaseOptions {
   BaseKind kind = BaseKind::plane;
-  std::optional<double> height_mm;    // from the lowest to the highest point of the plate, or of the image
+  std::optional<double> height_mm;    // height difference over the plate, or over the image
   std::optional<double> angle_deg;    // fold: between each side and the plate; default 15 if no height
   std::optional<double> diameter_mm;  // cylinder: default twice the plate's width (if no height either);
                                       // dome: default from a height of 0.15 of the plate's radius

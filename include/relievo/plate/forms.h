@@ -16,7 +16,7 @@ enum class Form {
   relief,
   mirror,     // left and right swapped, as for a stamp
   die,        // the hollow that strikes or casts the relief: deep where it is high, left and right swapped
-  lithophane  // held before a light it shows the model: thick where the model is dark
+  lithophane  // shows the model in front of a light: thick where the model is dark
 };
 
 inline constexpr std::array<Choice<Form>, 4> form_choices{{{"relief", Form::relief},

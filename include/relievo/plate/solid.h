@@ -26,15 +26,15 @@ struct HeightFieldMesh {
   std::vector<Triangle> triangles;
   std::vector<Index> hull;
   double ground_mm = 0;              // height of the flat background
-  std::vector<Colour> colours = {};  // of the points, or empty
-  // Per triangle, whether it is part of the relief rather than of the ground around and within it; empty if
-  // all are. Only a plate without ground uses it.
+  std::vector<Colour> colours = {};  // colours of the points, or empty
+  // For each triangle, whether it is part of the relief rather than of the ground around and within it; empty
+  // if all triangles are. Only a plate without ground uses it.
   std::vector<std::uint8_t> is_relief = {};
 };
 
 // A raised edge along the outline, as coins and plaques have. Each length is 0 or at least 0.001.
 struct RimOptions {
-  double width_mm = 0;  // from the outline to the ground within; 0 for no rim
+  double width_mm = 0;  // width from the outline to the ground inside; 0 for no rim
   // Height of its flat top above the ground. A negative height makes a groove, which the rim becomes in a
   // die; the plate then continues outside the groove by the rim's width.
   double height_mm = 1;
@@ -53,13 +53,13 @@ struct PlateOptions {
   // The tolerance of simplify() for the whole front, ground included. All triangles are kept if it is 0 or
   // the plate has no ground.
   double simplify_mm = 0;
-  double max_slope = std::numeric_limits<double>::infinity();  // of simplified triangles, see simplify()
-  std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // the same
+  double max_slope = std::numeric_limits<double>::infinity();            // slope limit for simplify()
+  std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // limit of triangles for simplify()
   std::optional<Tool> tool = {};  // makes the front as this tool leaves it; on a plane base only
   // Width and height of the outline, whatever margin that leaves, see OutlineOptions; 0: no given size. For a
   // die with a groove for the rim this is the size of the piece that the die makes.
   Vec2 size_mm = Vec2::Zero();
-  Vec2 shift_mm = Vec2::Zero();  // of the front from the outline's middle, for an outline with a size
+  Vec2 shift_mm = Vec2::Zero();  // shift of the front from the middle of an outline with a given size
 };
 
 // The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.
@@ -71,12 +71,12 @@ struct Solid {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::size_t front_triangles = 0;
-  std::vector<Colour> colours = {};  // of the points, or empty
-  std::vector<Region> regions = {};  // of the front's triangles, for pictures; empty if all are relief
-  Vec3 shift = Vec3::Zero();         // from the front's coordinates to the solid's, on flat ground
+  std::vector<Colour> colours = {};  // colours of the points, or empty
+  std::vector<Region> regions = {};  // regions of front triangles, for pictures; empty if all are relief
+  Vec3 shift = Vec3::Zero();         // added to the front's coordinates to get the solid's, on flat ground
   double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
   double error_mm = 0;               // largest distance to the exact surface, from curving and simplifying
-  LengthUnit unit = LengthUnit::mm;  // of the coordinates; only in_unit() and the files know other units
+  LengthUnit unit = LengthUnit::mm;  // unit of the coordinates; other units only by in_unit() and in files
 };
 
 // Returns the same body with coordinates in `unit`, for files. Points that would coincide in single precision
@@ -105,12 +105,12 @@ Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& optio
 // make_plate() and Base::over().
 Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the plate bent around its wrap: its front stands on the wrap, its bottom becomes the other side of
-// the shell, and its walls point at the axis. It is moved so that its box starts at the origin. If a
-// rectangle goes all the way around a cylinder or a cone, its two sides are joined. `plate` is the result of
-// make_plate() with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief
-// would reach the axis, if another outline, a rim or a slanting axis goes all the way around, or if there is
-// no wrap.
+// Returns the plate bent around its wrap: its front is at right angles to the wrap, its bottom becomes the
+// other side of the shell, and its walls point at the axis. It is moved so that its box starts at the origin.
+// If a rectangle goes all the way around a cylinder or a cone, its two sides are joined. `plate` is the
+// result of make_plate() with the same options. Errors: those of plate_wrap(); kind option if the shell or
+// the relief would reach the axis, if another outline, a rim or a slanting axis goes all the way around, or
+// if there is no wrap.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().
@@ -118,8 +118,8 @@ Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
 // Checks that every edge of a solid is shared by exactly two triangles with opposite directions, that no
 // triangle has two equal corners, that no two used points have the same single-precision coordinates, and
-// that the volume is positive. Returns what is wrong, or an empty string. It is public for tests and bug
-// reports; 0.1 s for 1M triangles.
+// that the volume is positive. Returns a description of the first fault, or an empty string. It is public for
+// tests and bug reports; 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.

@@ -18,8 +18,8 @@ struct Solid;
 struct Tool {
   enum class Kind { ball, flat, v };
   Kind kind = Kind::ball;
-  double diameter_mm = 1;  // of a ball or flat end, [0.01, 1000]
-  double angle_deg = 60;   // of a V tool, from flank to flank, [1, 170]; its flanks have no end
+  double diameter_mm = 1;  // diameter of a ball or flat end, [0.01, 1000]
+  double angle_deg = 60;   // angle between a V tool's flanks, [1, 170]; the flanks are unlimited
   double tip_mm = 0;       // diameter of the ball that rounds a V tool's tip, [0, 1000]; 0 is sharp
 
   bool operator==(const Tool&) const = default;

@@ -20,10 +20,10 @@ inline constexpr std::array<Choice<WrapKind>, 4> wrap_choices{{{"none", WrapKind
                                                                {"sphere", WrapKind::sphere}}};
 
 // Bending keeps lengths on the ground around a cylinder, around a cone at half its height, and from the
-// middle outwards on a sphere. The relief stands at right angles to the wrap everywhere.
+// middle outwards on a sphere. Heights of the relief are perpendicular to the wrap everywhere.
 struct WrapOptions {
   WrapKind kind = WrapKind::none;
-  std::optional<double> diameter_mm;  // of the bent ground; for a cone, in the middle of the plate
+  std::optional<double> diameter_mm;  // diameter of the bent ground; for a cone, in the middle of the plate
   std::optional<double>
       turn_deg;               // angle that the plate covers, instead of a diameter; default 180, sphere 120
   double angle_deg = 10;      // cone: between its side and its axis; positive if it is narrow at the top
@@ -70,7 +70,7 @@ class Wrap {
   bool is_inside_ = false;
   Vec2 middle_ = Vec2::Zero(), across_ = Vec2::UnitX();
   double radius_ = 1, turn_deg_ = 0, radians_per_mm_ = 1, min_radius_ = 1;
-  double sine_ = 0, cosine_ = 1;  // of a cone's angle
+  double sine_ = 0, cosine_ = 1;  // sine and cosine of a cone's angle
 };
 
 }  // namespace relievo

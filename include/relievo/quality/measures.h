@@ -24,13 +24,13 @@ struct Measures {
 
   double halo = 0;                 // standard deviation of the background, as a share of `height`
   double steep_share = 0;          // share of the silhouette's pixels that are steeper than 80 degrees
-  double height_used = 0;          // from the 1st to the 99th percentile, as a share of `height`
+  double height_used = 0;          // height from the 1st to the 99th percentile, as a share of `height`
   double jump_step = 0;            // greatest step left at a depth jump of the model, as a share of `height`
   double rim_step = 0;             // greatest height one edge inside the silhouette, as a share of `height`
   double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette around its smoothed values
-  double jump_fray_deg = 0;        // the same beside depth jumps, on both sides
+  double jump_fray_deg = 0;        // the same scatter beside depth jumps, on both sides
   double facet_angle_deg = 0;      // 99th percentile of angles between neighbours where the model is smooth
-  double longest_side = 0;         // of the triangles, in sampling distances
+  double longest_side = 0;         // longest side of a triangle, in sampling distances
   double height = 0;               // lowest to highest, base included, in the surface's units
 };
 

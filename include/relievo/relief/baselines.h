@@ -1,6 +1,6 @@
-// Baselines: other people's methods, to compare with. Each follows its paper and runs on the same visible
-// points, normals and height system as layered reliefs, with the parameters that served it best on our scans
-// (docs/quality.md).
+// Baselines: published methods of other authors, for comparison. Each follows its paper and runs on the same
+// visible points, normals and height system as layered reliefs, with the parameters that served it best on
+// our scans (docs/quality.md).
 #pragma once
 
 #include "relievo/relief/gradient_slopes.h"
@@ -20,7 +20,7 @@ struct EqualiseOptions {
   int picture_px = 512;         // longer side of the picture, [16, 4096]
   int largest_window_px = 128;  // the largest neighbourhood, at most picture_px; each next is half as wide
   int windows = 2;              // number of sizes, >= 1
-  int bins = 256;               // of a histogram, over all depths
+  int bins = 256;               // number of bins of a histogram, over all depths
   double clip = 12;             // largest bin, in units of the mean of the bins; the excess is spread
   double gradient_gain = 5;     // a in log(1 + a |g|) / a, the weight of a pixel with gradient g
 };

@@ -24,7 +24,7 @@ struct DraftOrder {
   Method method = Method::layered;
   Shape shape;
   double height = 0;   // see make_by_method()
-  double unit_mm = 1;  // for messages
+  double unit_mm = 1;  // millimetres per unit of the height, for messages
 };
 
 // Returns the relief closest to the one given that has no triangle steeper than the limit: it minimises the

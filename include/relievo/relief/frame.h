@@ -17,7 +17,7 @@ struct FrameOptions {
   Shape shape;
   std::optional<double> height;                    // locked: u is found so that this height is met
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; null is a plane
-  double height_tolerance = 5e-4;  // as a share of the locked height; a larger one may save a solve
+  double height_tolerance = 5e-4;  // relative to the locked height; a larger one may save a solve
 
   bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
 };
@@ -31,10 +31,10 @@ struct FrameTimes {
 
 struct Frame {
   FrameOptions options;           // those used, including the u and the membrane parameters that were found
-  std::vector<float> heights;     // per point of the surface, in the cloud's units, base included
+  std::vector<float> heights;     // heights of the surface's points, in the cloud's units, base included
   std::vector<Vec3f> normals;     // unit length: the mean of the triangles around the point, by their areas
   double height = 0;              // highest minus lowest of 0 and the heights without the base
-  float lowest = 0, highest = 0;  // of `heights`, base plane and base shape included
+  float lowest = 0, highest = 0;  // lowest and highest of `heights` and 0, the base plane
   bool is_height_met =
       true;  // false if a locked height is out of reach: then the relief is as high as possible
   FrameTimes times;

@@ -26,9 +26,9 @@ class HeightSystem {
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies what it needs of its arguments. The weight of an edge is multiplied by the mean of its ends'
-  // `weights`, one per point, in (0, 1]; without them by 1. Errors: those of solver::Cholesky::factor(),
-  // which a Delaunay triangulation with its boundary does not cause.
+  // Copies the parts of its arguments that it needs. The weight of an edge is multiplied by the mean of its
+  // ends' `weights`, one per point, in (0, 1]; without them by 1. Errors: those of
+  // solver::Cholesky::factor(), which a Delaunay triangulation with its boundary does not cause.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
                                     const Boundary& boundary, std::span<const float> weights = {});
 

@@ -70,9 +70,9 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
 
 // Selects the points for which the heights of a relief are solved.
 enum class Mode {
-  exact,     // from all visible points
-  subspace,  // from a few thousand control points: see SubspaceModel
-  automatic  // exact, unless there are more visible points than `most_exact_points`
+  exact,     // solves for all visible points
+  subspace,  // solves for a few thousand control points, see SubspaceModel
+  automatic  // `exact`, or `subspace` above `most_exact_points` visible points
 };
 
 inline constexpr std::array<Choice<Mode>, 3> mode_choices{

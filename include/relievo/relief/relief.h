@@ -22,7 +22,7 @@ struct StepHeights;
 struct Surface;
 
 struct Relief {
-  std::vector<double> heights;  // per point of the surface, above the base, in its units
+  std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
   double height = 0;            // h: highest minus lowest of the heights and 0, detail included
   Shape shape;                  // the shape that it was made with
 };
@@ -87,9 +87,9 @@ class ReliefModel {
 
   // Returns the relief whose height is `height`, detail included, by changing the compression's u at the
   // beta, gamma and slope asked for (the intent of Algorithm 1, section 3.6). If no u gives that height, u is
-  // infinite and depth jumps take what is missing, at most their depth: Shape::steps of the result. Errors:
-  // kind geometry if that does not suffice; the message states the largest height that is reached, in units
-  // of `unit_mm` millimetres. Kind cancelled.
+  // infinite and depth jumps supply the missing height, at most their depth: Shape::steps of the result.
+  // Errors: kind geometry if that does not suffice; the message states the largest height that is reached, in
+  // units of `unit_mm` millimetres. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

@@ -17,7 +17,7 @@ namespace relievo {
 struct SubspaceOptions {
   ControlPointOptions control;
   std::size_t normals_per_point = 8;  // samples whose mean slope a control point gets, > 0
-  double max_slope = 4;               // of the reference heights, see Shape
+  double max_slope = 4;               // slope limit of the reference heights, see Shape
 };
 
 // Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
@@ -50,14 +50,14 @@ class SubspaceModel {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Results that callers may have already; prepare() computes those that are empty.
+  // Results that callers may already have; prepare() computes the empty ones.
   struct Known {
     std::span<const double> reference = {};    // reference_heights() for the same greatest slope
     std::span<const PointLayers> layers = {};  // normal_layers() of the surface
   };
 
-  // Copies what it needs of the surface. The reference heights take most of the time and memory. Errors: see
-  // HeightSystem::build(); kind cancelled.
+  // Copies the parts of the surface that it needs. The reference heights take most of the time and memory.
+  // Errors: see HeightSystem::build(); kind cancelled.
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options,
                                        const Known& known, Progress* progress = nullptr);
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {}) {

@@ -11,7 +11,7 @@
 namespace relievo {
 
 struct SampleOptions {
-  std::size_t points = 300000;  // in the cloud, [1000, 100000000]
+  std::size_t points = 300000;  // number of points in the cloud, [1000, 100000000]
   double noise = 0.15;          // standard deviation along the normal, in sampling distances, [0, 5]
 };
 
@@ -20,7 +20,7 @@ struct SampleInfo {
   std::string_view description;
 };
 
-// Returns the names that make_sample() knows, with descriptions.
+// Returns the names that make_sample() accepts, with descriptions.
 std::span<const SampleInfo> samples();
 
 // Returns the sample `name` as a scanner would deliver it: scattered points with noise and outward normals,

@@ -11,9 +11,9 @@ namespace relievo {
 enum class WallSide : std::uint8_t { none, front, back };
 
 struct Boundary {
-  std::vector<std::uint8_t> is_inside;    // per triangle: belongs to the relief
-  std::vector<std::uint8_t> is_boundary;  // per point: in P_b, on the silhouette or the rim of an inner hole
-  // Per point the distance in the view plane to the nearest point of P_b: `dist` of equation (7).
+  std::vector<std::uint8_t> is_inside;    // per triangle: whether it belongs to the relief
+  std::vector<std::uint8_t> is_boundary;  // per point: whether it is in P_b (silhouette, rims of holes)
+  // The distance of each point to the nearest point of P_b in the view plane: `dist` of equation (7).
   std::vector<float> distance;
   // For each point, whether it is on the front or the back edge of the wall at a depth jump, or on none;
   // empty if there are no walls.
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const T
 // the hull, and points that are in no inside triangle.
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho);
 
-// Returns for each of `points` points whether it is a corner of a triangle outside, on the hull, or in no
+// Returns for each of `points` points whether it is a corner of an outside triangle, on the hull, or in no
 // triangle.
 std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,
                                           std::span<const std::uint8_t> is_inside);

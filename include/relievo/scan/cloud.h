@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// A part of an outline: the visible surface lies on its left, as seen; on its right is nothing, or at a jump
-// a surface farther behind.
+// A part of an outline: as seen by the viewer, the visible surface is on its left. On its right is nothing,
+// or at a jump a surface farther behind.
 struct OutlineSegment {
   Vec3 from, to;
   bool is_jump = false;
@@ -23,7 +23,7 @@ struct Cloud {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
   std::vector<Colour> colours = {};
-  // The exact outlines of the mesh that the points are samples of, in the view they were sampled for; else
+  // The exact outlines of the mesh from which the points were sampled, in the view of the sampling; else
   // empty.
   std::vector<OutlineSegment> outlines = {};
   // Seen from +Z, no point hides another, as in a depth image.
@@ -42,10 +42,10 @@ Box bounds(const Cloud& cloud);
 // outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its own box.
 std::vector<Index> outliers(const Cloud& cloud);
 
-// Returns the cloud with one point, the first, for each place where points repeat one another, exactly or
-// nearly; the cloud as it is if hardly any do. Points repeat one another if they are much closer together
+// Returns the cloud with only the first point of each group of points that repeat one another, exactly or
+// nearly; the cloud is unchanged if hardly any do. Points repeat one another if they are much closer together
 // than to all others and their normals do not point apart: both sides of a thin sheet stay. Normals and
-// colours are the means of those that are repeated.
+// colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
 // Returns the cloud without the points numbered by `erased`, which is ascending.

@@ -22,7 +22,7 @@ struct CurvatureOptions {
 // paper's equations (2) and (3), whose second derivatives depend on how unevenly the points lie (see
 // docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin wall, do not
 // count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no normals. Normals
-// must have unit length. Ends early with values without meaning once the progress is cancelled.
+// must have unit length. Once the progress is cancelled, it ends early and the values have no meaning.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 
@@ -35,9 +35,9 @@ std::vector<double> average_in_plane(std::span<const double> values, std::span<c
                                      double rho);
 
 struct NormalisedCurvature {
-  std::vector<float> k;  // per point, in [-1, 1]
+  std::vector<float> k;  // normalised mean curvature per point, in [-1, 1]
   double delta = 0;      // standard deviation of |k|; 0 for a surface without curvature
-  double unit = 0;       // the mean curvature that k = 1 stands for; larger ones were clipped
+  double unit = 0;       // the mean curvature at k = 1; larger ones were clipped
 };
 
 // Divides the curvatures by the 99th percentile of their absolute values and clips them to [-1, 1], so that k

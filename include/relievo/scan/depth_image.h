@@ -17,7 +17,7 @@ namespace relievo {
 struct DepthImage {
   Image<float> values;  // NaN where there is no value
   double step = 0;      // difference between possible values: 1 for whole numbers, 0 for fractions
-  std::string format;   // for people: "PNG, 16 bits"
+  std::string format;   // format of the file, for people: "PNG, 16 bits"
 };
 
 // A pinhole camera, in pixels.
@@ -60,10 +60,10 @@ struct DepthOptions {
 // Checks ranges. Errors: kind option, naming the option.
 Result<void> check(const DepthOptions& options);
 
-// The points of a depth image, and what was done to obtain them.
+// The points of a depth image, and facts about the conversion.
 struct DepthCloud {
   Cloud cloud;                 // seen from +Z, +Y up, in pixels; all normals face the viewer
-  int reduction = 1;           // each point stands for reduction x reduction pixels
+  int reduction = 1;           // each point represents reduction x reduction pixels
   std::size_t missing = 0;     // number of pixels without a depth
   std::size_t cut = 0;         // number of points removed from ramps between two surfaces
   std::size_t background = 0;  // number of points removed with the background

@@ -15,10 +15,10 @@ namespace relievo {
 struct Mesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;  // counter-clockwise from outside if the file is consistent
-  // Per triangle the normals of its corners: unit length, or zero where the file has none. Empty if it has
-  // none at all.
+  // The normals of each triangle's corners, with unit length, or zero where the file has none. Empty if the
+  // file has no normals at all.
   std::vector<std::array<Vec3f, 3>> corner_normals = {};
-  std::vector<Colour> colours = {};  // per point, or empty
+  std::vector<Colour> colours = {};  // colours of the points, or empty
 
   bool empty() const { return triangles.empty(); }
 };

@@ -15,11 +15,11 @@ struct Spacing {
   // of them coincide.
   double rho = 0;
   bool is_uneven = false;  // rho is not the median
-  // Per point sqrt(pi r^2 / k), where r is the distance to the k-th nearest other point and k is
-  // spacing_neighbours: the side of a square with the area per point. For randomly scattered points this is
-  // about twice the distance to the nearest neighbour.
+  // The local spacing of each point, sqrt(pi r^2 / k), where r is the distance to the k-th nearest other
+  // point and k is spacing_neighbours: the side of a square with the area per point. For randomly scattered
+  // points this is about twice the distance to the nearest neighbour.
   std::vector<float> local;
-  // Per point the numbers of its k nearest other points, nearest first; no_index if the cloud has fewer.
+  // The indices of each point's k nearest other points, nearest first; no_index if the cloud has fewer.
   std::vector<std::array<Index, spacing_neighbours>> nearest;
 };
 

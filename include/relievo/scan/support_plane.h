@@ -23,8 +23,8 @@ struct SupportPlane {
   double tolerance = 0;  // points that are at most this far from it belong to it, in the cloud's units
   double share = 0;      // share of the visible points that belong to the plane
 
-  // Returns whether a point is no part of the figure: it lies on the plane, with a normal that fits, or
-  // behind it.
+  // Returns whether a point is not part of the figure, because it lies behind the plane, or on it with a
+  // normal that fits the plane.
   bool takes(const Vec3& point, const Vec3f& point_normal) const;
   bool operator==(const SupportPlane&) const = default;
 };

@@ -17,19 +17,19 @@ namespace relievo {
 struct Surface {
   std::vector<Vec3> points;     // R_view_model (p - centre)
   std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at hole fill points
-  std::vector<Colour> colours;  // per point; empty if the cloud has none
+  std::vector<Colour> colours;  // colours of the points; empty if the cloud has none
   NormalisedCurvature curvature;
   Triangulation triangulation;  // without `neighbours`
   Boundary boundary;
 
   View view;
-  Vec3 centre = Vec3::Zero();  // of the cloud's box, in the model's frame
+  Vec3 centre = Vec3::Zero();  // centre of the cloud's box, in the model's frame
   double rho = 0;              // sampling distance of the cloud
   double diagonal = 0;         // L_d, the diagonal of the whole cloud's box
   std::size_t input_points = 0;
   std::size_t repeated_points = 0;  // points that were left out by without_repeated_points()
-  std::size_t visible_points = 0;   // of the cloud; the rest of `points` are hole fill points
-  std::size_t removed_points = 0;   // points that would be visible, but were taken for floating noise
+  std::size_t visible_points = 0;   // number of visible points; the rest of `points` are hole fill points
+  std::size_t removed_points = 0;   // points that would be visible, but were removed as floating noise
   std::size_t crumbs = 0;           // number of small pieces that were left out
   // The table or background that was found, in the coordinates of `points`. It is left out unless
   // View::has_plane.
@@ -51,10 +51,10 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points);
 
 // Returns the surface of the part of the cloud that the view crops. Normals are estimated if the cloud has
 // none, and turned if they point inwards. Noise is removed as the view asks for. Pieces of less than 0.5 % of
-// what is seen are left out as crumbs, and so is a support plane with what is behind it if the view says so.
-// Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
-// are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind
-// cancelled.
+// the visible surface are left out as crumbs. If the view says so, a support plane and all points behind it
+// are left out, too. Errors: kind geometry if a coordinate is not finite, normals do not match the points,
+// fewer than 4 points are given or face the viewer, all are equal or on one line, or the visible points
+// enclose no area; kind cancelled.
 Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -27,8 +27,8 @@ struct Crop {
 struct View {
   Mat3 R_view_model = Mat3::Identity();
   Crop crop = {};
-  bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
-  bool has_plane = true;  // shows the table or background that the figure stands on, see find_support_plane()
+  bool has_crumbs = false;             // shows small pieces of the surface (crumbs), see find_surface()
+  bool has_plane = true;               // shows a table or background, see find_support_plane()
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
   // The best side is still to be chosen, when the model is known: see chosen_view() in scene.h.
   bool is_best = false;
@@ -50,11 +50,11 @@ Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::Uni
 // `up`. Errors: kind option for any other text, and for an `up` that is parallel to the view.
 Result<View> parse_view(std::string_view text, std::string_view up = {});
 
-// Returns the part of a model that "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR" names, all of it for an empty
-// text. Errors: kind option for anything but such numbers, in [0, 1] and ascending.
+// Returns the part of a model given as "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR"; all of it for an empty text.
+// Errors: kind option for anything but such numbers, in [0, 1] and ascending.
 Result<Crop> parse_crop(std::string_view text);
 
-// Returns the noise to remove that "auto" or a number in [0, 1] names, see View. Errors: kind option for any
+// Returns the noise to remove, given as "auto" or a number in [0, 1], see View. Errors: kind option for any
 // other text; the error's input is empty, for the caller to fill in.
 Result<std::optional<double>> parse_denoise(std::string_view text);
 
@@ -79,9 +79,9 @@ struct ViewGuess {
 
 // Returns the six sides along the axes, the one with the highest score first, each upright. Outliers are left
 // out, and normals estimated if the cloud has none. A cloud that was scanned from one side gets that side:
-// hollow backs have the score 0. Other models have Y upwards and their front towards +Z, as glTF has them,
-// unless they stand on a wide foot along Z and on none along Y: then Z is upwards and the front is -Y. The
-// front's score is multiplied by 1.6.
+// hollow backs have the score 0. Other models have Y upwards and their front towards +Z, as in glTF, unless
+// they have a wide foot along Z and none along Y: then Z is upwards and the front is -Y. The front's score is
+// multiplied by 1.6.
 std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
 
 }  // namespace relievo

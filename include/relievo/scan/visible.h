@@ -1,5 +1,5 @@
-// Visible points (stage 3): which points of a scattered cloud are not hidden by others, and which points
-// stand in for a front that was not scanned.
+// Visible points (stage 3): finds the points of a scattered cloud that are not hidden by others, and points
+// that replace a front that was not scanned.
 #pragma once
 
 #include <span>
@@ -23,16 +23,16 @@ std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing);
 
 struct VisiblePoints {
   std::vector<Index> points;
-  std::size_t removed = 0;  // number of points that would be visible, but are taken for floating noise
+  std::size_t removed = 0;  // number of points that would be visible, but are removed as floating noise
 };
 
 // Returns the same points, and how many were removed.
 VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing);
 
-// Returns the numbers of points, ascending, that stand in for missing data: points that face away from the
-// viewer and have no visible point near them in the view plane. The scan shows the back of the model there
-// but not its front; with these points the relief has no hole there, only a flat spot. Any two of them are at
-// least 0.7 rho apart.
+// Returns the indices, ascending, of points that replace missing data: points that face away from the viewer
+// and have no visible point near them in the view plane. The scan shows the back of the model there but not
+// its front; with these points the relief has no hole there, only a flat spot. Any two of the returned points
+// are at least 0.7 rho apart.
 std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
                                     std::span<const Index> visible);
 
