@@ -70,7 +70,7 @@ Result<StreamRecords> find_las_rows(const Source& head);
 enum class Content { points, triangles, both };
 
 struct Format {
-  std::string_view name;     // for people
+  std::string_view name;     // shown to people
   std::string_view endings;  // of file names, separated by blanks
   Content content;
   bool (*is_format)(const Source&);
@@ -95,7 +95,7 @@ inline constexpr std::array formats = {
 // An unsupported format that errors can name.
 struct ForeignFormat {
   std::string_view mark;  // the beginning of the content, or the ending of the name
-  std::string_view what;  // for people
+  std::string_view what;  // shown to people
 };
 
 inline constexpr std::array<ForeignFormat, 15> foreign_beginnings = {{{"\x89PNG", "a PNG picture"},

@@ -158,10 +158,10 @@ class ObjReader {
   std::string joined_;
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
-  std::vector<Corner> corners_;         // of all faces
+  std::vector<Corner> corners_;         // corners of all faces
   std::vector<std::size_t> face_ends_;  // index after the last corner of each face
   Index highest_vertex_ = 0;            // highest index in a face
-  std::size_t highest_line_ = 0;        // where
+  std::size_t highest_line_ = 0;        // line of that face
 };
 
 }  // namespace

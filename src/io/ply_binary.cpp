@@ -104,7 +104,7 @@ class BinaryRows {
   const Source& source_;
   PlyFormat format_;
   std::size_t at_;
-  std::vector<double> values_;  // of the last list, reused to keep its memory
+  std::vector<double> values_;  // values of the last list; it is reused to keep its memory
 };
 
 // Rows with lists differ in size. Each row is therefore copied without its lists, and the copies are decoded
@@ -112,7 +112,7 @@ class BinaryRows {
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;
-  std::vector<std::size_t> place(plain.properties.size());  // where each property is in the copy
+  std::vector<std::size_t> place(plain.properties.size());  // index of each property in the copy
   for (std::size_t i = 0; i < plain.properties.size(); ++i) {
     place[i] = bytes.size();
     if (!plain.properties[i].is_list()) bytes.resize(bytes.size() + size_in_bytes(plain.properties[i].type));

@@ -99,7 +99,7 @@ class PlyHeaderReader {
     if (!has_format_) return lines_.fail("expected a line 'format ...' before end_header, found none");
     header_.lines = lines_.number();
     header_.data_offset = lines_.offset();
-    // Where CR alone ends the lines, an LF after it is the first byte of the data.
+    // If lines end with CR alone, an LF after the last one is the first byte of the data.
     const std::string_view bytes = lines_.source().bytes;
     const std::size_t first_end = bytes.find_first_of("\r\n");
     const bool ends_with_cr_alone = bytes.substr(first_end, 2) != "\r\n" && bytes[first_end] == '\r';

@@ -22,7 +22,7 @@ struct PlyProperty {
 
 struct PlyElement {
   std::string_view name;
-  std::uint64_t count = 0;  // as stated in the header, which may be wrong
+  std::uint64_t count = 0;  // number of rows as stated in the header, which may be wrong
   std::vector<PlyProperty> properties;
   std::size_t line = 0;  // line of its declaration
 };

@@ -56,7 +56,7 @@ class SourceLines : public Lines {
 // The content of a file before unusable points are removed.
 struct RawCloud {
   Cloud cloud;         // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
-  std::string format;  // for people
+  std::string format;  // shown to people
   Mesh mesh = {};      // a copy of the same points with the file's triangles; empty if it has none
   std::size_t missing_points = 0;  // promised by the header, but missing because the file ends early
 };

@@ -21,7 +21,7 @@ struct RecordColumn {
 
 struct Records {
   std::uint64_t offset = 0;  // offset of the first row in the file
-  std::uint64_t count = 0;   // of rows
+  std::uint64_t count = 0;   // number of rows
   std::size_t stride = 0;    // bytes from row to row
   bool is_big_endian = false;
   std::array<RecordColumn, 3> position;
@@ -31,7 +31,7 @@ struct Records {
 // The rows of a file that can be read piece by piece.
 struct StreamRecords {
   Records records;
-  std::string format;              // for people
+  std::string format;              // shown to people
   std::uint64_t faces = 0;         // faces of a mesh, which are not read
   bool may_end_early = false;      // a file with fewer rows than promised is read up to its end
   std::uint64_t missing_rows = 0;  // promised, but missing because the file ends early

@@ -230,7 +230,7 @@ class ViewGrid {
   Mat3 turn_;
   const Scout& scout_;
   bool has_normals_, has_colours_;
-  std::vector<Place> places_;  // of the current piece
+  std::vector<Place> places_;  // points of the current piece
   std::uint64_t points_ = 0;
   Box box_;
   double square_ = 0;

@@ -133,7 +133,7 @@ void take_columns(const ColumnNames& names, XyzLayout& layout) {
 void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   if (layout.columns < 6 && !has_name) return;
   const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
-  // If other rows begin with a number, the first column is no name: the word in it stands for a missing
+  // If other rows begin with a number, the first column is not a name: a word in it replaces a missing
   // coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });

@@ -63,8 +63,8 @@ bool are_numbers(std::string_view text) {
   return true;
 }
 
-// Returns the end of the quoted text at the beginning of a line, 0 if there is none. Two quotation marks
-// stand for one.
+// Returns the end of the quoted text at the beginning of a line, 0 if there is none. Inside it, two quotation
+// marks mean one.
 std::size_t end_of_quoted(std::string_view line) {
   std::size_t at = 0;
   while (at < line.size() && is_blank(line[at])) ++at;

@@ -25,7 +25,7 @@ enum class Part : std::uint8_t {
 // The part of each triangle, and corner normals for triangles that are not shaded by the normals of their
 // points.
 struct PlateParts {
-  std::vector<Part> parts;                           // per triangle
+  std::vector<Part> parts;                           // part of each triangle
   std::vector<Index> corners_at;                     // per triangle: index into corner_normals, or no_index
   std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
   std::size_t front_triangles = 0;                   // number of front triangles, which come first
@@ -45,11 +45,11 @@ struct DrawnBody {
   double mm_per_place = 1;
   std::span<const float> heights;  // in units of mm_per_height
   float mm_per_height = 1;
-  std::span<const Vec3f> normals;         // of the points of the relief, unit length
+  std::span<const Vec3f> normals;         // normals of the relief's points, unit length
   float stretch = 1;                      // factor that makes these normals steeper
   const SurfaceDetail* detail = nullptr;  // shown between the points with `gains`, see Shown
   std::span<const float> gains = {};
-  Vec2f middle = Vec2f::Zero();  // of the surface's points, in the coordinates of `detail`
+  Vec2f middle = Vec2f::Zero();  // middle of the surface's points, in the coordinates of `detail`
   std::vector<Vec3> box_corners = {};
   Box front = {};  // box of the front's points, in mm
   // Seen from above, no point of the front hides another, so that heights are not needed for that view.

@@ -1,4 +1,4 @@
-// The renderer of all pictures of bodies: previews, live pictures and comparisons.
+// Renders all pictures of bodies: previews, live pictures and comparisons.
 #pragma once
 
 #include <memory>

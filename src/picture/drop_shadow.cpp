@@ -53,7 +53,7 @@ class DropShadow {
   }
 
   int shift_ = 0;
-  Vec2f away_;  // in cells
+  Vec2f away_;  // offset of the shadow, in cells
   Image<float> shade_;
 };
 

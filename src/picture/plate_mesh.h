@@ -15,7 +15,7 @@ struct PlateMesh {
   PlateParts parts;
   std::vector<Vec2> places;      // the surface's points relative to the middle, in its units
   Vec2 half = Vec2::Zero();      // half the size of the points' box
-  Vec2f middle = Vec2f::Zero();  // of their box
+  Vec2f middle = Vec2f::Zero();  // middle of the points' box
 };
 
 PlateMesh plate_mesh(const Surface& surface);

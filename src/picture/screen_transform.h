@@ -25,7 +25,8 @@ struct ScreenTransform {
             height / 2.0 - std::clamp(p.y(), -farthest_px, farthest_px), p.z()};
   }
 
-  // In the view from the front, z is not known and becomes 0.
+  // Returns the point of the body at a position in the picture. In the view from the front, z is unknown and
+  // becomes 0.
   Vec3f to_body(double x, double y, double z) const {
     if (is_front)
       return {static_cast<float>((x - width / 2.0) * (1 / pixels_per_mm) + pan.x()),

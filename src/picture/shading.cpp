@@ -53,14 +53,14 @@ constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// The viewer stands this many times half of the body's longer side away, so that each place of level ground
-// mirrors another part of the room, and the ground is not of one tone.
+// The viewer's distance, in units of half of the body's longer side. It is finite, so that each place of
+// level ground mirrors another part of the room, and the ground is not of one tone.
 constexpr float viewer_distance = 3.6F;
 
 // The properties by which metals differ.
 struct Metal {
   Vec3f bare, worn;       // colours of the bare metal, and of edges polished by hands
-  Vec3f patina;           // in hollows
+  Vec3f patina;           // colour in hollows
   float diffuse, mirror;  // strengths of scattered and of mirrored light
   float mottle;           // variation of the patina
 };

@@ -52,7 +52,7 @@ class CachedVisibility {
   struct Key {
     ScreenTransform transform;
     double mm_per_place = 0;
-    Vec2 corner;  // of the plate
+    Vec2 corner;  // corner of the plate
     bool operator==(const Key&) const = default;
   };
   VisibilityBuffer buffer_;

@@ -41,16 +41,16 @@ struct LiveModel::State {
 
   TurnedRelief shown;
   std::vector<SampleNote> notes;
-  double longer_side;  // of the surface, in its units
+  double longer_side;  // longer side of the surface, in its units
 
   std::optional<FrameMaker> maker;        // none before the first frame
   std::optional<FrameRenderer> renderer;  // none before the first picture
-  std::vector<float> gains;               // of the frame
+  std::vector<float> gains;               // gains of the last frame
   Frame frame, highest;
   std::optional<FrameOptions> made;  // options of the frame; none before the first
   LiveFrame last;
 
-  std::shared_ptr<const ToneCurve> curve;  // of the last frame that had one
+  std::shared_ptr<const ToneCurve> curve;  // curve of the last frame that had one
   std::vector<double> sizes;               // sizes of the plate for which most_width_mm was computed
   std::optional<double> most_width_mm;
 
@@ -139,7 +139,7 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
   }
   sized.width_mm = options.width_mm.value_or(*most_mm);
   if (*sized.width_mm > *most_mm)
-    return relievo::with_width(model().surface(), sized);  // its error says why the width is refused
+    return relievo::with_width(model().surface(), sized);  // its error states why the width is refused
   return sized;
 }
 

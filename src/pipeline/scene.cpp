@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // in units of a model's height
+constexpr double gap = .08, widest = 1.5;  // gap and largest width, in units of a model's height
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");

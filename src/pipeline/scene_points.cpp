@@ -89,7 +89,7 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   placed.cloud = without_repeated_points(std::move(placed.cloud));
   if (placed.cloud.size() < given)
     parts.notes.push_back({SampleNote::Kind::repeated, model.name, given - placed.cloud.size()});
-  placed.cloud.is_height_field = false;  // other models may stand in front of it
+  placed.cloud.is_height_field = false;  // other models may be in front of it
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
   for (Vec3f& n : placed.cloud.normals) n = turn * n;

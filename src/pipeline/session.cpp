@@ -24,15 +24,15 @@ struct Waiting {
 // The state that the callers and the session's thread share.
 struct Shared {
   std::optional<Waiting> waiting;
-  std::shared_ptr<Progress> progress;  // of the running preparation
+  std::shared_ptr<Progress> progress;  // progress of the running preparation
   std::shared_ptr<const ReliefModel> model;
   std::weak_ptr<const Cloud> of_model;  // the points from which the model was made
   SessionStatus status;
   Measured measured;  // last
   std::function<Preparation::Points(Progress&)> all_sides;
-  std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
+  std::shared_ptr<const Turntable> turntable;  // turntable of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // progress of the newest turn(), until it returns
-  std::optional<TurnedRelief> first;           // in first_view, until there is a model
+  std::optional<TurnedRelief> first;           // relief in first_view, until there is a model
   View first_view;
   std::shared_ptr<Progress> making_first;  // not null while `first` is made; status() then refuses turn()
 

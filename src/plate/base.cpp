@@ -54,7 +54,7 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double half_extent = 0;  // of the plate: across the straight lines, or for a dome in any direction
+  double half_extent = 0;  // half of the plate's extent across the straight lines; for a dome its radius
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
     half_extent =

@@ -15,10 +15,10 @@ constexpr double shortest_mm = 4e-3;  // a few steps of single precision at 10 m
 constexpr int most_refinements = 60;  // each one halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
 
-// The place where a triangle is to be split.
+// The way in which a triangle will be split.
 struct Split {
-  // Per edge, the position of the split as a share of the way from its lower to its higher index; 0 if it is
-  // not split.
+  // The position of the split on each edge, as a share of the way from its lower to its higher index; 0 if
+  // the edge is not split.
   std::array<double, 3> shares = {};
   std::optional<Vec3> place;  // a point inside, if no edge is split
   double left_mm = 0;         // largest deviation sampled, if nothing is split
@@ -281,8 +281,8 @@ class Refiner {
   IndexPolygon& outline_;
   const Deformation& deformation_;
   double tolerance_, left_mm_ = 0;
-  std::vector<Vec3> deformed_;    // per point
-  std::vector<Index> origin_;     // per triangle, the original one of which it is a part
+  std::vector<Vec3> deformed_;    // deformed points
+  std::vector<Index> origin_;     // the original triangle of each triangle
   std::vector<Index> active_;     // the triangles that are new in this round
   std::vector<Between> between_;  // this round's points on edges, sorted by their ends
   Index first_between_ = 0, first_within_ = 0;

@@ -76,7 +76,7 @@ class FieldRows {
 
  private:
   // The tolerance, in pixels, that makes a centre on an edge belong to both triangles in spite of rounding.
-  static constexpr double rounding = 1e-9;  // pixels
+  static constexpr double rounding = 1e-9;
   static int first_from(double centre) { return static_cast<int>(std::ceil(centre - rounding)); }
   static int end_after(double centre) { return static_cast<int>(std::floor(centre + rounding)) + 1; }
 

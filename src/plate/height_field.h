@@ -11,7 +11,7 @@ namespace relievo {
 // The front's box lies in the picture's middle, and its longer side fills the picture.
 struct HeightField {
   double mm_per_pixel = 0;
-  Box box;         // of the front
+  Box box;         // box of the front
   Image<float> z;  // millimetres above the front's lowest point; 0 beside the front
   Image<std::uint8_t> is_beside =
       {};  // 1 for a pixel beside the front; empty if there are none or they are not marked

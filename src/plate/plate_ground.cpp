@@ -12,7 +12,7 @@ namespace {
 
 // A corner of the rim's cross-section.
 struct RimProfilePoint {
-  double inward_mm = 0;  // from the outline
+  double inward_mm = 0;  // distance from the outline
   double height_mm = 0;  // above the ground
 };
 

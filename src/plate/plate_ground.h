@@ -32,7 +32,7 @@ std::vector<Vec2> rim_inner_polygon(const PlateOutline& outline, const RimOption
 
 struct GroundOptions {
   RimOptions rim;
-  double spacing = std::numeric_limits<double>::infinity();  // of the points on outline and ground
+  double spacing = std::numeric_limits<double>::infinity();  // spacing of the points on outline and ground
 };
 
 // Adds the ground to the placed front, with its regions, and returns the outline's points. With a finite

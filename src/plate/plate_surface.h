@@ -15,11 +15,11 @@ namespace relievo {
 struct PlateSurface {
   Solid solid;                                               // without walls and bottom
   IndexPolygon outline;                                      // empty if the plate has no ground
-  double spacing = std::numeric_limits<double>::infinity();  // of the points on the ground
+  double spacing = std::numeric_limits<double>::infinity();  // spacing of the points on the ground
 };
 
 inline constexpr Colour plate_colour = {200, 200,
-                                        200};  // of ground, walls and bottom of a coloured relief: light grey
+                                        200};  // light grey: ground, walls and bottom of a coloured relief
 
 // Colours the points that were added to a coloured front as plate.
 void fill_colours(Solid& solid);

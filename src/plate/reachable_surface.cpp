@@ -19,7 +19,7 @@ namespace {
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
 constexpr double least_left_mm = 1e-3;  // a smaller residual counts as reached
-constexpr double most_lift_mm = .01;    // by which a point that stays may be lifted
+constexpr double most_lift_mm = .01;    // limit for lifting a point that stays
 
 // The heights that the tool leaves above a surface, and the heights of the surface itself.
 class ToolHeights {

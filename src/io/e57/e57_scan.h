@@ -21,7 +21,7 @@ struct E57Scan {
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
   std::optional<std::size_t> invalid;    // column that is not 0 for points the scanner could not measure
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // from the scanner's frame to the file's,
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // rotation from scanner's to file's frame,
   Vec3 origin = Vec3::Zero();                                // and the translation that follows it
 };
 

@@ -16,9 +16,9 @@ namespace relievo::io {
 struct PackedColumn {
   enum class Kind : std::uint8_t { integer, float32, float64 };
 
-  std::string_view name;  // for messages
+  std::string_view name;  // name of the column, for messages
   Kind kind = Kind::integer;
-  unsigned bits = 0;            // per number; an integer of 0 bits is always the minimum
+  unsigned bits = 0;            // bits per number; an integer of 0 bits is always the minimum
   std::int64_t minimum = 0;     // added to integers
   double scale = 1, shift = 0;  // the value is scale * number + shift
   bool is_wanted = false;       // columns that are not wanted have no bytes

@@ -67,7 +67,7 @@ class GltfFile {
   const Source* source_;
   Json json_;
   std::string_view binary_;                                // GLB's own buffer
-  std::map<std::string, std::vector<std::byte>> loaded_;   // by uri
+  std::map<std::string, std::vector<std::byte>> loaded_;   // contents of buffers, by URI
   std::map<std::size_t, std::vector<std::byte>> decoded_;  // bytes of compressed views, by the view's index
 };
 

@@ -1,4 +1,4 @@
-// The accessors of a glTF file, which state how its buffers are to be read as numbers.
+// The accessors of a glTF file, which describe the numbers in its buffers.
 #include <algorithm>
 #include <array>
 

@@ -115,7 +115,7 @@ class Attributes {
 
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
-    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block, bytes
+    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block
     // Checks the sizes before memory is allocated. On 32-bit systems the product could overflow.
     if (count / block > body_size_ / least_size || count > std::numeric_limits<std::size_t>::max() / stride_)
       return std::nullopt;
@@ -157,8 +157,8 @@ class Attributes {
 
   MeshoptBytes from_;
   std::size_t body_size_, stride_;
-  bool has_modes_;                                // in version 1
-  std::array<std::uint8_t, most_stride> last_{};  // the element before
+  bool has_modes_;                                // true in version 1
+  std::array<std::uint8_t, most_stride> last_{};  // the previous element
   std::array<std::uint8_t, most_stride / channel_size> modes_{};
 };
 

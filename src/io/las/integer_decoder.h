@@ -9,7 +9,7 @@
 
 namespace relievo::io {
 
-// Decodes integers of that many bits, 2 to 32. The caller knows the context of a number; the sizes of the
+// Decodes integers of that many bits, 2 to 32. The caller states the context of a number; the sizes of the
 // differences have one model per context.
 class IntegerDecoder {
  public:
@@ -25,9 +25,9 @@ class IntegerDecoder {
 
   unsigned bits_;
   std::uint32_t last_bits_ = 0;
-  std::vector<SymbolModel> sizes_;                     // by context
-  BitModel small_;                                     // for the differences 0 and 1
-  std::vector<std::optional<SymbolModel>> high_bits_;  // for other differences, by size; made on first use
+  std::vector<SymbolModel> sizes_;                     // model of the sizes, by context
+  BitModel small_;                                     // model of the differences 0 and 1
+  std::vector<std::optional<SymbolModel>> high_bits_;  // models of others, by size; made on first use
 };
 
 // Returns a + b modulo 2^32.

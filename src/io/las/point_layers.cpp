@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 16> layered_return_contexts = {
     "4344444454444444", "5344444445444444", "5344444444544444", "5334444444455444",
     "5334444444455544", "5334444444445554", "5334444444444555", "5334444444444455"};
 
-constexpr std::uint32_t changes_scanner_bit = 64;  // the bit of the changes that stands for another scanner
+constexpr std::uint32_t changes_scanner_bit = 64;  // set in `changes` if the scanner differs
 
 std::uint32_t symbol_of(std::optional<SymbolModel>& model, ArithmeticDecoder& decoder) {
   if (!model) model.emplace(16);

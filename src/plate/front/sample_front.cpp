@@ -294,8 +294,8 @@ class Sampler {
   SampleGrid grid_;
   PointSet band_points_;
   HeightFieldMesh out_;
-  std::vector<Vec2f> slopes_;           // of the points of out_; NaN for points of the given front
-  std::vector<std::uint8_t> is_fixed_;  // per point of the band
+  std::vector<Vec2f> slopes_;           // slopes at the points of out_; NaN for points of the given front
+  std::vector<std::uint8_t> is_fixed_;  // whether each point of the band stays
   double low_ = 0, high_ = 0;
   int divisions_ = 1;
 };

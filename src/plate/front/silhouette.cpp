@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-constexpr double smallest_piece = 1e-3;  // of the relief's area; smaller ones are specks of the scan
+constexpr double smallest_piece = 1e-3;  // share of the relief's area; smaller parts are specks of the scan
 
 // Returns, per point, whether the boundary passes it more than once.
 std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, std::size_t points) {

@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-using BoundaryEdge = std::array<Index, 2>;  // from, to; the triangle lies to its left, seen from +Z
+using BoundaryEdge = std::array<Index, 2>;  // from, to; the triangle lies to the left, seen from +Z
 
 // Returns the edges that belong to one triangle only, sorted.
 std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles);

@@ -30,7 +30,7 @@ constexpr double steep_tolerance_mm = 1e-6;
 struct Candidate {
   Index triangle;
   double error;
-  Index point;  // of the original; no_index for a point on one of its edges
+  Index point;  // index in the original; no_index for a point on one of its edges
   Vec3 place;
   Colour colour = {};
 };
@@ -360,13 +360,13 @@ class Simplifier {
   const HeightFieldMesh& front_;
   SimplifyOptions options_;
   double error_ = 0;
-  std::vector<double> slopes_sq_;  // per triangle of the approximation
+  std::vector<double> slopes_sq_;  // squared slopes of the approximation's triangles
   std::vector<Edge> edges_;
-  std::vector<std::uint8_t> is_chosen_;  // per point of the original
+  std::vector<std::uint8_t> is_chosen_;  // whether each point of the original is chosen
   std::vector<Vec3> chosen_;
-  std::vector<Index> original_;  // per chosen point, its index in the original; no_index for one on an edge
+  std::vector<Index> original_;  // indices of chosen points in the original; no_index for points on edges
   std::vector<Colour> colours_;
-  std::vector<Index> containing_;  // per point of the original, the triangle that contains it
+  std::vector<Index> containing_;  // the triangle that contains each point of the original
 };
 
 }  // namespace
