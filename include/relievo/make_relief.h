@@ -66,8 +66,8 @@ struct ReliefReport : ScanReport {
   double scale = 1;
   Vec3 offset = Vec3::Zero();
 
-  std::optional<Tool> tool;        // the tool that was asked for
-  std::optional<ToolReach> reach;  // the part of the front that it reaches
+  std::optional<Tool> tool;        // the tool of the options
+  std::optional<ToolReach> reach;  // the tool's reach on the front
 
   // Largest difference between the simplified front and the full one, if a tolerance or a number of triangles
   // was given.

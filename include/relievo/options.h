@@ -90,9 +90,9 @@ struct ReliefOptions : NumericOptions {
   double effective_boundary_width() const;
 };
 
-// Checks every range, and that options do not contradict each other: height and alpha; alpha and a method
-// other than the paper's; saturation or detail for a method that has none; a size of the plate that its
-// outline cannot have. Errors: kind option, naming the option.
+// Checks every range, and that options do not contradict each other. These do: height and alpha; alpha and a
+// method other than the paper's; saturation or detail for a method that has none; a size of the plate that
+// its outline cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

@@ -21,7 +21,7 @@ struct ReliefOptions;
 // which excludes outliers, and then moved.
 struct Pose {
   Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z, all fixed axes; 90 about z takes x to y
-  std::optional<Vec3> translate = {};  // translation in the units of the files
+  std::optional<Vec3> translate = {};  // movement, in the units of the files
   double scale = 1;                    // above 0
   bool is_mirrored = false;            // x is reversed, before all else
 
@@ -84,8 +84,8 @@ double usual_points(const Scene& scene);
 
 // Returns the points of all placed models, in the scene's frame. `points` is the wanted number of points, by
 // default usual_points().
-// - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds come
-//   whole, without outliers.
+// - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds keep
+//   all points but outliers.
 // - All models get about the same sampling distance: that of the finest cloud, or the distance at which the
 //   wanted number of points is visible, if that is larger or the scene has meshes. Finer clouds are thinned
 //   to it. Of much coarser clouds only the visible points are taken, and points are added between them.

@@ -18,7 +18,7 @@ struct SessionStatus {
   bool is_preparing = false;
   std::string stage;           // current stage of the preparation, see Progress
   double fraction = 0;         // share of the preparation that is done, in [0, 1]
-  std::optional<Error> error;  // the last preparation failed or was cancelled; none while one runs
+  std::optional<Error> error;  // of the last preparation, failed or cancelled; none while one runs
   // True once the points are measured, long before their first model is ready, and the first coarse relief,
   // if wanted, is made.
   bool can_turn = false;

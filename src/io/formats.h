@@ -71,7 +71,7 @@ enum class Content { points, triangles, both };
 
 struct Format {
   std::string_view name;     // shown to people
-  std::string_view endings;  // of file names, separated by blanks
+  std::string_view endings;  // endings of file names, separated by blanks
   Content content;
   bool (*is_format)(const Source&);
   Result<RawCloud> (*read)(const Source&);

@@ -1,5 +1,5 @@
-// OFF: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a vertex.
-// The keyword may be missing.
+// Reads OFF: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a
+// vertex. The keyword may be missing.
 #include <algorithm>
 #include <utility>
 

@@ -32,7 +32,7 @@ inline constexpr std::array luminance_shares = {.2126F, .7152F, .0722F};
 
 struct PictureFormat {
   std::string_view name;     // shown to people
-  std::string_view endings;  // of file names, separated by blanks
+  std::string_view endings;  // endings of file names, separated by blanks
   bool (*is_format)(const Source&);
   Result<DepthImage> (*read)(const Source&, const PictureChannels&);
 };

@@ -101,7 +101,7 @@ class AsciiReader {
   }
 
  private:
-  // Lines are not relied on, because some programs do not write line ends.
+  // Takes one statement. Line ends do not matter, because some programs write none.
   Result<void> take(std::string_view keyword, Words& words) {
     if (equals_ignoring_case(keyword, "vertex")) return take_vertex(words);
     if (equals_ignoring_case(keyword, "endfacet")) return end_facet();

@@ -1,4 +1,5 @@
-// Colours, in pictures, the material that a milling tool leaves. Tested by tests/picture/reach_tint_test.cpp.
+// Colours the material that a milling tool leaves in pictures of a body. Tested by
+// tests/picture/reach_tint_test.cpp.
 #pragma once
 
 #include <memory>

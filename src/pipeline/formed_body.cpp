@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-// Limit of simplifications. On plane ground the first guess of the front's share of triangles is right.
+// The largest number of simplifications. On plane ground the first guess of the front's number of triangles
+// is right.
 constexpr int most_attempts = 4;
 constexpr double close_enough = .98;  // share of the triangles asked for
 

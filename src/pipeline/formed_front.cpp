@@ -24,7 +24,8 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
 }
 
 // Returns whether the front is resampled. With a draft angle it is not, because the angle is ensured for the
-// triangles between the given points; nor is a lithophane, whose heights are not those of a surface.
+// triangles between the given points; a lithophane is not, either, because its heights are not those of a
+// surface.
 bool is_sampled(const ReliefOptions& options) {
   return !options.draft_deg && options.form != Form::lithophane;
 }

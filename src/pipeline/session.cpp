@@ -28,7 +28,7 @@ struct Shared {
   std::shared_ptr<const ReliefModel> model;
   std::weak_ptr<const Cloud> of_model;  // the points from which the model was made
   SessionStatus status;
-  Measured measured;  // last
+  Measured measured;  // the last measurement
   std::function<Preparation::Points(Progress&)> all_sides;
   std::shared_ptr<const Turntable> turntable;  // turntable of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // progress of the newest turn(), until it returns
@@ -158,7 +158,8 @@ struct Session::State {
     return MeasuredCloud::measure(*points, view, &progress);
   }
 
-  // Returns the turntable of the points that were measured last. Points of a single view are measured again.
+  // Returns the turntable of the points that were measured last. If these points show only one view, the
+  // points of all sides are measured first.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides] =
         shared.with([](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides); });

@@ -13,7 +13,7 @@ namespace relievo {
 std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid);
 
 // Moves the second point of each such pair towards `middle_z` by the smallest steps of single precision that
-// separate the two; so the solid's box does not grow.
+// separate the two. This way the solid's box does not grow.
 void separate_coincident(Solid& solid, double middle_z);
 
 }  // namespace relievo

@@ -21,7 +21,7 @@ struct PlateSurface {
 inline constexpr Colour plate_colour = {200, 200,
                                         200};  // light grey: ground, walls and bottom of a coloured relief
 
-// Colours the points that were added to a coloured front as plate.
+// Gives plate_colour to the points that were added to a coloured front.
 void fill_colours(Solid& solid);
 
 // Returns the base under a front, in its coordinates. For a plate without ground, the front must be the

@@ -87,7 +87,7 @@ class ToolHeights {
   Image<float> closed_;
 };
 
-// The points of the new surface, and the samples that are taken by them.
+// The points of the new surface, and marks for the samples near them.
 class PointSet {
  public:
   PointSet(const ToolHeights& heights, const Solid& old)

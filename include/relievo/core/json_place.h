@@ -1,4 +1,4 @@
-// The place at which a text stops being JSON.
+// Finds the place at which a text stops being JSON.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ using Vec3 = Eigen::Vector3d;
 using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;
 
-// The number of a point, vertex or triangle. No stage accepts more than 2^32 - 2 of them.
+// The index of a point, vertex or triangle. No stage accepts more than 2^32 - 2 of them.
 using Index = std::uint32_t;
 inline constexpr Index no_index = ~Index{0};
 

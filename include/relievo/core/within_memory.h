@@ -1,4 +1,4 @@
-// Reports that memory ran out as an error. Tested by tests/core/within_memory_test.cpp.
+// Turns failed allocations into errors. Tested by tests/core/within_memory_test.cpp.
 #pragma once
 
 #include <cstddef>

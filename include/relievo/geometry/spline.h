@@ -41,7 +41,7 @@ class MultilevelSpline {
   struct Workspace {
     std::vector<float> rest;        // residual of the levels so far, per site
     std::vector<float> coarser;     // nodes of the level before
-    std::vector<float> correction;  // per node
+    std::vector<float> correction;  // correction by the current level, per node
   };
 
   MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites: functions are 0

@@ -6,7 +6,7 @@
 namespace relievo {
 
 // Returns the steepest slope (tangent) of the front's triangles, with corners rounded to single precision as
-// in files. Infinite if a triangle is vertical or overhangs, unless it is level.
+// in files. The result is infinite if a triangle whose corners differ in height is vertical or overhangs.
 double steepest_slope(const Solid& solid);
 
 // Moves points of the solid's front up or down, as far as rounding to single precision requires, until none

@@ -34,8 +34,8 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 // brightest, to `height_mm`. A plate transmits light as exp(-thickness), so a height is minus the logarithm
 // of the brightness. The brightness is that of a white model under a lamp from the upper left, times the
 // luminance of the model's colours if it has any. Highlights, the brightest 2 % of the points, count as
-// equally bright. The ground and the outline are dark; so are points below a tenth of the brightest or, if a
-// model has dark colours, the darkest tenth of its points.
+// equally bright. The ground and the outline are dark; so are points that are less than a tenth as bright as
+// the brightest ones or, if a model has dark colours, the darkest tenth of its points.
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

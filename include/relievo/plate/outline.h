@@ -48,7 +48,7 @@ Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUni
 // fill in.
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns whether the outline may have any width and height: those with straight sides or axes.
+// Returns whether any width and height can be given for the outline: true for rectangles and ellipses.
 bool has_free_size(Outline outline);
 
 // Returns true if the outline is the box around the points, grown by the margin: opposite sides are equal,

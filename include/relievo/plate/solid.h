@@ -105,12 +105,12 @@ Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& optio
 // make_plate() and Base::over().
 Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the plate bent around its wrap: its front is at right angles to the wrap, its bottom becomes the
-// other side of the shell, and its walls point at the axis. It is moved so that its box starts at the origin.
-// If a rectangle goes all the way around a cylinder or a cone, its two sides are joined. `plate` is the
-// result of make_plate() with the same options. Errors: those of plate_wrap(); kind option if the shell or
-// the relief would reach the axis, if another outline, a rim or a slanting axis goes all the way around, or
-// if there is no wrap.
+// Returns the plate bent around its wrap: its ground lies on the wrap, its bottom becomes the other side of
+// the shell, and its walls point at the axis. It is moved so that its box starts at the origin. If a
+// rectangle goes all the way around a cylinder or a cone, its two sides are joined. `plate` is the result of
+// make_plate() with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief
+// would reach the axis, if another outline, a rim or a slanting axis goes all the way around, or if there is
+// no wrap.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().

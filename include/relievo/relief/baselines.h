@@ -21,7 +21,7 @@ struct EqualiseOptions {
   int largest_window_px = 128;  // the largest neighbourhood, at most picture_px; each next is half as wide
   int windows = 2;              // number of sizes, >= 1
   int bins = 256;               // number of bins of a histogram, over all depths
-  double clip = 12;             // largest bin, in units of the mean of the bins; the excess is spread
+  double clip = 12;             // limit of a bin, in units of the mean bin; the excess is spread over all
   double gradient_gain = 5;     // a in log(1 + a |g|) / a, the weight of a pixel with gradient g
 };
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options = {});

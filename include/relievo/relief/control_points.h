@@ -19,7 +19,7 @@ struct ControlPoints {
   // Indices of the control points; those on the boundary come first.
   std::vector<Index> points;
   std::size_t boundary_points = 0;
-  double radius = 0;  // r2: no point is farther from all control points; 0 if all are chosen
+  double radius = 0;  // r2: every point has a control point this near; 0 if all are chosen
 };
 
 // Returns control points of the points in the view plane, about as many as wanted, by growing regions from

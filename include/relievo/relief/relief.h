@@ -62,7 +62,7 @@ class ReliefModel {
   const HeightSystem* system() const;
   const SubspaceModel* subspace() const;
 
-  // Returns the heights of depth jumps, which Shape::steps adds.
+  // Returns the heights that Shape::steps adds at depth jumps.
   const StepHeights& steps() const;
 
   // Returns the fields that keep the front sides of depth jumps in front in layered reliefs.
@@ -76,7 +76,7 @@ class ReliefModel {
   // gradient-domain compression does, where that is possible.
   MembraneParams membrane_at(double u) const;
 
-  // Returns the shape with membrane_at() its u, if it is layered and sets no membrane.
+  // Returns the shape, with the parameters of membrane_at() for its u if it is layered and sets none.
   Shape with_membrane(Shape shape) const;
 
   // Returns the memory used, in bytes.

@@ -16,10 +16,11 @@ enum class Style {
 
 // Parameters of HeightCorrection, which compresses layered heights.
 struct MembraneParams {
-  double height_share =
-      1;  // height of the relief, as a share of the height that (9) gives its slopes, (0, 1]
-  double pull_length =
-      .1;  // of the longer side, > 0: less pulls points harder to their depth's rank; infinity: no correction
+  // Height of the relief, as a share of the height that (9) gives its slopes, (0, 1].
+  double height_share = 1;
+  // Pull length, as a share of the longer side, > 0. A shorter one pulls points harder to their depth's rank;
+  // infinity switches the correction off.
+  double pull_length = .1;
 
   bool operator==(const MembraneParams&) const = default;
 };

@@ -23,14 +23,15 @@ struct SubspaceOptions {
 // Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
-// Control points with their factored system. Heights of all points follow from theirs: z = ratio z_ref +
-// offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of compressed and reference
-// heights, both solved on the control points; the offset is the part of the compressed ones that a smooth
-// ratio leaves, above all where z_ref passes 0. Multilevel B-splines extend both to all points.
+// Control points with their factored system. The heights of all points follow from those of the control
+// points: z = ratio z_ref + offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of
+// compressed and reference heights, both solved on the control points; the offset is the part of the
+// compressed heights that a smooth ratio cannot represent, above all where z_ref passes 0. Multilevel
+// B-splines extend both to all points.
 //
-// Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 1 to
-// 4 %, low ones most: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
-// its own.
+// Reliefs differ from the exact ones by about 1 % of the height (root mean square), layered ones by 1 to 4 %;
+// low reliefs differ most: docs/decisions/subspace.md. Const calls may run concurrently, each with a
+// workspace of its own.
 class SubspaceModel {
  public:
   // Scratch memory of a relief, so that frames allocate nothing.

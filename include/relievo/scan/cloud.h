@@ -37,7 +37,7 @@ struct Cloud {
 // Returns the box of all points; an empty box for an empty cloud.
 Box bounds(const Cloud& cloud);
 
-// Returns the numbers of points that cannot belong to the model, ascending: those further from its middle
+// Returns the indices, ascending, of points that cannot belong to the model: those further from its middle
 // (the median of each coordinate) than 20 times the distance within which 90 % of the points lie. A single
 // outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its own box.
 std::vector<Index> outliers(const Cloud& cloud);
@@ -48,7 +48,7 @@ std::vector<Index> outliers(const Cloud& cloud);
 // colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
-// Returns the cloud without the points numbered by `erased`, which is ascending.
+// Returns the cloud without the points with the indices `erased`, which are ascending.
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased);
 
 }  // namespace relievo

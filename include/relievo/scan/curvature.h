@@ -16,13 +16,14 @@ struct CurvatureOptions {
   double scale = 2;
 };
 
-// Returns the mean curvature at the points numbered by `queries`: in 1 / length, positive where the surface
-// is convex, clamped to [-1 / rho, 1 / rho]. It is half the divergence of the normals, fitted linearly in the
-// tangent plane: exact on spheres and cylinders, and several times less noisy on scattered points than the
-// paper's equations (2) and (3), whose second derivatives depend on how unevenly the points lie (see
-// docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin wall, do not
-// count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no normals. Normals
-// must have unit length. Once the progress is cancelled, it ends early and the values have no meaning.
+// Returns the mean curvature at the points with the indices `queries`: in 1 / length, positive where the
+// surface is convex, clamped to [-1 / rho, 1 / rho]. It is half the divergence of the normals, fitted
+// linearly in the tangent plane: exact on spheres and cylinders, and several times less noisy on scattered
+// points than the paper's equations (2) and (3), whose second derivatives depend on how unevenly the points
+// lie (see docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin
+// wall, do not count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no
+// normals. Normals must have unit length. Once the progress is cancelled, it ends early and the values have
+// no meaning.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 

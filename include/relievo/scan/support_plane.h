@@ -20,7 +20,7 @@ struct SupportPlane {
   PlaneKind kind = PlaneKind::background;
   Vec3 normal = Vec3::UnitZ();  // unit length, towards the viewer and the figure
   double offset = 0;
-  double tolerance = 0;  // points that are at most this far from it belong to it, in the cloud's units
+  double tolerance = 0;  // points at most this far from the plane belong to it, in the cloud's units
   double share = 0;      // share of the visible points that belong to the plane
 
   // Returns whether a point is not part of the figure, because it lies behind the plane, or on it with a
@@ -30,7 +30,7 @@ struct SupportPlane {
 };
 
 // Returns the plane on which or in front of which the visible points of a cloud stand; nothing if there is
-// none. `viewed` is in view coordinates and has normals, `visible` are the numbers of its visible points, and
+// none. `viewed` is in view coordinates and has normals, `visible` are the indices of its visible points, and
 // rho is its sampling distance. A table is level from the left to the right and rises away from the viewer;
 // other planes that face the viewer are backgrounds. A face of a solid is no support plane: all but a few of
 // the other points have to lie in front of the plane and over it, and to rise far above it relative to their

@@ -30,7 +30,7 @@ struct View {
   bool has_crumbs = false;             // shows small pieces of the surface (crumbs), see find_surface()
   bool has_plane = true;               // shows a table or background, see find_support_plane()
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
-  // The best side is still to be chosen, when the model is known: see chosen_view() in scene.h.
+  // The best side is still to be chosen, once the model is known: see chosen_view() in scene.h.
   bool is_best = false;
 
   bool operator==(const View&) const = default;

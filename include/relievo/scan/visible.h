@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Returns the numbers of the visible points, ascending. `viewed` is in view coordinates and has normals;
+// Returns the indices of the visible points, ascending. `viewed` is in view coordinates and has normals;
 // without normals the result is empty.
 //
 // Every point that faces the viewer is drawn as a disc into a depth buffer, oriented by its normal and as
@@ -26,7 +26,7 @@ struct VisiblePoints {
   std::size_t removed = 0;  // number of points that would be visible, but are removed as floating noise
 };
 
-// Returns the same points, and how many were removed.
+// Returns the same points, and the number of removed ones.
 VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing);
 
 // Returns the indices, ascending, of points that replace missing data: points that face away from the viewer

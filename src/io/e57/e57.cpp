@@ -1,5 +1,5 @@
-// E57 1.0 (ASTM E2807-11): the points of all scans, each moved by its pose. Pictures and intensities are not
-// read.
+// Reads E57 1.0 (ASTM E2807-11): the points of all scans, each moved by its pose. Pictures and intensities
+// are not read.
 #include <algorithm>
 #include <cmath>
 

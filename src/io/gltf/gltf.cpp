@@ -1,4 +1,4 @@
-// glTF 2.0: the triangles and points of the scene's meshes, transformed by their nodes.
+// Reads glTF 2.0: the triangles and points of the scene's meshes, transformed by their nodes.
 #include "io/gltf/gltf.h"
 
 #include <Eigen/Geometry>
@@ -15,9 +15,9 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
-constexpr std::size_t most_vertices = 100'000'000;  // nodes of a small file can repeat a mesh
+constexpr std::size_t most_vertices = 100'000'000;  // small files can repeat a mesh often
 
-constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // of copies, applied in this order
+constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of application
 
 constexpr std::size_t points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 

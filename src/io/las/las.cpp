@@ -1,4 +1,4 @@
-// LAS 1.0 to 1.5, point formats 0 to 10, not compressed.
+// Reads LAS 1.0 to 1.5, point formats 0 to 10, not compressed.
 #include <algorithm>
 
 #include "io/formats.h"

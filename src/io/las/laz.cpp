@@ -1,5 +1,5 @@
-// LAZ: LAS compressed by LASzip 2 or later (M. Isenburg, "LASzip: lossless compression of LiDAR data", 2013,
-// and the specification of LAZ 1.4), point formats 0 to 10, in chunks or as a whole.
+// Reads LAZ: LAS compressed by LASzip 2 or later (M. Isenburg, "LASzip: lossless compression of LiDAR data",
+// 2013, and the specification of LAZ 1.4), point formats 0 to 10, in chunks or as a whole.
 #include <atomic>
 #include <memory>
 
@@ -135,7 +135,7 @@ bool decode_layers(const LazLayout& layout, const LazChunk& chunk, const LazPoin
   return true;
 }
 
-// Colours should have 16 bits, but some programs write 8.
+// Sets the colours as bytes. They should be stored with 16 bits, but some programs write 8.
 void set_colours(Cloud& cloud, const std::vector<LazColour>& colours) {
   std::uint16_t highest = 0;
   for (const LazColour& colour : colours) highest = std::max(highest, std::ranges::max(colour));

@@ -10,7 +10,7 @@ namespace relievo::io {
 namespace {
 
 constexpr std::size_t record_header = 54;   // size of the header of a variable-length record
-constexpr std::uint32_t chunks_vary = ~0U;  // this number of points per chunk means that it varies
+constexpr std::uint32_t chunks_vary = ~0U;  // stored instead of the points per chunk if these vary
 constexpr std::uint64_t most_points_a_byte =
     256;  // limit; 40 was measured for a row of points at equal steps
 

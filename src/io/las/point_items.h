@@ -52,7 +52,7 @@ class ColourItem : public PointItem {
   ColourModels models_;
 };
 
-// Coordinates, intensity, returns and the rest of a point of 20 bytes.
+// Decodes the first 20 bytes of a point: coordinates, intensity, returns and more.
 class PositionItem : public PointItem {
  public:
   void start(const char* raw) override;

@@ -260,7 +260,7 @@ class Sampler {
     return std::move(out_);
   }
 
-  // A triangle is part of the relief if its centre is.
+  // Marks the triangles whose centre is in the relief as parts of it.
   void tell_relief(const std::vector<Vec2>& plane) {
     const double near = 2 * grid_.step;
     std::vector<Segment> edges;

@@ -19,7 +19,7 @@ namespace {
 
 // Height of a triangle as a share of the front's size: 8 to 16 units in the last place of its coordinates.
 constexpr double thinnest = 0x1p-20;
-constexpr double most_moved_mm = 1e-3;  // limit for flips of triangles that files store unfolded
+constexpr double most_moved_mm = 1e-3;  // limit of moves by flips, for triangles that files store unfolded
 
 // Flips one edge after another. Each flip makes the thinner of two triangles wider, so that the flipping
 // ends.
