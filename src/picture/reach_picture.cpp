@@ -13,7 +13,7 @@ namespace {
 constexpr float background = 236, darkest = 40, brightest = 225;
 const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // colours of small and of large residuals
 
-// The average of the square of samples that a pixel shows.
+// A pixel's average of the square of samples that it shows.
 struct Averaged {
   Vec3f colour = Vec3f::Zero();
   int samples = 0;

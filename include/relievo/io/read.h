@@ -22,7 +22,8 @@ std::string readable_formats();
 std::vector<std::string> readable_endings();
 
 // Returns the bytes of another file to which the file being read refers, such as a buffer of a glTF. The name
-// is relative to the folder of the file being read, in UTF-8, and does not lead out of that folder.
+// is relative to the folder of the file being read, in UTF-8, and does not lead out of that folder. An error
+// is not passed on: the reader reports only that the file cannot be read.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
 // Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content,
