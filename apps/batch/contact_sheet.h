@@ -15,8 +15,8 @@ inline constexpr std::size_t tiles_per_sheet = 144;
 // Returns the pixels of a PNG, with 3 channels; empty if it cannot be read.
 Image8 read_png(std::span<const std::byte> bytes);
 
-// Returns the front view of a preview, its left half (see render_preview()), as a tile of `side` x `side` pixels:
-// reduced to fit by averaging, and in the middle.
+// Returns a tile of `side` x `side` pixels with the front view of a preview, which is its left half (see
+// render_preview()). The view is reduced to fit by averaging, and centred.
 Image8 tile_of_preview(const Image8& preview, int side);
 
 // Returns a sheet of the tiles, at most tiles_per_sheet, row by row, about as wide as it is high. Empty

@@ -1,4 +1,4 @@
-// The files that a job reads besides its own.
+// Finds the files that a job reads.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Adds the file, and those that it names.
+// Adds the file and the files that it names.
 void add_file(const std::string& path, std::vector<std::string>& files) {
   files.push_back(path);
   const std::string ending = ending_of(path);

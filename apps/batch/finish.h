@@ -15,11 +15,12 @@ struct Summary {
 // Returns how many of the jobs are made, how many failed, and how many nobody has done yet.
 Summary summary_of(const std::vector<Job>& jobs, const Records& records);
 
-// Returns the names of the jobs that were made of the same content with the same options, under several names.
+// Returns groups of made jobs with the same content and options: the names of each group. Jobs without a
+// double are left out.
 std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, const Records& records);
 
-// Writes into the folder of the outputs: scans.jsonl, the last record of each job in the order of the jobs; contact
-// sheets of all previews; and index.html, with all of it. Errors: kind output.
+// Writes into the folder of the outputs: scans.jsonl, the last record of each job in the order of the jobs;
+// contact sheets of all previews; and index.html, the page of index_page(). Errors: kind output.
 Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop);
 
 }  // namespace relievo::app::batch

@@ -45,7 +45,7 @@ input { font: inherit; width: min(24rem, 100%); padding: .45rem .8rem; border: 1
 [hidden] { display: none; }
 )";
 
-// Hides what does not match the search, and fits the front view, the half of a preview, into its square.
+// Hides the cards that do not match the search, and fits the front view, half of a preview, into its square.
 constexpr std::string_view script = R"(
 const cards = [...document.querySelectorAll('[data-name]')];
 document.querySelector('input').addEventListener('input', event => {

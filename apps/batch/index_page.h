@@ -9,8 +9,9 @@
 
 namespace relievo::app::batch {
 
-// Returns the page: the failures with their errors, and a picture of each relief with links to its files. It stands in
-// the folder of the outputs, to which all its links are relative, as are the paths of the contact sheets.
+// Returns the page: the failures with their errors, and a picture of each relief with links to its files. The
+// page stands in the folder of the outputs. Its links and the paths of the contact sheets are relative to
+// that folder.
 std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
                        const std::vector<std::string>& sheets);
 

@@ -33,7 +33,7 @@ bool is_scan_name(const std::string& path) {
   return std::ranges::find(endings, ending) != endings.end() || ending == ".relievo";
 }
 
-// Names that are not taken yet.
+// Keeps the names of jobs unique.
 class Names {
  public:
   std::string unused(const std::string& name) {
@@ -112,7 +112,7 @@ class TableJobs {
       : table_(table), catalogue_(catalogue), folder_(fs::path(catalogue.path).parent_path()) {}
 
   Result<std::vector<Job>> list() {
-    // Names that rows state come first: those that are made up must not take them.
+    // Stated names are reserved first, so that generated names cannot take them.
     for (const TableRow& row : table_.rows)
       if (const std::string& name = cell(row, "name"); !name.empty())
         if (!is_inside(name) || !names_.take(fs::path(name).lexically_normal().string()))

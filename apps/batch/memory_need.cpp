@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr double mb = 1 << 20;
 
-// The figures are upper bounds of measurements (docs/batch.md). However small the scan is, the blur of normals may have
-// 2^24 cells of 12 bytes, and the solid about half a million samples; a point of a cloud costs what reading, preparing and
-// sampling it cost together.
+// The figures are upper bounds of measurements (docs/batch.md). However small the scan is, the blur of
+// normals may have 2^24 cells of 12 bytes, and the solid about half a million samples; the cost per point of
+// a cloud covers reading, preparing and sampling.
 constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
                  bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
 
@@ -32,7 +32,7 @@ double number_or(const Options& options, const std::string& name, double otherwi
   return value;
 }
 
-// Returns the memory that it takes to read one file and to use its points.
+// Returns the memory, in MB, that is needed to read one file and to use its points.
 double need_of_file_mb(const std::string& path, double wanted_points, double stream_above_mb) {
   std::error_code failed;
   const std::uintmax_t bytes = fs::file_size(path, failed);
@@ -57,7 +57,7 @@ double number_in(const std::string& path) {
   return file >> number ? number : -1;
 }
 
-// Returns what the control group of this process may still take; infinite without a limit.
+// Returns the memory, in MB, that the control group of this process may still take; infinite without a limit.
 double left_in_control_group_mb() {
   std::ifstream groups("/proc/self/cgroup");
   double left = std::numeric_limits<double>::infinity();

@@ -12,8 +12,8 @@ namespace relievo::app::batch {
 // output if it cannot be read.
 Result<void> check_output_folder(const std::string& outputs);
 
-// Makes the folder that of a batch, and a folder inside it. They may be missing, even during a run, as users
-// may remove them. Errors: as above.
+// Creates the folder, marks it as that of a batch, and creates the folder `inner` inside it. Both may be
+// missing, even during a run, as users may remove them. Errors: those of check_output_folder().
 Result<void> make_output_folder(const std::string& outputs, const std::filesystem::path& inner = {});
 
 }  // namespace relievo::app::batch

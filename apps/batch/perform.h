@@ -14,9 +14,9 @@ namespace relievo::app::batch {
 
 // A kind of file that is made of each scan.
 struct OutputKind {
-  std::string name;    // as a format of export_file.h, or "report"
-  std::string ending;  // with its dot; what stands before it belongs to the name of the job
-  std::string flag;    // of `make`
+  std::string name;    // the name of a format of export_file.h, or "report"
+  std::string ending;  // appended to the name of the job: ".stl", "-heights.png"
+  std::string flag;    // the flag of `make` that asks for such a file
 };
 
 // Returns the kinds of a list such as "stl,preview,report". The preview is always among them: the pages need it. Errors:
@@ -26,7 +26,7 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 // Returns the path of an output, relative to the folder of the outputs.
 std::string output_name(const Job& job, const OutputKind& kind);
 
-// The error of a call. If `may_succeed` is true, another call may not have it.
+// The error of a call. If `may_succeed` is true, the same call may succeed another time.
 struct MakeError {
   std::string line;
   bool may_succeed = false;
@@ -42,20 +42,21 @@ struct Workshop {
 
 struct Work {
   Job job;
-  std::optional<Record> before;  // of the last run
+  std::optional<Record> before;  // the job's record of the last run
   double need_mb = 0;
 };
 
 struct Performed {
-  bool is_kept = false;  // nothing was to do: the record of the last run is still true
+  bool is_kept = false;  // there was nothing to do: the record of the last run is still true
   Record record;
 };
 
-// Makes the outputs of a job, unless they are there already: the same contents of its files, options and version, and
-// outputs of the recorded sizes. An error that will come again is not tried again, either.
+// Makes the outputs of a job unless they are up to date: made by this version from the same file contents and
+// options, and still of the recorded sizes. A job is not repeated either if its recorded error would come
+// again.
 Performed perform(const Work& work, const Workshop& workshop, int threads);
 
-// The arguments of `make` for the job.
+// Returns the arguments of `make` for the job.
 std::vector<std::string> make_arguments(const Job& job, const Workshop& workshop, int threads);
 
 }  // namespace relievo::app::batch

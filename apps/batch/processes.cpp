@@ -31,9 +31,9 @@ std::string read_all(int descriptor) {
   }
 }
 
-// The life of a job's process.
+// Runs in the process of a job: does the job and sends its record to the parent.
 [[noreturn]] void live(const Work& work, const Workshop& workshop, int threads, int result, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // it removes its temporary files then
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // on SIGTERM it removes its temporary files
   if (::getppid() != parent) ::_exit(0);  // the parent ended before
   const Performed end = perform(work, workshop, threads);
   nlohmann::json json = to_json(end.record);
@@ -42,7 +42,7 @@ std::string read_all(int descriptor) {
   // If this fails, the parent finds no record and says how the process ended.
   (void)write_all(result, std::as_bytes(std::span(text)));
   std::fflush(stderr);
-  ::_exit(0);  // without the ends of static objects, which belong to the parent
+  ::_exit(0);  // without destructors of static objects, which belong to the parent
 }
 
 double seconds_of(const timeval& time) {
@@ -66,7 +66,7 @@ Result<void> Processes::start(const Work& work, int threads) {
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return system_error(ErrorKind::output, work.job.name, "expected a pipe to a new process");
   Descriptor from(ends[0]), to(ends[1]);
-  std::fflush(nullptr);  // else both processes would print what is buffered
+  std::fflush(nullptr);  // otherwise both processes would print the buffered text
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) return system_error(ErrorKind::output, work.job.name, "expected a new process");
   if (child == 0) live(work, workshop_, threads, to.number(), parent);

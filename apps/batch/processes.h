@@ -1,5 +1,5 @@
-// Jobs in processes of their own: a crash, or the system's end of a job that takes too much memory, ends that job alone.
-// Tested by tests/cli/batch_test.cpp.
+// Runs each job in a process of its own, so that a crash, or a kill by the system for lack of memory, ends
+// that job alone. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <sys/types.h>
@@ -18,14 +18,15 @@ class Processes {
  public:
   explicit Processes(const Workshop& workshop) : workshop_(workshop) {}
 
-  // Starts the job; `threads` are those that it may use. Errors: kind output if there can be no more processes.
+  // Starts the job; `threads` is the number of threads that it may use. Errors: kind output if there can be
+  // no more processes.
   Result<void> start(const Work& work, int threads);
 
-  // Waits until a job ends, however it does, and returns what became of it. There must be one that runs.
+  // Waits until a job ends, in whatever way, and returns its outcome. At least one job must be running.
   Performed wait();
 
   std::size_t running() const { return running_.size(); }
-  double running_mb() const;  // the sum of what the running jobs need
+  double running_mb() const;  // the sum of the running jobs' needs
 
  private:
   struct Running {

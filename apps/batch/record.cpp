@@ -113,8 +113,8 @@ Result<Journal> Journal::open(const std::string& outputs) {
 }
 
 Result<void> Journal::append(const Record& record) const {
-  // One write, so that lines of several programs never mix. A part of a line that a machine left behind when its power
-  // failed is ended first.
+  // One call writes the whole line, so that lines of several programs never mix. If the journal ends within a
+  // line, as after a power failure, that line is ended first.
   const std::string line = cat(ends_in_a_line(file_) ? "" : "\n",
                                to_json(record).dump(-1, ' ', false, Json::error_handler_t::replace), "\n");
   if (::write(file_.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size())) return {};
@@ -137,7 +137,8 @@ Result<Descriptor> lock_job(const std::string& outputs, const std::string& name)
   const std::string path = (journals_in(outputs) / "jobs.lock").string();
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
-  // One file serves all jobs: each locks the byte that its name is hashed to, which network file systems support, too.
+  // One file serves all jobs: each locks the byte at the hash of its name. Network file systems support such
+  // locks, too.
   struct flock byte {};
   byte.l_type = F_WRLCK;
   byte.l_whence = SEEK_SET;

@@ -16,12 +16,12 @@ namespace relievo::app::batch {
 struct Record {
   std::string name = {}, file = {};
   bool is_made = false;
-  std::string error = {};    // if it is not: one line
-  bool may_succeed = false;  // if it is not: when tried again, as memory and disks change
-  std::string hash = {};     // of all that the outputs depend on; empty if the file could not be read
+  std::string error = {};    // one line, if the relief is not made
+  bool may_succeed = false;  // whether a failed job may succeed another time, as memory and disks change
+  std::string hash = {};     // of all that the outputs depend on; empty if the file is unreadable
   double seconds = 0, cpu_seconds = 0, peak_mb = 0;
-  std::map<std::string, std::uintmax_t> outputs = {};  // file names, relative to the folder, and bytes
-  std::string host = {}, finished = {};                // the time in UTC
+  std::map<std::string, std::uintmax_t> outputs = {};  // sizes in bytes by file name
+  std::string host = {}, finished = {};                // finished: the time in UTC
 };
 
 // Returns the object that stands in a line of the journal.
@@ -30,7 +30,7 @@ nlohmann::json to_json(const Record& record);
 // Returns the record of a line; nothing for other text, such as a line that was written only in part.
 std::optional<Record> record_from_line(std::string_view line);
 
-using Records = std::map<std::string, Record>;  // by name, the last one of each
+using Records = std::map<std::string, Record>;  // by name of the job: its last record
 
 // Returns the records of all journals in the folder of the outputs.
 Records read_journals(const std::string& outputs);
@@ -52,12 +52,12 @@ class Journal {
   Descriptor file_;
 };
 
-// Returns a lock that no other run has for that shard of the folder, until it is destroyed. Errors: kind output if
-// another run has it.
+// Locks that shard of the folder for this run until the returned object is destroyed. Errors: kind output if
+// another run has the lock.
 Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard);
 
-// Waits until no other process does the job of that name, and returns a lock that makes others wait until it is destroyed.
-// Errors: kind output.
+// Waits until no other process does the job of that name, and locks the job until the returned object is
+// destroyed. Errors: kind output.
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name);
 
 // Returns this machine's name.

@@ -20,7 +20,7 @@ int usable_processors() {
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
-// Starts jobs as their needs allow.
+// Starts jobs as soon as processors and memory suffice for them.
 class Run {
  public:
   Run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits)
@@ -60,7 +60,7 @@ class Run {
 
   const std::vector<Work>& works_;
   Processes processes_;
-  std::size_t next_ = 0;  // job to start
+  std::size_t next_ = 0;  // index of the next job to start
   int processors_ = usable_processors(), most_processes_ = 1;
   double memory_mb_ = 0;
 };

@@ -9,16 +9,16 @@
 namespace relievo::app::batch {
 
 struct RunLimits {
-  int processes = 0;     // at the same time; 0: as many as there are processors
-  double memory_mb = 0;  // of all of them; 0: most of what is available
+  int processes = 0;     // most at the same time; 0: as many as there are processors
+  double memory_mb = 0;  // for all processes together; 0: most of the available memory
 };
 
 // Called after each job, with the number of jobs that are done.
 using RunWatcher = std::function<void(const Performed& end, std::size_t done)>;
 
-// Does all work, as many jobs at the same time as the limits allow, in any order, and appends a line to the journal for
-// each that was not done before. A job that needs more memory than there is runs alone. A failed job does not end the
-// run. Errors: kind output if the journal cannot be written or processes cannot be started.
+// Does all jobs, as many at the same time as the limits allow, in any order. Appends a line to the journal
+// for each job that was not done before. A job that needs more memory than there is runs alone. A failed job
+// does not end the run. Errors: kind output if the journal cannot be written or processes cannot be started.
 Result<void> run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits,
                  const Journal& journal, const RunWatcher& watcher);
 

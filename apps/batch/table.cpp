@@ -103,7 +103,7 @@ class TableReader {
     return cell;
   }
 
-  std::string_view text_;  // that is not read yet
+  std::string_view text_;  // the part that is not read yet
   const std::string& name_;
   char separator_ = ',';
   std::size_t line_ = 1;

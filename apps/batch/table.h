@@ -10,7 +10,7 @@
 namespace relievo::app::batch {
 
 struct TableRow {
-  std::size_t line = 0;  // of the file, where the row begins
+  std::size_t line = 0;  // the line of the file in which the row begins
   std::vector<std::string> cells;
 };
 
@@ -19,10 +19,11 @@ struct Table {
   std::vector<TableRow> rows;        // each with a cell for every column
 };
 
-// Returns the table in the text of the file called `name`. Cells are separated by commas, semicolons or tabs, by what
-// the first row has; a cell in quotation marks may contain these, line breaks, and its marks doubled. Missing cells at
-// the end of a row are empty; rows of empty cells are left out. Errors: kind input, naming the line, for a table without
-// columns, a column without a name or with that of another, more cells than columns, and a mark that is never closed.
+// Returns the table in the text of the file called `name`. Cells are separated by commas, semicolons or tabs,
+// whichever the first row has. A cell in quotation marks may contain separators, line breaks, and quotation
+// marks, which are doubled. Missing cells at the end of a row are empty; rows of empty cells are left out.
+// Errors: kind input, naming the line, for a table without columns, a column without a name or with the name
+// of another, more cells than columns, and a mark that is never closed.
 Result<Table> read_table(std::string_view text, const std::string& name);
 
 }  // namespace relievo::app::batch

@@ -35,7 +35,7 @@ struct BatchArguments : MakeOptions {
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::Workshop workshop;
-  std::vector<std::string> skipped = {};  // files of the folder
+  std::vector<std::string> skipped = {};  // files of the folder that are no job's scan
 };
 
 // ------------------------------------------------------------------------------------------------- options
@@ -82,7 +82,7 @@ Result<Shard> parse_shard(const std::string& text) {
   return shard;
 }
 
-// Neighbours in a catalogue are often alike, so the parts take turns.
+// Neighbours in a catalogue are often alike, so jobs go to the shards in turn.
 std::vector<batch::Job> jobs_of_shard(const std::vector<batch::Job>& jobs, const Shard& shard) {
   std::vector<batch::Job> part;
   for (std::size_t i = shard.index - 1; i < jobs.size(); i += shard.count) part.push_back(jobs[i]);
@@ -104,7 +104,7 @@ Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
 
 Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& command) {
   if (arguments.input.empty()) return option_error("input", "expected a folder or a table, found none");
-  // Values for all scans are checked at once; those of a row fail with their scan.
+  // Values for all scans are checked at once; a wrong value in a row fails with its scan.
   RELIEVO_CHECK(parse_options(arguments.order.values));
   RELIEVO_CHECK(parse_unit(arguments.units));
   BatchOrder order;
@@ -134,7 +134,7 @@ std::vector<batch::Work> works_of(const std::vector<batch::Job>& jobs, const Bat
   return works;
 }
 
-// Returns an error unless all jobs are made, and says so.
+// Returns an error unless all jobs are made; if they are, prints how many.
 Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::Workshop& workshop, bool is_quiet,
                        const std::string& page) {
   const batch::Summary sum = batch::summary_of(jobs, batch::read_journals(workshop.outputs));
@@ -176,8 +176,8 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// A worker may die while its process goes on with the job, or after its work and before it says so, and another one gets
-// the job again.
+// Returns the record of a job that was made after the list was printed. A worker may die while its process
+// goes on with the job, or before it reports the finished job; then another worker gets the same job.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::Workshop& workshop) {
   const std::string output = batch::output_name(job, workshop.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(workshop.outputs) / output, ignored)) return std::nullopt;

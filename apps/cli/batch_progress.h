@@ -9,8 +9,8 @@
 
 namespace relievo::app::cli {
 
-// Shows a bar with the time that is left on a terminal, else a line for each twentieth of the jobs. In both,
-// each failure has a line.
+// On a terminal shows a bar with the remaining time; elsewhere prints a line for each twentieth of the jobs.
+// In both cases each failure has a line.
 class BatchProgress {
  public:
   BatchProgress(std::size_t jobs, bool is_quiet);
@@ -18,7 +18,7 @@ class BatchProgress {
   BatchProgress(const BatchProgress&) = delete;
   BatchProgress& operator=(const BatchProgress&) = delete;
 
-  // Takes note of a job that has ended; `done` have so far.
+  // Shows that a job has ended; `done` is the number of jobs that have ended so far.
   void show(const batch::Performed& end, std::size_t done);
 
  private:

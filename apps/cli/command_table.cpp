@@ -16,7 +16,7 @@ std::vector<std::string> all_names(const auto& infos) {
   return names;
 }
 
-// Returns the words that the tables of options have for a flag without its dashes.
+// Returns the possible values of a flag, given without its dashes, from the tables of options.
 std::vector<std::string> words_of(const std::string& command, const std::string& name) {
   if (command == "sample" && name == "name") return all_names(samples());
   if (name == "units") return {"mm", "in"};

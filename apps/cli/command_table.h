@@ -9,7 +9,7 @@ namespace relievo::app::cli {
 
 // A flag, or an argument that stands by itself.
 struct FlagInfo {
-  std::string name;                // "--height"; of an argument that stands by itself "input"
+  std::string name;                // "--height"; "input" for an argument that stands by itself
   std::string short_name;          // "-o"; may be empty
   std::string value;               // "MM"; empty if it takes none
   std::string help;                // with range and default

@@ -1,4 +1,5 @@
-// The subcommands. Each adds itself to the program and leaves its outcome in `result` when it was chosen.
+// The subcommands. Each function adds its subcommand, which leaves its outcome in `result` when the user
+// chooses it.
 #pragma once
 
 #include <CLI/CLI.hpp>

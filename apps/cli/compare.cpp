@@ -23,14 +23,14 @@ namespace {
 struct CompareArguments {
   SceneArguments scene;
   std::string output;
-  std::vector<double> heights{.0125, .025, .05};  // of the width
+  std::vector<double> heights{.0125, .025, .05};  // as fractions of the width
   std::vector<std::string> methods;
   int threads = 0;
   bool is_json = false, is_quiet = false;
 };
 
-// The width of the reliefs, in pictures and in messages, and the longer side of a picture, which is sharp at
-// twice the size that the page shows.
+// The width of the reliefs in pictures and messages; and the longer side of a picture, twice its size on the
+// page, so that it stays sharp when enlarged.
 constexpr double width_mm = 100;
 constexpr int longer_side_px = 512;
 
@@ -45,7 +45,7 @@ Result<std::vector<Method>> parse_methods(const std::vector<std::string>& names)
   return chosen;
 }
 
-// Draws the model and reliefs of it as preview and studio do.
+// Draws the model and its reliefs as the preview and the studio do.
 class PlatePictures {
  public:
   explicit PlatePictures(std::shared_ptr<const ReliefModel> model)
@@ -59,7 +59,7 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Draws without shadows and dark hollows, as the model's own depth would bury the ground in them.
+  // Draws the model without shadows and dark hollows, with which its full depth would cover the ground.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {
@@ -87,7 +87,7 @@ struct Comparer {
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
 
-  // Appends reliefs of one height by each method; nothing if one of them fails.
+  // Appends one relief of that height per method, or none if a method fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;
@@ -102,7 +102,7 @@ struct Comparer {
   }
 };
 
-// CLI11's own message would not say that heights are fractions here, as those of the other commands are lengths.
+// CLI11's own message would not say that heights are fractions here. In the other commands they are lengths.
 std::string height_error(const std::string& text) {
   if (CLI::Range(1e-4, 1.0)(text).empty()) return {};
   return cat("expected fractions of the width, 0.0001 to 1, found ", text);

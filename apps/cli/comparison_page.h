@@ -12,9 +12,9 @@ namespace relievo::app::cli {
 
 struct ComparedRelief {
   Method method;
-  double height = 0;  // of the width
+  double height = 0;  // as a fraction of the width
   Measures measures;
-  Image8 picture;  // empty unless a page is wanted, as is the model's
+  Image8 picture;  // empty, like the model's picture, unless a page is wanted
 };
 
 struct Comparison {

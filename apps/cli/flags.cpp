@@ -38,7 +38,8 @@ LengthUnit unit_of(const CLI::App& command) {
   return parse_unit(units->results().back()).value_or(LengthUnit::mm);
 }
 
-// Lengths may carry a unit, or be in that of --units, wherever that stands.
+// Converts a length to millimetres. The text may name a unit; otherwise --units applies, wherever that flag
+// stands.
 CLI::Validator in_mm(const CLI::App& command, Result<std::string> (*convert)(std::string_view, LengthUnit)) {
   const auto transform = [&command, convert](std::string& text) {
     const Result<std::string> mm = convert(text, unit_of(command));

@@ -12,7 +12,7 @@ namespace relievo::app::cli {
 // Returns the help of an option with its range and its default, but for a default that CLI11 shows by itself.
 std::string flag_help(const OptionRow& option);
 
-// Adds one flag for each row that is wanted. Values that are given go to `values`, which has to live as long as the command.
+// Adds one flag for each row that is wanted. Given values go to `values`, which must outlive the command.
 void add_flags(CLI::App& command, OptionValues& values,
                const std::function<bool(const OptionRow&)>& is_wanted,
                const std::function<std::string(const OptionRow&)>& help = flag_help);

@@ -13,7 +13,7 @@
 
 namespace relievo::app::cli {
 
-// Milliseconds of one part of a frame over many frames.
+// The times of one part of a frame, over many frames.
 struct Series {
   std::vector<double> ms;
 
@@ -24,8 +24,8 @@ struct FrameFigures {
   std::string mode;
   std::size_t control_points = 0;  // 0: all visible points
   int threads = 1;
-  Series heights, detail, normals, whole;  // t1, t2, t3 and all of it
-  double solves = 0;                       // per frame
+  Series heights, detail, normals, whole;  // t1, t2, t3 and the whole frame
+  double solves = 0;                       // solves per frame
 };
 
 struct FrameRun {
@@ -35,7 +35,8 @@ struct FrameRun {
   Style style = Style::layered;
 };
 
-// Makes frames as a user does who drags a slider: the detail, or with a locked height the saturation.
+// Makes frames as if a user dragged a slider: that of the detail or, with a locked height, that of the
+// saturation.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
 // Returns the memory of a model and its frame maker, in bytes per visible point.
@@ -66,7 +67,7 @@ inline constexpr std::array<PaperRow, 15> paper_table_1{{
     {"buddha", 173336, 7314, 17, 26, 11, 38.35},
 }};
 
-// Prints lines of a table in the shape of the paper's: its head, a measured line, and the paper's own.
+// Print the lines of a table like the paper's: the head, a measured line, and the paper's own lines.
 void print_frame_head();
 void print_frames(const FrameFigures& figures, std::size_t visible_points);
 void print_paper_rows();

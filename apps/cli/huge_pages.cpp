@@ -11,10 +11,10 @@
 namespace relievo::app::cli {
 
 void restart_with_huge_pages(char** argv) {
-  if (::getauxval(AT_SECURE) != 0) return;  // the variable would be gone after each start
+  if (::getauxval(AT_SECURE) != 0) return;  // a setuid program loses the variable and would restart for ever
   constexpr const char *name = "GLIBC_TUNABLES", *request = "glibc.malloc.hugetlb=1";
   if (const char* const given = std::getenv(name)) {
-    if (given == std::string_view(request)) ::unsetenv(name);  // programs that this one starts do not get it
+    if (given == std::string_view(request)) ::unsetenv(name);  // not for programs that this one starts
     return;
   }
   std::error_code failed;

@@ -3,8 +3,9 @@
 
 namespace relievo::app::cli {
 
-// Starts the program anew, once, with the request for huge pages in its environment: glibc looks for it there alone, and
-// only before main(). Returns if that is not possible, or was done. A user's own GLIBC_TUNABLES stays as it is.
+// Starts the program anew, once, with the request for huge pages in its environment: glibc reads the request
+// only there and only before main(). Returns if a restart is impossible or was already made. A user's own
+// GLIBC_TUNABLES stays as it is.
 void restart_with_huge_pages(char** argv);
 
 }  // namespace relievo::app::cli

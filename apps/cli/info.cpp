@@ -19,7 +19,7 @@
 namespace relievo::app::cli {
 namespace {
 
-// Ten digits, for geo-referenced coordinates.
+// Prints ten digits, as geo-referenced coordinates need them.
 std::string vector_text(const Vec3& v) {
   char text[96];
   std::snprintf(text, sizeof text, "%.10g, %.10g, %.10g", v.x(), v.y(), v.z());

@@ -1,4 +1,4 @@
-// The flags of the commands that read a scan, and what they stand for.
+// The flags of the commands that read a scan, and their values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 
 namespace relievo::app::cli {
 
-// InputArguments as they are typed.
+// The texts of InputArguments, as typed.
 struct InputTexts {
   OptionValues depth;
   std::string camera;
@@ -20,10 +20,10 @@ struct InputTexts {
 
 void add_input_flags(CLI::App& command, InputTexts& texts);
 
-// Returns what the texts ask for. Errors: those of parse_depth().
+// Parses the texts. Errors: those of parse_depth().
 Result<InputArguments> parse_input_texts(const InputTexts& texts);
 
-// The inputs of a command and the side of them to look at.
+// The inputs of a command and the view of them.
 struct SceneArguments {
   std::vector<std::string> paths;
   OptionValues view;

@@ -10,7 +10,7 @@
 
 namespace {
 
-// Returns whether all that was printed has arrived where it was sent: it does not on a full disk.
+// Returns whether all printed text was written; on a full disk it is not.
 bool is_printed() {
   return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
@@ -19,7 +19,7 @@ bool is_printed() {
 
 int main(int argc, char** argv) {
   relievo::app::cli::restart_with_huge_pages(argv);
-  // The studio refuses what is too large, and goes on.
+  // The studio refuses work that needs too much memory, and goes on.
   if (argc > 1 && argv[1] == std::string_view("studio"))
     relievo::app::keep_memory_in_reserve();
   else

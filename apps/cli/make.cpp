@@ -21,7 +21,7 @@ struct MakeArguments : MakeOptions {
   bool is_quiet = false;
 };
 
-// Gives the files their unit, and returns the order.
+// Sets the unit of the files, and returns the checked order.
 Result<CheckedOrder> order_of(MakeArguments& arguments) {
   MakeOrder& order = arguments.order;
   RELIEVO_TRY(arguments.files.unit, parse_unit(arguments.units));
@@ -46,7 +46,7 @@ std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
              in_units(size.x()), " x ", in_units(size.y()), " x ", in_units(size.z()), " ", unit);
 }
 
-// Every file in memory, and the lines to say about them.
+// All finished files in memory, and the lines to print about them.
 struct Finished {
   std::vector<OutputFile> files;
   std::vector<std::string> lines;

@@ -68,7 +68,7 @@ std::string first_unknown(const CLI::App& app) {
   return words.empty() ? std::string() : option != words.end() ? *option : words.front();
 }
 
-// Returns what CLI11 found wrong, in the words of all other messages.
+// Returns the message for an error of CLI11, in the wording of all other messages.
 std::string words_of(const CLI::Error& error, const CLI::App& app) {
   const std::string text = error.what();
   const auto between = [&](std::string_view before, std::string_view after) {
@@ -116,7 +116,7 @@ void add_commands(CLI::App& program, Result<void>& result) {
 // Parsing runs the command, too.
 ProgramEnd parse(CLI::App& program, std::vector<std::string> arguments) {
   try {
-    std::ranges::reverse(arguments);  // as CLI11 takes them
+    std::ranges::reverse(arguments);  // CLI11 expects the last argument first
     program.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     std::ostringstream message;

@@ -31,13 +31,13 @@ void show(const std::string& address) {
   }).detach();
 }
 
-// Returns the command that makes the address reachable from the machine that this one was reached from by ssh; "" if it was
-// not. The variable has the address and the port of that machine and of this one.
+// Returns the ssh command that makes the address reachable from the machine from which the user has logged in
+// here; "" without ssh. SSH_CONNECTION has the address and the port of that machine, then those of this one.
 std::string tunnel_command(const std::string& address) {
   std::istringstream connection(environment_variable("SSH_CONNECTION"));
   std::string word, host, host_port;
   if (!(connection >> word >> word >> host >> host_port)) return {};
-  const std::string port = address.substr(17, address.find('/', 17) - 17);  // behind "http://127.0.0.1:"
+  const std::string port = address.substr(17, address.find('/', 17) - 17);  // after "http://127.0.0.1:"
   const std::string user = environment_variable("USER").empty() ? "" : environment_variable("USER") + "@";
   return cat("ssh -N -L ", port, ":127.0.0.1:", port, host_port == "22" ? "" : cat(" -p ", host_port), " ",
              user, host);

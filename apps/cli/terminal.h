@@ -8,7 +8,8 @@
 
 namespace relievo::app::cli {
 
-// A progress bar with stage names on standard error if that is a terminal, else nothing. Erased at the end.
+// A progress bar with stage names on standard error if that is a terminal, else nothing. The bar is erased at
+// the end.
 Progress::Watcher progress_bar(bool is_quiet);
 
 // Returns the text with '?' for control characters, which names and words from files may contain: it stays on

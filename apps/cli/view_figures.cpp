@@ -17,7 +17,7 @@ namespace {
 
 constexpr double step_deg = 4;  // from one view to the next
 
-// Returns the milliseconds that work takes. Errors: its own.
+// Returns the milliseconds that `work` takes. Errors: those of `work`.
 template <typename F>
 Result<double> milliseconds(F&& work) {
   const auto start = std::chrono::steady_clock::now();

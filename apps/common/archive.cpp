@@ -35,7 +35,8 @@ std::string not_unpacked(const zip_stat_t& file, int code) {
   return cat("expected a whole file, found ", found, "; get the archive anew");
 }
 
-// Licences, textures and previews lie beside models.
+// Returns whether the file is a model. Licences, textures and previews often lie beside models and do not
+// count.
 bool is_model(const std::string& name) {
   constexpr std::array beside_models = {"txt", "csv", "png", "tif", "tiff"};
   const std::string ending = ending_of(name);
@@ -57,7 +58,7 @@ Result<Archive> Archive::open(std::span<const std::byte> bytes, std::string_view
   ArchiveSource source(zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr));
   made.zip_.reset(source ? zip_open_from_source(source.get(), ZIP_RDONLY, nullptr) : nullptr);
   if (!made.zip_) return broken(name, "expected a whole archive, found a damaged one; get it anew");
-  (void)source.release();  // belongs to the archive now
+  (void)source.release();  // the archive owns the source now
   return made;
 }
 
@@ -81,7 +82,8 @@ Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
   const ArchiveEntry entry(stat.size > most_unpacked ? nullptr : zip_fopen_index(zip_.get(), index, 0));
   if (!entry) return fail(zip_get_error(zip_.get()));
   std::vector<std::byte> bytes;
-  // Reads pieces, as a damaged archive may promise any size. The last, empty one compares the checksum.
+  // Reads in blocks, as a damaged archive may state any size. The last read, of no bytes, compares the
+  // checksum.
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t filled = 0; bytes.size() <= stat.size;) {
     bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));

@@ -15,7 +15,8 @@ namespace relievo::app {
 // Returns an error with the system's own words for errno after what was expected.
 std::unexpected<Error> system_error(ErrorKind kind, const std::string& path, const std::string& expected);
 
-// Writes all bytes, whatever interrupts that. Returns whether it could; if not, errno tells why.
+// Writes all bytes, also if signals interrupt the writing. Returns whether it succeeded; otherwise errno has
+// the reason.
 bool write_all(int descriptor, std::span<const std::byte> bytes);
 
 // Closes a file descriptor at the end of its scope.

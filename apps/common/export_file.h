@@ -15,10 +15,10 @@
 namespace relievo::app {
 
 struct FileFormat {
-  std::string_view name;    // as the studio asks for it
-  std::string_view ending;  // of its files, with its dot; what stands before it belongs to the studio's name
-  std::string_view type;    // as browsers know it
-  std::string_view label, use;                                    // for people
+  std::string_view name;        // the studio's name of the format
+  std::string_view ending;      // appended to a file's name: ".stl", "-heights.png"
+  std::string_view type;        // the MIME type
+  std::string_view label, use;  // for people
   std::vector<std::byte> (*write_solid)(const Solid&) = nullptr;  // null for pictures
 };
 
@@ -28,7 +28,7 @@ std::span<const FileFormat> file_formats();
 // Returns the format of that name, which is not null. Errors: kind option, naming all formats.
 Result<const FileFormat*> find_format(std::string_view name);
 
-// Returns the format of solids whose files end so, "stl"; null if there is none.
+// Returns the format of solids with that ending, such as "stl"; null if there is none.
 const FileFormat* find_solid_format(std::string_view ending);
 
 // Returns the endings of solids: ".stl" and others.
@@ -55,8 +55,8 @@ struct HeightMapOrder {
   LengthUnit unit = LengthUnit::mm;
 };
 
-// Returns the picture of a relief: a lithophane in front of a lamp unless another material than plaster is asked for,
-// and what is bent to the inside unrolled and cut open.
+// Returns the picture of a relief: a lithophane in front of a lamp unless a material other than plaster is
+// given, a relief on the inside of a wrap unrolled and cut open.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
 // Returns the height map as a file, with its scale. A plate that was bent around a wrap is shown flat, for

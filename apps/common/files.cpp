@@ -26,7 +26,7 @@ std::unexpected<Error> no_file(const std::string& path, mode_t mode) {
   return input_error(path, {}, cat("expected a file, found ", kind_of(mode)));
 }
 
-// Files beyond half of the memory could be read, but nothing could be made of them.
+// Files larger than half of the memory could be read, but no relief could be made from them.
 std::size_t most_bytes() {
 #if defined(__wasi__)
   return std::size_t{1} << 31;
@@ -36,10 +36,10 @@ std::size_t most_bytes() {
 #endif
 }
 
-// Reads to the end of the file, whose size is known but for pipes and files that grow.
+// Reads to the end of the file. For pipes and for files that grow, `size` is only a first guess.
 Result<std::vector<std::byte>> read_all(const Descriptor& file, std::size_t size, const std::string& path) {
   const std::size_t most = most_bytes();
-  // One more than the size, so that the end is seen without growing.
+  // One byte more than the size, so that the end is found without a larger buffer.
   std::vector<std::byte> bytes(size > most ? 0 : std::max<std::size_t>(size + 1, 1 << 16));
   for (std::size_t filled = 0; size <= most && filled <= most;) {
     if (filled == bytes.size()) bytes.resize(bytes.size() * 2);

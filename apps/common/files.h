@@ -13,17 +13,17 @@
 
 namespace relievo::app {
 
-// Returns the bytes of a file. Errors: kind input, telling why it cannot be read; also for folders, devices, files larger
-// than half of the memory and, unless `is_pipe_fine`, pipes.
+// Returns the bytes of a file. Errors: kind input, with the reason why it cannot be read; also for folders,
+// devices, files larger than half of the memory and, unless `is_pipe_fine`, pipes.
 Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_fine = false);
 
-// Returns whether something has that path; a file, a folder or a device.
+// Returns whether a file, a folder or a device has that path.
 bool is_there(const std::string& path);
 
-// Errors: kind input if something else than a file is there: a folder, a device or a pipe.
+// Checks that no folder, device or pipe has that path. A file may be missing. Errors: kind input.
 Result<void> check_file(const std::string& path);
 
-// Returns the size of a file; nothing if there is none of that path, or it is a folder or a device.
+// Returns the size of a file; nothing if the path is missing, or is that of a folder or a device.
 std::optional<std::uint64_t> file_size(const std::string& path);
 
 // Returns the text as the content of a file.

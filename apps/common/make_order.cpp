@@ -44,7 +44,7 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
   if (loaded.project) {
     RELIEVO_CHECK(progress.stage("read", 0));
     RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, [&] { return progress.is_cancelled(); }));
-    loaded.project->packed = nullptr;  // the bytes of a scan may be as many as its points take
+    loaded.project->packed = nullptr;  // frees the bytes, which may be as large as the points
   } else {
     const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
     if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");

@@ -1,4 +1,4 @@
-// Orders for reliefs as the command line, Python and WebAssembly give them, and the reliefs that come of them.
+// Orders for reliefs as the command line, Python and WebAssembly give them, and the reliefs made from them.
 #pragma once
 
 #include <functional>
@@ -18,15 +18,15 @@
 
 namespace relievo::app {
 
-// Tells how to make a relief.
+// Describes a relief to make.
 struct MakeOrder {
   OptionValues values;
   InputArguments in;
   std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};
-  std::string scan_path = {};  // of a project
+  std::string scan_path = {};  // path of a project's scan
   std::shared_ptr<const Image<float>> base_image = nullptr;
-  // Reads the inputs where not all of them are files; `name` is then that of all inputs.
+  // Reads the inputs if not all of them are files; `name` is then the name of all inputs.
   std::function<Result<Scene>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
   std::string name = {};
 };
@@ -49,7 +49,7 @@ Result<CheckedOrder> check_order(MakeOrder order);
 // An order whose inputs were read, and whose view is chosen.
 struct LoadedOrder : CheckedOrder {
   Scene scene;
-  std::optional<ViewGuess> side;  // that was chosen, if the order left the choice
+  std::optional<ViewGuess> side;  // the chosen side, if the order left the choice
 };
 
 // Errors: kind option if there is no input; those of load_project_scan(), read_scene() and `read`.
@@ -87,7 +87,7 @@ struct FinishedRelief {
 // Makes the relief; end() is left to the caller. Errors: those of make_relief(), naming the inputs.
 Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress);
 
-// Calls the functions above one after the other. Errors: those of all.
+// Calls check_order(), load() and make() in turn. Errors: those of all.
 Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress);
 
 // Returns how to draw a relief. Errors: kind option for a size not in [1, 5461] and for unknown materials.

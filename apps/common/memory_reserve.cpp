@@ -7,7 +7,7 @@
 namespace relievo::app {
 namespace {
 
-// Small enough to lie among other small allocations, which can then have it.
+// Small enough to be placed among other small allocations, which can use its memory once it is freed.
 constexpr std::size_t reserve_bytes = 64U << 10;
 
 std::atomic<void*> reserve = nullptr;

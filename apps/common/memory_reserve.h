@@ -1,5 +1,5 @@
-// A little memory that is kept for the moment when there is no more. The destructors of JSON allocate a few bytes, and what
-// fails in a destructor would end the program.
+// Keeps a small reserve of memory for the moment when an allocation fails. The destructors of JSON allocate a
+// few bytes, and an exception in a destructor would end the program.
 #pragma once
 
 namespace relievo::app {

@@ -1,4 +1,4 @@
-// The table of options for all who show it: the page and the README.
+// The table of options for the page, the README and the packages.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,10 +15,11 @@ std::string default_text(const OptionRow& option);
 // Returns the help, with the range of a number or the words that may stand there.
 std::string help_text(const OptionRow& option);
 
-// Returns a list of objects with name, unit, help and stage; of numbers with min and max; of enumerations with choices.
-// `default` is there if something rules without a value: itself, or, where methods differ, an object of method names and
-// values. `default_with` has the defaults that a form, by its name, or a diameter puts in its place. `in_studio` and
-// `is_stated` are those of OptionRow. The options of depth images are left out.
+// Returns a list of objects with name, unit, help and stage; those of numbers also with min and max, those of
+// enumerations with choices. `default` is present if the option has a default: its value or, where methods
+// differ, an object of method names and values. `default_with` has the defaults that replace it with a form,
+// by the form's name, or with a diameter. `in_studio` and `is_stated` are those of OptionRow. The options of
+// depth images are left out.
 nlohmann::json option_list();
 
 // Returns the name of an option as an argument of a function, with its unit: "height_mm".

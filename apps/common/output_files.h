@@ -1,4 +1,4 @@
-// Files that are written, as wholes. Tested by tests/cli/files_test.cpp.
+// Writes files completely or not at all. Tested by tests/cli/files_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,9 @@ struct OutputFile {
   std::vector<std::byte> bytes;
 };
 
-// Writes all files under no name or temporary ones and, when all are complete, gives them theirs: readers see an old file or
-// the whole new one, and if one cannot be written, all stay as they were. Errors: kind output.
+// Writes all files without names, or under temporary ones, and gives them their names when all are complete.
+// Readers see an old file or the whole new one. If one file cannot be written, all stay as they were. Errors:
+// kind output.
 Result<void> write_files(std::span<const OutputFile> files);
 
 }  // namespace relievo::app

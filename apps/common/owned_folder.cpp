@@ -49,7 +49,7 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
   });
 }
 
-// Marks a folder whatever is in it. Returns owned or unusable.
+// Marks a folder, whatever files it has. Returns owned or unusable.
 Ownership mark_folder(const std::string& folder, std::string_view owner) {
   const std::string path = mark_in(folder).string(), text = mark_of(owner);
   TemporaryFile mark(path);
@@ -69,7 +69,7 @@ Ownership ownership_of(const std::string& folder, std::string_view owner) {
     return Ownership::unusable;
   }
   if (is_free) return Ownership::free;
-  return read_mark(folder, owner);  // it may have been marked meanwhile
+  return read_mark(folder, owner);  // another process may have marked it meanwhile
 }
 
 Ownership own_folder(const std::string& folder, std::string_view owner, unsigned mode) {

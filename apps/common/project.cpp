@@ -38,7 +38,7 @@ constexpr const char* base_image_name = "base-image";
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
-  if (given.contains("alpha")) own.erase("height"), own.erase("method");  // which is then the paper's
+  if (given.contains("alpha")) own.erase("height"), own.erase("method");  // alpha implies the paper's method
   for (const auto& [name, value] : given) own.insert_or_assign(name, value);
   return own;
 }
@@ -82,13 +82,13 @@ std::string base_image_path_in(const Json& options) {
 
 namespace {
 
-// Returns the options of the table alone: the height map of a base is none of them.
+// Returns the options that are in the table, without the height map of a base, which is not.
 Result<OptionValues> values_without_image(Json json, std::string_view name) {
   if (!base_image_path_in(json).empty()) json.erase(base_image_name);
   return values_from_json(json, name);
 }
 
-// The height map that was read last, for pictures that follow one another.
+// Caches the height map that was read last, for successive pictures.
 struct LastImage {
   std::string path;
   timespec changed;
@@ -100,7 +100,7 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
   static Guarded<LastImage> guarded;
   return guarded.with([&](LastImage& last) -> Result<std::shared_ptr<const Image<float>>> {
     struct stat now = {};
-    if (::stat(path.c_str(), &now) != 0) now = {};  // which reading explains
+    if (::stat(path.c_str(), &now) != 0) now = {};  // the reading below reports the error
     const auto [seconds, nanoseconds] = now.st_mtim;
     if (last.image && last.path == path && last.changed.tv_sec == seconds &&
         last.changed.tv_nsec == nanoseconds)

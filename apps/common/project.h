@@ -20,20 +20,20 @@ struct ScanSource {
   std::string sample;
   std::string path;
   std::string name;  // for people
-  std::string hash;  // of the file's bytes, see hash_of(); empty if not known yet
+  std::string hash;  // hash of the file's bytes, see hash_of(); empty if not known yet
 };
 
 struct Project {
   ScanSource input;
   OptionValues options;
-  std::string base_image_path;  // of the height map of a base; empty if there is none
-  // That map, or why it cannot be read. Null unless find_project() has read it.
+  std::string base_image_path;  // path of the height map of a base; empty if there is none
+  // The height map, or the error of reading it. Null unless find_project() has read it.
   Result<std::shared_ptr<const Image<float>>> base_image = nullptr;
 };
 
 // Returns a project from the bytes of its file, called `name` in errors. Unknown options are errors, so that
-// nothing is left out silently, but their values are for parse_options() to check; what else is in the file
-// belongs to the studio. Errors: kind input.
+// none is ignored silently; parse_options() checks the values. Other entries of the file belong to the
+// studio. Errors: kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
 // Returns the options of a project, in which those that the user gave replace its own. A given alpha replaces the height,
@@ -43,27 +43,27 @@ OptionValues with_given(OptionValues own, const OptionValues& given);
 // Returns the values of all options that have one, given or by default.
 nlohmann::json to_json(const OptionValues& options);
 
-// Returns the value of a number or a text; nothing of any other.
+// Returns the value of a JSON number or text; nothing for other types.
 std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 
-// Returns the values of an object as to_json() makes it, without those that are the default. Errors: kind input for names
+// Returns the values of an object that to_json() made, without the defaults. Errors: kind input for names
 // that are not in the table and values of another type; messages call the object `name`.
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
-// The same, read by parse_options(), with the height map whose path "base-image" is. Errors: also those of parse_options(),
-// read_base_image() and take_base_image().
+// Returns the options of such an object, parsed by parse_options(), with the height map at the path
+// "base-image". Errors: also those of parse_options(), read_base_image() and take_base_image().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
 // Returns the path "base-image" of an object with options; empty if it has none.
 std::string base_image_path_in(const nlohmann::json& options);
 
-// Returns whether both name the same sample or file, whatever is in it.
+// Returns whether both name the same sample or file, whatever its content is.
 bool is_same(const ScanSource& a, const ScanSource& b);
 
 nlohmann::json to_json(const ScanSource& input);
 Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
-// Tells changed files from unchanged ones: 64 bits of FNV-1a. No protection against intent.
+// Detects changed files by 64 bits of FNV-1a. It does not protect against intent.
 class FileHash {
  public:
   void append(std::string_view bytes);
@@ -74,11 +74,11 @@ class FileHash {
 };
 std::string hash_of(std::string_view bytes);
 
-// Returns the hash of a file's bytes, read piece by piece. Errors: kind input.
+// Returns the hash of a file's bytes, which are read in blocks. Errors: kind input.
 Result<std::string> hash_of_file(const std::string& path);
 
-// Returns the model of a scan's bytes, or the models of a scene file; `path` names its format, and the folder of files that
-// it names. Otherwise like load_input().
+// Returns the model of a scan's bytes, or the models of a scene file; the ending of `path` determines the
+// format, its folder the place of files that the scan names. Otherwise like load_input().
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
                         const std::function<bool()>& is_unwanted = {});
 

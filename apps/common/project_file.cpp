@@ -26,7 +26,7 @@ Result<std::shared_ptr<const PackedFile>> file_in(const Archive& archive, std::s
   return nullptr;
 }
 
-// Reads the height map of a project's base from within its file, or from the place that the project names.
+// Reads the height map of a project's base from the project's file, or from the path that the project names.
 Result<std::shared_ptr<const Image<float>>> read_base_image_of(const Project& project,
                                                                const PackedFile* packed,
                                                                const std::string& folder) {

@@ -26,8 +26,8 @@ struct ProjectFile {
   std::shared_ptr<const PackedFile> scan, base_image;  // null if the project only names them, or has none
 };
 
-// Takes a project file apart, called `name` in errors. Errors: kind input, also for an archive without a project, or of
-// more than 4 GiB.
+// Unpacks a project file, called `name` in errors. Errors: kind input, also for an archive without a project,
+// or of more than 4 GiB.
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name);
 
 // Returns a project file with the scan and, unless it is null, the height map of the base, compressed. Errors: kind output
@@ -38,13 +38,14 @@ Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedF
 // A project that was read, and where its scan is.
 struct StoredProject {
   Project project;
-  std::string folder;                        // of its file
+  std::string folder;                        // folder of the project's file
   std::shared_ptr<const PackedFile> packed;  // null unless the file contains the scan
-  std::string located;                       // the place that the user names instead; empty if there is none
+  std::string located;                       // path of the scan that the user gives instead; may be empty
 };
 
-// Returns the project that the inputs are, if they are one project alone. `located` is as above. Errors: those of
-// read_file(), unpack_project() and read_project(); kind option for a located scan without a project.
+// Returns the project if the inputs are a single project file; nothing otherwise. `located` is that of
+// StoredProject. Errors: those of read_file(), unpack_project() and read_project(); kind option for a located
+// scan without a project.
 Result<std::optional<StoredProject>> find_project(const std::vector<std::string>& inputs,
                                                   const std::string& located);
 
@@ -54,8 +55,8 @@ Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& ba
                                                            const std::string& given_path,
                                                            const std::optional<Project>& project);
 
-// Reads its scan: from the place that the user names, from within the file, or from the place that the project names.
-// Errors: those of load_scan() and load_input().
+// Reads the project's scan: from the path that the user gives, from the project's file, or from the path that
+// the project names. Errors: those of load_scan() and load_input().
 Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted = {});
 
 }  // namespace relievo::app

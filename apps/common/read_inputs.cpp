@@ -88,14 +88,15 @@ class FileSource : public ByteSource {
   Descriptor file_;
 };
 
-// Size of a file that is to be read piece by piece if that is possible; nothing for small ones.
+// Returns the size of a large file, which is read in blocks if its format allows; nothing for small files.
 std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
   const std::optional<std::uint64_t> size = file_size(path);
   if (!size || static_cast<double>(*size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
   return size;
 }
 
-// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
+// Reads a large file in blocks. Returns nothing for small files and for formats that cannot be read in
+// blocks.
 Result<std::optional<SceneModel>> read_large(const std::string& path, const InputArguments& arguments,
                                              const PointsWanted& seen, Progress* progress) {
   const std::optional<std::uint64_t> size = large_size(path, arguments);
@@ -116,7 +117,6 @@ Result<std::optional<SceneModel>> read_large(const std::string& path, const Inpu
   return input;
 }
 
-// Reads the file of that path.
 Result<SceneModel> read_input(const std::string& path, const InputArguments& arguments,
                               const PointsWanted& seen, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "read", 0));
@@ -139,14 +139,15 @@ Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths
   return entries;
 }
 
-// The view of the scene in the frame of a model's file; which side of it is left does not matter there.
+// Returns the view of the scene in the frame of a model's file. For a mirrored pose its x axis is reversed,
+// which does not change the points that it sees.
 View seen_by_model(const View& view, const Pose& pose) {
   View own{view.R_view_model * turn_of(pose)};
   if (pose.is_mirrored) own.R_view_model.row(0) = -own.R_view_model.row(0);
   return own;
 }
 
-// Reads the one model of an archive, with the files that it names there.
+// Reads the only model of an archive, with the files of the archive that the model names.
 Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const std::string& path) {
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
   RELIEVO_TRY(const std::string model, find_model(archive.names(), path));
@@ -199,7 +200,7 @@ Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArgum
                          const PointsWanted& wanted, Progress* progress) {
   RELIEVO_TRY(const std::vector<SceneEntry> entries, entries_of(paths));
   Scene made;
-  std::map<std::string, std::shared_ptr<const CloudFile>> known;  // the same for every pose
+  std::map<std::string, std::shared_ptr<const CloudFile>> known;  // a file is read once for all its poses
   for (const SceneEntry& entry : entries) {
     if (known.contains(entry.path)) {
       made.models.push_back({entry.path, known[entry.path], entry.pose});

@@ -1,4 +1,4 @@
-// Reads what a relief is made of from disk: clouds, meshes, depth images and scenes of them.
+// Reads the inputs of a relief from disk: clouds, meshes, depth images and scenes of them.
 #pragma once
 
 #include <memory>
@@ -15,19 +15,19 @@ namespace relievo::app {
 
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;            // of a depth image: numbers, or a file with them
-  double stream_above_mb = 512;  // larger files are read piece by piece where that is possible
+  std::string camera;            // camera of a depth image: numbers, or a file with them
+  double stream_above_mb = 512;  // larger files are read in blocks where that is possible
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
 };
 
-// The view and the number of points to take from a file that holds more than is needed.
+// The view and the number of points to take from a file with more points than are needed.
 struct PointsWanted {
-  View view;  // of the scene
+  View view;  // the view of the scene
   double points = MeshSampling{}.points;
 };
 
-// Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name; or those of a
-// ZIP archive with one cloud or mesh, and the files that it names there.
+// Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name. The
+// bytes may also be a ZIP archive with one cloud or mesh and the files that it names.
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path);
 
 // Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera() and
@@ -35,7 +35,7 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
-// Does with the bytes of a file what read_input() does with the file.
+// Reads the model in the bytes of the file at `path`, the ending of which determines the format.
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);
 
@@ -46,8 +46,9 @@ std::vector<std::string> remarks_of(const Scene& scene);
 bool is_scene_file(const std::string& path);
 
 // Reads the files of those paths: one or several models, or one scene file (.json). Depth images and very
-// large files are reduced to what is `wanted`. Errors: those of read_file(), read_cloud(), stream_front(),
-// parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file among others.
+// large files are reduced to the points that are `wanted`. Errors: those of read_file(), read_cloud(),
+// stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file among
+// others.
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
 

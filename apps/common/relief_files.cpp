@@ -11,7 +11,8 @@
 namespace relievo::app {
 namespace {
 
-// Returns the solid as a file. In inches its coordinates are rounded anew, which tilts needles.
+// Returns the solid as a file. In inches its coordinates are rounded again, which tilts needle-shaped
+// triangles.
 Result<std::vector<std::byte>> solid_file(const ReliefFiles& files, const Solid& solid,
                                           std::optional<double> draft_deg) {
   const auto write = find_solid_format(ending_of(files.solid))->write_solid;

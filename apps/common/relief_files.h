@@ -13,7 +13,7 @@
 
 namespace relievo::app {
 
-// Paths of the files to write; empty ones are not wanted.
+// Paths of the files to write. A file with an empty path is not written.
 struct ReliefFiles {
   std::string solid, preview, heightmap, tool_picture, report;
   int heightmap_px = 1024;  // its longer side
@@ -21,12 +21,12 @@ struct ReliefFiles {
   LengthUnit unit = LengthUnit::mm;
 };
 
-// Checks, before the work begins, that each output has a place of its own that can be written to. Errors: those of
-// check_output(); kind option for a picture of the tool if there is no tool.
+// Checks, before the work begins, that the outputs have different paths, each of which can be written to.
+// Errors: those of check_output(); kind option for a picture of the tool if there is no tool.
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
 
-// Returns all files but the report, not yet written. `draft_deg` is what the relief was made with. Errors: those of
-// enforce_draft_in_float().
+// Returns all files but the report, not yet written. `draft_deg` is the draft angle with which the relief was
+// made. Errors: those of enforce_draft_in_float().
 Result<std::vector<OutputFile>> relief_files(const ReliefFiles& files, const MadeRelief& made,
                                              std::optional<double> draft_deg);
 

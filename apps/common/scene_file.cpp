@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Reads one file; every method fails with the place it was at.
+// Reads one file. The error of a method names the key at which the file is wrong.
 class SceneReader {
  public:
   explicit SceneReader(const std::string& name) : name_(name) {}

@@ -37,24 +37,26 @@ struct TemporaryName {
 
 namespace {
 
-// All names that there ever were: none is freed, since a signal handler may read it.
+// All names ever made. None is freed, since a signal handler may read it.
 std::atomic<TemporaryName*> temporary_names = nullptr;
 
 constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> is_ending = false;       // temporary files are being removed, and the process ends then
+std::atomic<bool> is_ending = false;       // the process removes its temporary files and ends
 std::atomic<int> threads_with_change = 0;  // threads that make or rename a temporary file now
 static_assert(decltype(is_ending)::is_always_lock_free && decltype(threads_with_change)::is_always_lock_free);
 
-// While a thread has one, it may make or rename a temporary file. Without it a file could be made after a signal, which
-// another thread handles, had removed all of them. If the process ends already, the thread goes no further.
+// A thread makes or renames a temporary file only while it has a FileChange. Otherwise it could make a file
+// after a signal handler in another thread had removed all of them. If the process is already ending, the
+// thread stops here.
 class FileChange {
  public:
   FileChange() {
     sigset_t signals;
     ::sigemptyset(&signals);
     for (const int signal : ending_signals) ::sigaddset(&signals, signal);
-    ::pthread_sigmask(SIG_BLOCK, &signals, &former_);  // else this thread's handler would wait for itself
+    ::pthread_sigmask(SIG_BLOCK, &signals,
+                      &former_);  // a handler here would wait for itself
     ++threads_with_change;
     if (!is_ending) return;
     --threads_with_change;
@@ -76,7 +78,7 @@ extern "C" void remove_temporaries(int signal) {
   ::raise(signal);  // now with its usual effect
 }
 
-// Takes a name that is free, or a new one.
+// Reserves a name that is free, or a new one.
 TemporaryName* take_name() {
   for (TemporaryName* name = temporary_names; name != nullptr; name = name->next)
     if (bool is_used = false; name->is_used.compare_exchange_strong(is_used, true)) return name;
@@ -93,7 +95,8 @@ std::string folder_for(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// Returns the names of temporary files for that path, without their numbers. They are no longer than a file system takes.
+// Returns the names of temporary files for that path, without their numbers. The names are no longer than
+// file systems allow.
 std::string stem_for(const std::string& path) {
   constexpr std::size_t most =
       NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // digits of numbers
@@ -105,22 +108,24 @@ std::string own_path(const Descriptor& file) {
   return "/proc/self/fd/" + std::to_string(file.number());
 }
 
-// Makes a file without a name that can get one.
+// Makes a file without a name, if it can be given a name later.
 Descriptor make_nameless(const std::string& folder, unsigned mode) {
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
   return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
 }
 
-// An attribute of files with temporary names, and of no others: a name alone does not tell whose file it is.
+// An attribute of files with temporary names, and of no others: a name alone does not prove that this program
+// made the file.
 constexpr const char* mark = "user.relievo.unfinished";
 
-// Marks a file, and locks it for as long as this process has it. File systems without either work, too.
+// Marks a file, and locks it for as long as this process has it open. File systems that support neither work,
+// too.
 void mark_unfinished(const Descriptor& file) {
   ::flock(file.number(), LOCK_EX | LOCK_NB);
   ::fsetxattr(file.number(), mark, "", 0, 0);
 }
 
-// Removes what was left by a process that was killed, or by a loss of power: marked files that no process has.
+// Removes the files that a killed process or a loss of power has left: marked files that no process has open.
 void remove_abandoned(const std::string& stem) {
   const std::string begin = std::filesystem::path(stem).filename().string();
   std::error_code failed;
@@ -134,7 +139,7 @@ void remove_abandoned(const std::string& stem) {
   }
 }
 
-// Makes a file of a name that nothing has.
+// Makes a file under an unused name.
 Descriptor make_named(TemporaryName& name, const std::string& stem, unsigned mode) {
   remove_abandoned(stem);
   while (name.renew(stem)) {
@@ -151,15 +156,14 @@ bool link_to(const std::string& own, const char* path) {
   return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Only a file with a name can replace one that is there.
+// Replaces the file at `path`, which only a file with a name can do.
 bool name_in_place(const Descriptor& file, const std::string& own, const std::string& path) {
   const std::string stem = stem_for(path);
   remove_abandoned(stem);
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
-    const FileChange
-        change;  // no memory is allocated meanwhile: where there is none, the process ends in order
+    const FileChange change;  // no memory is allocated meanwhile: if there is none, the process ends in order
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;
@@ -170,7 +174,7 @@ bool name_in_place(const Descriptor& file, const std::string& own, const std::st
   return false;
 }
 
-// Gives a file without a name that path, in place of what is there. Returns whether it could.
+// Gives a file without a name that path, replacing an existing file. Returns whether it succeeded.
 bool name_file(const Descriptor& file, const std::string& path) {
   const std::string own = own_path(file);
   const auto link = [&] {
@@ -229,7 +233,7 @@ void remove_temporary_files() {
 }
 
 void remove_temporary_files_on_signals() {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the limit of file sizes is an error like a full disk
   for (const int signal : ending_signals) {
     struct sigaction action {};
     ::sigaction(signal, nullptr, &action);

@@ -11,10 +11,11 @@ namespace relievo::app {
 
 struct TemporaryName;
 
-// A file in the folder of `path` that takes a place when kept and is gone otherwise. It has no name until it is kept, so that
-// nothing of it is left, however the process ends. Where the file system has no such files, and for the moment in which it
-// replaces another, it has a name that nothing else has; remove_temporary_files() knows these. One that a killed process left
-// is removed by the next one for that path: it is known by an attribute, never by its name alone.
+// A file in the folder of `path` that keep() moves to its final path, and that is removed otherwise. It has
+// no name until it is kept, so that nothing is left of it, however the process ends. Where the file system
+// has no files without names, and while it replaces another file, it has a unique temporary name, and
+// remove_temporary_files() removes it. If a killed process left such a file, the next one for the same path
+// removes it. An attribute identifies it, never its name alone.
 class TemporaryFile {
  public:
   // The file gets the permissions of `mode` that the process's mask allows.
@@ -29,13 +30,13 @@ class TemporaryFile {
   // Waits until the disk has all bytes: without that, the file outlives a crash of the program, but not of the machine.
   Result<void> finish();
 
-  // Moves the finished file to that path, in place of what is there.
+  // Moves the finished file to that path, replacing an existing file.
   Result<void> keep(const std::string& path);
 
  private:
   std::string path_;
   Descriptor file_;
-  TemporaryName* name_ = nullptr;  // null while it has none
+  TemporaryName* name_ = nullptr;  // null while the file has none
 };
 
 // Removes all temporary files of this process that have names, and from then on lets no thread make or keep

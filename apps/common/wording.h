@@ -11,14 +11,14 @@
 
 namespace relievo::app {
 
-// A fact that a user should know, without capital and full stop. If an option is named, its value here would
-// change the fact: `effect` says how.
+// A fact that a user should know, without capital and full stop. If `option` is not empty, setting it to
+// `value` would change the fact; `effect` says how.
 struct Remark {
   std::string text;
   std::string_view option = {}, value = {}, effect = {};
 };
 
-// Return what a user should know. `outliers` were left out before.
+// Return the facts that a user should know. `outliers` is the number of points that were left out before.
 std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers = 0);
 std::vector<std::string> remarks_on(const ReliefReport& report);
 
