@@ -20,12 +20,12 @@ double time_of(const Json& state) {
   return time.is_number() ? time.get<double>() : 0;
 }
 
-// Returns whether the scan lies where it is said to.
+// Returns whether the scan is a sample, or its file exists.
 bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
 
-// A device or a folder in the place of a scan is no scan that has gone.
+// Fails if the path of a scan is that of a device or a folder. A missing file is not an error.
 Result<void> check_place(const ScanSource& input) {
   return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
 }
@@ -72,14 +72,14 @@ Answer Actions::run(std::string_view name, const Json& json) {
   return made ? *std::move(made) : answer_of(made.error());
 }
 
-// Returns a document as the page kept it; null if it did not.
+// Returns the state of a document that the page kept; null if it kept none.
 Result<Json> Actions::kept_state(const std::string& id) const {
   RELIEVO_TRY(const std::string text, store_.document(id));
   const Json state = Json::parse(text, nullptr, false);
   return state.is_object() ? state : Json();
 }
 
-// With `storing_` locked: returns when the state of a document that is kept was changed.
+// With `storing_` locked: returns when the kept state of a document was changed.
 Result<double> Actions::time_of_newest(const std::string& id) {
   const std::optional<double> known = opened_.with([&](const std::map<std::string, Opened>& opened) {
     const auto found = opened.find(id);
@@ -104,7 +104,8 @@ Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, 
   return engine;
 }
 
-// Answers with the document of a scan and its kept state. A scan that is gone may be among the dropped ones.
+// Answers with the document of a scan and its kept state. If the scan's file is missing, a dropped scan with
+// the same bytes replaces it.
 Result<Answer> Actions::document(const Json& json) {
   RELIEVO_TRY(ScanSource input, input_in(json));
   const Lock lock(storing_);
@@ -131,7 +132,7 @@ Result<Answer> Actions::leave(const Json& json) {
   return done();
 }
 
-// The newer state of a document wins: who comes with an older one gets the newer.
+// Keeps the state of a document unless a newer one is kept: then answers with status 409.
 Result<Answer> Actions::keep(const Json& json) {
   const std::string id = json.value("document", "");
   const Json state = json.value("state", Json());
@@ -244,7 +245,7 @@ Answer Actions::take_project(const std::string& name, const BodyReader& read) {
   return project ? answer_of(*project) : answer_of(project.error());
 }
 
-// Keeps a file that was part of a project.
+// Stores a file that was part of a project.
 Result<ScanSource> Actions::kept(const PackedFile& file) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.name);
   RELIEVO_CHECK(scan->append(text_in(file.bytes)));
@@ -252,7 +253,7 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
   return store_.keep(*scan);
 }
 
-// Returns what the page needs of a project file. A relative path starts at `folder`.
+// Returns the contents of a project file as the page needs them. A relative path starts at `folder`.
 Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::string& name,
                                  const std::string& folder) {
   RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, name));

@@ -18,7 +18,8 @@ namespace relievo::app::studio {
 
 constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // bytes of a dropped file
 
-// Reads the body of a request: passes it on piece by piece, and returns whether all of it came and was taken.
+// Reads the body of a request and passes its blocks to `take`. Returns whether all of it arrived and was
+// taken.
 using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;
 
 // Does an action on the engine of the document that the request names.
@@ -34,28 +35,29 @@ class Actions {
 
   bool has(std::string_view name) const;
 
-  // Does the action of that name, which has() knows.
+  // Does the action of that name, for which has() must be true.
   Answer run(std::string_view name, const nlohmann::json& json);
 
-  // Takes a file of the browser piece by piece: a scan, or a project with or without its scan. Where the body does not
-  // come whole, the answer is empty.
+  // Takes a file of the browser block by block: a scan, or a project with or without its scan. If the body
+  // does not arrive completely, the answer is empty.
   Answer take_scan(const std::string& name, const BodyReader& read);
   Answer take_project(const std::string& name, const BodyReader& read);
 
-  // Has the first page begin with a scan or a project; `full` is its path from the root. Errors: kind input if it
-  // cannot be read.
+  // Makes the first page begin with a scan or a project; `full` is the absolute path. Errors: kind input if
+  // it cannot be read.
   Result<void> begin_with(const std::string& path, const std::string& full);
 
-  // Returns what the page needs to know before it can show anything.
+  // Returns the facts that the page needs before it can show anything.
   nlohmann::json about();
 
-  // Returns, for each open document, its engine's status and when and by which tab it was kept last.
+  // Returns for each open document its engine's status, and the time and the tab of its last keeping.
   std::vector<nlohmann::json> statuses();
 
  private:
   using Action = Result<Answer> (Actions::*)(const nlohmann::json&);
 
-  // A document that is open: its scan, when it was changed, in milliseconds since 1970, and by which tab.
+  // An open document: its scan, the time of its last change in milliseconds since 1970, and the tab that
+  // changed it.
   struct Opened {
     ScanSource input;
     double time_ms = 0;
@@ -87,9 +89,9 @@ class Actions {
 
   OpenDocuments& documents_;
   Store& store_;
-  Mutex storing_;         // guards the store and what follows; it may be held for as long as a disk takes
-  nlohmann::json first_;  // with which the first page begins; null for nothing
-  Guarded<std::map<std::string, Opened>> opened_;  // by document; locked for moments, also within storing_
+  Mutex storing_;         // guards store_ and first_; disk operations may lock it for long
+  nlohmann::json first_;  // the input with which the first page begins, or null
+  Guarded<std::map<std::string, Opened>> opened_;  // by document; locked only briefly, also within storing_
 };
 
 }  // namespace relievo::app::studio

@@ -12,19 +12,19 @@
 namespace relievo::app::studio {
 
 struct Answer {
-  int status = 200;  // as in HTTP
-  std::string type;  // of the body, as browsers know it
+  int status = 200;  // of HTTP
+  std::string type;  // MIME type of the body
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
 Answer answer_of(const nlohmann::json& json, int status = 200);
 
-// The status says whose fault it is: 400 and 422 the request's, 409 that the engine has nothing to answer with, 500 the
-// disk's. What was cancelled is nobody's fault: 202, which browsers do not complain about.
+// Returns the error with its HTTP status: 400 and 422 for a wrong request, 409 if the engine has nothing to
+// answer with, 500 if the disk failed, 202 for cancelled work, which browsers do not report as an error.
 Answer answer_of(const Error& error);
 
-// The pixels are the body; the facts about them are in the header X-Relievo.
+// Returns the pixels as the body, and the facts about them in the header X-Relievo.
 Answer answer_of(const Picture& picture, const nlohmann::json& about);
 
 // Returns an error that the page can show.

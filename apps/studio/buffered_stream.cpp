@@ -9,7 +9,7 @@
 namespace relievo::app::studio {
 namespace {
 
-constexpr int most_wait_ms = 10000;  // of a page on this machine, which needs milliseconds
+constexpr int most_wait_ms = 10000;  // a page on this machine needs milliseconds
 constexpr std::size_t piece =
     1U << 16;  // httplib asks for 4 KiB at a time: large uploads would need many calls
 
@@ -54,7 +54,7 @@ ssize_t BufferedStream::write(const char* from, std::size_t size) {
   return wait_for(socket_, POLLOUT) ? ::send(socket_, from, size, MSG_NOSIGNAL) : -1;
 }
 
-// Nobody asks for addresses: the server answers for this machine alone.
+// The server never uses addresses, as it answers requests of this machine alone.
 void BufferedStream::get_remote_ip_and_port(std::string& ip, int& port) const {
   ip = "127.0.0.1";
   port = 0;

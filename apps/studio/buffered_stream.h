@@ -1,4 +1,4 @@
-// Reads and writes one connection, with limits of time. Tested by apps/studio/tests/server.test.mjs.
+// Reads and writes one connection, with time limits. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 // This header comes first, because the server's header defines a macro _res that breaks Eigen.
@@ -10,8 +10,8 @@
 
 namespace relievo::app::studio {
 
-// Reads what was received before and then from the socket, which it does not own. The end of the connection is 0; errors,
-// and waiting for too long, are -1.
+// Reads the bytes received before, then from the socket, which it does not own. Reading returns 0 at the end
+// of the connection, and -1 for errors and after waiting too long.
 class BufferedStream : public httplib::Stream {
  public:
   BufferedStream(int socket, std::string received) : socket_(socket), received_(std::move(received)) {}
@@ -19,7 +19,7 @@ class BufferedStream : public httplib::Stream {
   // Returns the number of bytes that were read from this stream.
   std::uint64_t bytes_read() const { return bytes_read_; }
 
-  // Returns what was received but not read.
+  // Returns the bytes that were received but not read.
   std::string unread() const { return received_.substr(position_); }
 
   bool is_readable() const override;

@@ -25,23 +25,23 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// Half of the 1024 files that a program may usually have open.
+// Half of 1024, the usual limit of open files of a program.
 constexpr std::size_t most_connections = 512;
-// Requests that are answered at the same time: those of a few pages, and uploads that arrive slowly. Each page holds one
-// request open for events, so that a single thread would answer nothing else.
+// Limits of the requests that are answered at the same time: those of a few pages, and uploads that arrive
+// slowly. Each page keeps one request for events open, which would block a single thread.
 constexpr std::size_t fewest_answering = 4, most_answering = 96;
 constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
 constexpr auto longest_head = 5s;             // from the first byte of a head to its last
-constexpr auto longest_rest = 30s;            // of a connection between two requests
+constexpr auto longest_rest = 30s;            // from one request of a connection to the next
 constexpr auto longest_farewell = 2s;         // for a refused sender to read the answer
 constexpr auto shortest_wait = 1s;            // after which a connection may have to make room
 
 // A connection that no thread works on.
 struct Connection {
   int socket;
-  std::string received;    // of the next request
-  Clock::time_point last;  // moment to close it at
-  bool is_ending = false;  // an answer was sent; what still arrives is read and forgotten
+  std::string received;    // bytes of the next request
+  Clock::time_point last;  // when to close the connection
+  bool is_ending = false;  // an answer was sent; bytes that still arrive are discarded
   Clock::time_point since = Clock::now();
 };
 
@@ -80,14 +80,14 @@ Arrival receive(Connection& connection) {
 struct Connections::State {
   Answer answer;
   int wake = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  std::mutex mutex;  // guards what follows
+  std::mutex mutex;  // guards the members below
   std::condition_variable has_request, has_room;
-  std::list<Connection> waiting;  // the one that waits longest first
+  std::list<Connection> waiting;  // the longest waiting one first
   std::deque<Connection> ready;
   std::size_t open = 0;  // waiting, ready, and being answered
   std::size_t idle = 0;  // threads that wait for a request
   bool is_stopping = false;
-  std::vector<std::thread> threads;  // last: they use what stands above
+  std::vector<std::thread> threads;  // the last member: threads use those above
 
   explicit State(Answer how) : answer(std::move(how)) {
     threads.reserve(1 + most_answering);
@@ -156,7 +156,7 @@ struct Connections::State {
 
   void wait_for_heads() {
     std::vector<pollfd> watched;
-    watched.reserve(1 + most_connections);  // from here on the thread allocates nothing of its own
+    watched.reserve(1 + most_connections);  // from here on this thread allocates nothing itself
     for (std::unique_lock lock(mutex); !is_stopping; lock.lock()) {
       watched.assign(1, {wake, POLLIN, 0});
       for (const Connection& connection : waiting) watched.push_back({connection.socket, POLLIN, 0});
@@ -171,8 +171,8 @@ struct Connections::State {
   }
 
   // Receives what has arrived, and closes connections that are over or too late. The caller holds `mutex`.
-  // Both lists have the same order, but meanwhile connections may have gone from the front of `waiting` and
-  // come to its end.
+  // `watched` and `waiting` have the same order, but meanwhile connections may have been removed from the
+  // front of `waiting` and added to its end.
   void look_at(const std::vector<pollfd>& watched) {
     const Clock::time_point now = Clock::now();
     auto found = watched.begin();
@@ -223,8 +223,9 @@ struct Connections::State {
     }
   }
 
-  // Answers the request that has come on a connection, and returns the connection as it goes on. It ends if
-  // something fails too late for an answer to say so, such as memory while the answer is sent.
+  // Answers the request that has arrived on a connection, and returns the connection for its next request.
+  // The connection ends if something fails when an answer can no longer report it, such as memory while the
+  // answer is sent.
   Connection answer_on(Connection connection) {
     refill_memory_reserve();
     try {

@@ -1,5 +1,5 @@
-// Connections of the studio's server. A thread is given to a request only when its head has arrived, so that connections
-// which send slowly, or nothing, cost no thread. Tested by apps/studio/tests/server.test.mjs.
+// Connections of the studio's server. A thread is given to a request only when its head has arrived, so that
+// slow or silent connections occupy no thread. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <functional>
@@ -9,14 +9,15 @@
 
 namespace relievo::app::studio {
 
-// Takes sockets, waits for the heads of their requests, and has each request answered in one of its threads. A head has
-// limits of size and time; a socket that waits longest is closed when there are too many.
+// Takes sockets, waits for the heads of their requests, and has each request answered in one of its threads.
+// A head has limits of size and time; if there are too many sockets, the longest waiting one is closed.
 class Connections {
  public:
-  // Answers one request. Returns whether the connection may bring another.
+  // Answers one request. Returns whether the connection may send another.
   using Answer = std::function<bool(BufferedStream&)>;
 
-  // Starts a few threads, more when they are needed. Throws std::system_error where the system gives not even a few.
+  // Starts a few threads; more are started when they are needed. Throws std::system_error if the system does
+  // not allow a few.
   explicit Connections(Answer answer);
   ~Connections();  // see stop()
 

@@ -93,7 +93,7 @@ LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
   return live_.make_frame(request.options, {request.u, !is_exact});
 }
 
-// Returns the corners of the relief's box from the middle of the piece.
+// Returns the corners of the relief's box, relative to the middle of the piece.
 std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
                                                       const ReliefOptions& options) const {
   if (options.wrap.kind != WrapKind::none) return std::nullopt;
@@ -106,8 +106,8 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
   return {{low, low + size}};
 }
 
-// Returns the height that files have: the one that was asked for, where the frame's relief and walls under a draft angle
-// allow it, otherwise the largest that they allow. A lithophane has any height.
+// Returns the height of the relief in files: the requested height if the frame's relief and a draft angle
+// allow it, otherwise the largest height that they allow. A lithophane can have any height.
 PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& made) const {
   const Frame& frame = *made.frame;
   const double height = frame.height * made.stretch * live_.mm_per_unit(request.options);
@@ -189,14 +189,14 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.width_mm = request.options.effective_width_mm();
   answer.most_width_mm = live_.most_width_mm();
   if (request.is_original) {
-    options.has_shadows = false;           // the model's own depth would bury the ground in them
-    options.material = Material::plaster;  // whatever the piece is made of
+    options.has_shadows = false;           // the model's full depth would cover the ground with them
+    options.material = Material::plaster;  // whatever the material of the piece
     live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;
     return answer;
   }
-  // A piece is made for the height of the frame, which must be met or the largest.
+  // A piece is made for the height of the frame, so that height must be exact.
   const LiveFrame made = this->frame(request, options.is_fine || !is_plain(request.options));
   const Frame& frame = *made.frame;
   answer.compression = frame.options.shape.compression;

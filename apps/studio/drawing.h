@@ -1,4 +1,4 @@
-// Draws the model that is shown: makes its frames and pictures, and knows its facts.
+// Draws the model that is shown: makes its frames and pictures, and returns facts about it.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace relievo::app::studio {
 
-// Facts about a model that hold as long as it is shown.
+// Facts about a model that stay true while it is shown.
 struct ModelFacts {
   ScanReport scan = {};
   std::size_t points = 0, triangles = 0, hull = 0;
-  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
+  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // the relief's box, in the scan's units
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
-  std::vector<Remark> remarks;         // with sentences as texts
+  std::vector<Remark> remarks;         // their texts are sentences
   std::vector<std::size_t> histogram;  // of sqrt(|k|), from 0 to 1
 };
 
@@ -37,14 +37,14 @@ struct CurveSamples {
 struct PictureRequest {
   ReliefOptions options;  // its view is ignored
   std::optional<double>
-      draft_limit_mm;  // height that the draft angle allows; nothing without one, or while it is not known
+      draft_limit_mm;  // largest height under the draft angle; empty without a draft angle, or while unknown
   std::optional<View>
-      turned;                // the view that is shown while the model is turned, in place of the one prepared
-  std::optional<double> u;   // of the compression, in place of a height, which then follows the shape
+      turned;                // the view to show while the user turns the model, instead of the prepared view
+  std::optional<double> u;   // of the compression, given instead of a height; the height then follows from it
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
   RenderOptions render;      // its lengths are set from the options
-  std::shared_ptr<const Progress> progress = {};  // of a picture that may be cancelled
+  std::shared_ptr<const Progress> progress = {};  // of a picture that can be cancelled
 };
 
 struct PictureAnswer {
@@ -52,24 +52,24 @@ struct PictureAnswer {
   bool is_finished = false;  // shows the piece as export makes it, or the model itself
   bool is_plain = false;     // the piece is one that frames show, too
   double drawing_s = 0;
-  double width_mm = 0;          // of the relief's longer side
-  Vec3 size_mm = Vec3::Zero();  // of the piece
-  bool is_size_exact = false;   // whether its file has that size, which one of few samples need not have
-  std::optional<double> most_width_mm;  // that fits into a plate of the size asked for
+  double width_mm = 0;                  // the relief's longer side
+  Vec3 size_mm = Vec3::Zero();          // the piece's size
+  bool is_size_exact = false;           // whether the file has that size too; a coarse piece may differ
+  std::optional<double> most_width_mm;  // largest width_mm that fits into the requested plate
   std::optional<std::array<Vec2, 2>>
-      relief_mm;  // corners of the relief's box from the middle of the piece; none if bent
+      relief_mm;  // corners of the relief's box, relative to the middle of the piece; empty if bent
 
   struct Reach {
     double share = 1, left_mm = 0;
   };
   std::optional<Reach>
-      reach;  // of the tool: share of the front that it reaches, and the most that it leaves standing
+      reach;  // of the tool: the share of the front that it reaches, and the most material that it leaves
 
-  // The rest tells how a relief was made; a picture of the model itself leaves it at its defaults.
-  Compression compression;  // that was found
-  double height_mm = 0;     // that the file is to be made with
-  double relief_height_mm =
-      0;  // of the relief in the file, which a tool that leaves material makes less high
+  // The members below describe how the relief was made. A picture of the model itself leaves them at their
+  // defaults.
+  Compression compression;      // the one that was found
+  double height_mm = 0;         // the height to make the file with
+  double relief_height_mm = 0;  // of the relief in the file; lower if a tool leaves material
   bool is_height_met = true;
   FrameTimes times;
   CurveSamples curve;
@@ -93,8 +93,9 @@ struct PieceHeight {
 // Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. A model of a few points comes with the detail that they leave out, others come alone.
-  // `outliers` is the number of outliers that were left out of the scan, and `remarks` are its other remarks.
+  // Shares the model. A model of few points comes with the detail that these points leave out; other models
+  // come without. `outliers` is the number of outliers that were left out of the scan, and `remarks` are its
+  // other remarks.
   Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
@@ -118,8 +119,8 @@ class Drawing {
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 
-  // Returns heights above the ground in mm along a line in the picture from the front, of the finished piece where
-  // pictures show it. Errors: those of picture().
+  // Returns heights above the ground in mm along a line in the picture from the front, of the finished piece
+  // if pictures show it. Errors: those of picture().
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:

@@ -19,12 +19,12 @@ std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
 }
 
-// A picture whose piece was given up shows what there is.
+// Ignores a cancelled piece: the picture then shows what is drawn without it.
 Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
 }
 
-// Returns a number that no other model has, of this run or of others: the clock's milliseconds, or more.
+// Returns a number that no other model of this or another run has: the clock's milliseconds, or more.
 std::uint64_t new_model_number() {
   using std::chrono::duration_cast, std::chrono::milliseconds, std::chrono::system_clock;
   static std::atomic<std::uint64_t> next =
@@ -49,10 +49,10 @@ OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best
 }
 
 struct Shared {
-  ScanSource wanted;  // asked for last, with its view
+  ScanSource wanted;  // requested last, with its view
   OptionValues view;
   std::optional<ViewGuess> best;             // the side that was chosen for the view "auto"
-  std::shared_ptr<const ScanSource> unread;  // asked for, but not yet read
+  std::shared_ptr<const ScanSource> unread;  // requested, but not yet read
   LoadedScan scan;                           // read last
   ShownModel shown;
 };
@@ -63,23 +63,24 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  // Locked within the session's lock, which `ready` runs under, and never around a call of the session.
+  // `ready` locks this while the session is locked. So nobody may call the session while this is locked.
   Guarded<Shared> shared;
 
-  Guarded<std::shared_ptr<Progress>> at_rest;  // of fine pictures and pieces; null after any other picture
+  Guarded<std::shared_ptr<Progress>>
+      at_rest;  // progress of fine pictures and pieces; null after other pictures
 
   PieceMaker maker;
 
-  Mutex drawing_mutex;  // guards what follows up to the next mutex
+  Mutex drawing_mutex;  // guards the members up to the next mutex
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
-  std::optional<View> turned_view;  // of the drawing below
-  std::optional<Drawing> turned;    // of the model while it is turned
-  Mutex scan_mutex;                 // guards what follows up to the session
+  std::optional<View> turned_view;  // the view of the drawing below
+  std::optional<Drawing> turned;    // the model while the user turns it
+  Mutex scan_mutex;                 // guards the members up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
-  Session session;  // last: its thread uses what stands above
+  Session session;  // the last member: its thread uses those above
 
   // Returns the preparation of a view of the scan that was asked for last.
   Preparation preparation_of(const ReliefOptions& options) {
@@ -92,7 +93,7 @@ struct Engine::State {
     preparation.all_sides = [this](Progress&) -> Preparation::Points {
       return shared.with([](const Shared& s) { return s.scan; }).all_sides();
     };
-    preparation.makes_first_relief = !changed;  // with one thread, the page does not ask for it
+    preparation.makes_first_relief = !changed;  // without threads the page does not ask for one
     preparation.mode = options.mode;
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
@@ -101,8 +102,8 @@ struct Engine::State {
     return preparation;
   }
 
-  // In the session's thread: returns the points that the view shows, of a scan that is read first if need be. A view that
-  // is still to be chosen becomes that of the best side.
+  // In the session's thread: reads the scan if necessary, and returns the points that the view shows. A view
+  // that is still to be chosen becomes that of the best side.
   Preparation::Points points(View& view, std::optional<double> number, Progress& progress) {
     if (auto done = read(progress); !done) return std::unexpected(done.error());
     const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
@@ -119,7 +120,7 @@ struct Engine::State {
     const auto unread = shared.with([](const Shared& s) { return s.unread; });
     if (!unread) return {};
     if (auto go = progress.stage("read", 0); !go) return go;
-    // Whoever chooses another view cancels the preparation, but not the reading.
+    // Choosing another view cancels the preparation, but not the reading.
     const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
     Result<LoadedScan> scan = read_scan(*unread, is_unwanted);
     const bool is_wanted = shared.with([&](Shared& s) {
@@ -146,11 +147,11 @@ struct Engine::State {
     });
   }
 
-  // Draws the model in a view that is not prepared yet. Its coarse relief is made once per view, and lasts
-  // until that view is prepared, whatever changes meanwhile. Other pictures do not wait for it, and the next
+  // Draws the model in a view that is not prepared yet. The coarse relief is made once per view, and is used
+  // until that view is prepared, whatever options change. Other pictures do not wait for it, and the next
   // view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
-    std::uint64_t model = 0;  // that was drawn when the coarse relief was begun
+    std::uint64_t model = 0;  // the model that was drawn when the coarse relief was begun
     for (std::optional<TurnedRelief> relief;;) {
       {
         const Lock lock(drawing_mutex);
@@ -237,8 +238,8 @@ Result<void> Engine::choose_view(const OptionValues& view) {
   return {};
 }
 
-// Cancels the session, and frees a scan that no relief was made of. The session comes first, so that work which finds no
-// scan ends.
+// Cancels the session, and frees a scan of which no relief was made. The session is cancelled first, so that
+// work that finds no scan ends.
 void Engine::cancel() {
   state_->session.cancel();
   state_->shared.with([](Shared& s) {
@@ -281,11 +282,11 @@ Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
 
 // Makes the piece that a picture is to show, while other pictures are drawn.
 Result<void> Engine::finish(PictureRequest& request) {
-  // Another model is prepared, or about to be, whose piece will be asked for.
+  // If another model is being prepared, the piece of that model will be requested later.
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());
-  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // while it waited for another piece
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // it may have waited for another piece
   std::uint64_t model = 0;
   RELIEVO_TRY(const std::optional<ReliefOptions> missing, state_->with_drawing([&](Drawing& drawing) {
     model = state_->drawn_model;
@@ -322,7 +323,7 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
 }
 
 Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
-  if (request.options.rim_mm)  // whose bevel leans enough, or not, by the height that the draft angle allows
+  if (request.options.rim_mm)  // the height under the draft angle decides whether its bevel leans enough
     if (auto known = find_draft_limit(request, PieceUse::entry); !known)
       RELIEVO_CHECK(unless_cancelled(known.error()));
   return state_->with_drawing([&](Drawing& drawing) { return drawing.profile(std::move(request), line); });

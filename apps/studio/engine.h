@@ -1,4 +1,4 @@
-// The native engine behind the page: one scan, its relief, and pictures of both.
+// The native engine behind the page: has one scan, makes its relief, and draws both.
 #pragma once
 
 #include <functional>
@@ -15,30 +15,29 @@
 
 namespace relievo::app::studio {
 
-// The engine's present work, and the scan that it is done for.
+// The engine's present work, and the scan of this work.
 struct EngineStatus {
   bool is_busy = false;
   std::string stage;
   double fraction = 0;
-  std::optional<Error> error;  // of the last opening or change of view
+  std::optional<Error> error;  // error of the last opening or change of view
   ScanSource input;            // of the scan that is shown
-  OptionValues view;           // that was last asked for: the options by which a scan is prepared
-  std::string making_stage;    // of the file that is being made; empty if there is none
+  OptionValues view;           // last requested: the options by which a scan is prepared
+  std::string making_stage;    // stage of the file that is being made; empty if there is none
   double making_fraction = 0;
-  std::uint64_t model =
-      0;                  // number of the model that is shown, of no other model of any engine; 0 is none yet
-  bool can_turn = false;  // whether pictures of other views than the model's can be drawn
+  std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first
+  bool can_turn = false;    // whether pictures of other views than the model's can be drawn
 };
 
 // Every method may be called from any thread. Those that draw wait for each other.
 class Engine {
  public:
-  // Where there are no threads, `changed` is called when status() has changed within a call.
+  // `changed` is for systems without threads: it is called when status() has changed within a call.
   explicit Engine(const std::function<void()>& changed = {});
   ~Engine();
 
-  // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
-  // and for good if that fails.
+  // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready;
+  // if that fails, it stays for good.
   void open(const ScanSource& input, const OptionValues& view);
 
   // Does the parts of open() and choose_view() that are needed to show the scan in that view: none if it is
@@ -59,18 +58,18 @@ class Engine {
 
   EngineStatus status() const;
 
-  // Errors of the following: kind geometry if there is no relief yet.
+  // Errors of this and the methods below: kind geometry if there is no relief yet.
   Result<ModelFacts> facts();
 
-  // See Drawing. While another view is prepared, pictures show the last frame of the model before it. A finished piece is
-  // made first; any other picture cancels that, so that nobody waits for it, and one that is not fine cancels all fine ones.
-  // Errors: also those of piece().
+  // See Drawing. While another view is prepared, pictures show the last frame of the model before it. A
+  // finished piece is made before its picture. Any other picture cancels that piece, so as not to wait for
+  // it, and a picture that is not fine cancels all fine ones. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
-  // Returns the height in mm of the highest relief that the options allow, their draft angle included. Finding that of a
-  // draft angle takes as long as a piece does, and is given up as pieces for pictures are. Errors: those of
-  // Drawing::reachable_height() and highest_with_draft(); kind cancelled.
+  // Returns the height in mm of the highest relief that the options allow, their draft angle included.
+  // Finding the height under a draft angle takes as long as making a piece, and other pictures cancel it
+  // likewise. Errors: those of Drawing::reachable_height() and highest_with_draft(); kind cancelled.
   Result<double> reachable_height(PictureRequest request);
 
   // Draws the scan itself as it looks in a view.

@@ -3,7 +3,7 @@
 
 #include "studio/answers.h"
 
-// After the headers above: it defines a macro _res that Eigen cannot live with.
+// This header comes last, because it defines a macro _res that breaks Eigen.
 #include <httplib.h>
 
 #include <exception>
@@ -23,7 +23,7 @@ void answer(httplib::Response& response, const std::exception_ptr& exception);
 // Returns whether the head of a request allows its body; otherwise refuses it before any of it is read.
 bool is_welcome(const httplib::Request& request, httplib::Response& response, std::size_t most_bytes);
 
-// Reads a body piece by piece; returns whether all of it came and was taken, and otherwise refuses it.
+// Reads a body block by block. Returns whether all of it arrived and was taken; otherwise refuses it.
 bool read_body(const httplib::ContentReader& read, httplib::Response& response, std::size_t most_bytes,
                const std::function<Result<void>(std::string_view)>& take);
 

@@ -7,7 +7,8 @@ namespace {
 
 using httplib::Request;
 
-// Hands connections over in the thread that accepts them: Connections has the threads that work.
+// Runs tasks in the thread that accepts connections. They only pass the connection to Connections, which has
+// threads of its own.
 class DirectQueue : public httplib::TaskQueue {
  public:
   void enqueue(std::function<void()> task) override { task(); }
@@ -25,7 +26,8 @@ std::optional<std::uint64_t> announced_body(const Request& request) {
 
 HttpServer::HttpServer() : connections_([this](BufferedStream& stream) { return answer(stream); }) {
   new_task_queue = [] { return new DirectQueue; };
-  // The usual options would let another program of this user take some of the connections, and their token with them.
+  // The default options would let another program of this user take some of the connections, and read the
+  // token in them.
   set_socket_options([](int socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -39,7 +41,7 @@ std::optional<int> HttpServer::bind(int port) {
   else if (!bind_to_port(host, port))
     port = -1;
   if (port <= 0) return std::nullopt;
-  ::listen(svr_sock_, 1024);  // more than the five connections that the library lets wait
+  ::listen(svr_sock_, 1024);  // the library's backlog is 5 connections
   return port;
 }
 

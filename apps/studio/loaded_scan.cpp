@@ -13,8 +13,8 @@
 namespace relievo::app::studio {
 namespace {
 
-// Returns the share of each model's points that makes all models about equally dense, because they are drawn
-// as discs of one size. No model is thinned to more than three times the spacing of the finest.
+// Returns for each model the share of its points to keep, so that all models are about equally dense: points
+// are drawn as discs of one size. No model is thinned to more than three times the spacing of the finest.
 std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
   std::vector<double> apart;
   if (places.empty()) return apart;
@@ -52,7 +52,7 @@ bool LoadedScan::is_one_file() const {
   return scene_.models.size() == 1 && scene_.models[0].pose == Pose{};
 }
 
-// Keeps normals as long as every model has some, and colours likewise.
+// Adds the points of a model. Normals are kept only if all models have them; so are colours.
 void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
   const bool is_mesh = !file.mesh.empty();
   const std::vector<Index> outlying = is_mesh ? std::vector<Index>() : outliers(file.cloud);
@@ -70,7 +70,7 @@ void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double sha
 }
 
 Result<std::shared_ptr<const Cloud>> LoadedScan::all_sides() const {
-  constexpr std::size_t scattered = 400'000;  // of which about half face the viewer
+  constexpr std::size_t scattered = 400'000;  // about half of them face the viewer
   if (scene_.models.empty())
     return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
   const Mesh& mesh = scene_.models[0].file->mesh;

@@ -13,13 +13,13 @@ namespace relievo::app::studio {
 // Immutable; copies are cheap, for they share the points.
 class LoadedScan {
  public:
-  LoadedScan() = default;                     // none
-  LoadedScan(ScanSource input, Scene scene);  // of at least one model
+  LoadedScan() = default;                     // no scan
+  LoadedScan(ScanSource input, Scene scene);  // at least one model
 
   const ScanSource& input() const { return input_; }
 
-  // Returns the points that views are ranked by: all models as they stand seen from the front, without
-  // outliers; meshes give their corners. Null if no scan was read.
+  // Returns the points for ranking views: those of all models, placed in the front view, without outliers; of
+  // meshes the vertices. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
@@ -28,15 +28,15 @@ class LoadedScan {
   // scattered evenly over it, otherwise they are those of cloud().
   Result<std::shared_ptr<const Cloud>> all_sides() const;
 
-  // Returns the number of outliers: points of clouds that lie far outside.
+  // Returns the number of outliers that were left out: points of clouds far from all others.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns the remarks on its files, a line for each: what their readers left out, after the file's name in
-  // a scene, and that points are taken from meshes.
+  // Returns the remarks on the scan's files, one line each: points that the readers left out, with the file's
+  // name in a scene, and that points are sampled from meshes.
   std::vector<std::string> remarks() const;
 
-  // Returns the points that the relief of that view is made of, about `points` of them where they are taken from meshes
-  // or scenes. Errors: those of sample_for_view().
+  // Returns the points for the relief in that view; about `points` of them if they are sampled from meshes or
+  // scenes. Errors: those of sample_for_view().
   Result<std::shared_ptr<const Cloud>> seen_from(const View& view, std::optional<double> points,
                                                  Progress* progress) const;
 

@@ -63,14 +63,14 @@ bool OpenDocuments::is_shown(const std::string& document) const {
   return std::ranges::find(tabs_, document, &Tab::document) != tabs_.end();
 }
 
-// With `mutex_` locked: returns the entry behind it.
+// With `mutex_` locked: closes the entry, and returns the next one.
 std::list<OpenDocuments::Entry>::iterator OpenDocuments::close(std::list<Entry>::iterator entry) {
   entry->engine->cancel();
   closing_.push_back(entry->engine);
   return entries_.erase(entry);
 }
 
-// With `mutex_` locked; the one that was used last stays.
+// With `mutex_` locked: closes documents beyond the limits, but never the one that was used last.
 void OpenDocuments::close_others() {
   std::size_t open = 1, hidden = 0;
   for (auto entry = std::next(entries_.begin()); entry != entries_.end();) {
@@ -93,7 +93,7 @@ void OpenDocuments::work() {
   forget_idle();
 }
 
-// An engine that still works would make whoever destroys it wait.
+// Destroys closed engines that are idle. Destroying a busy engine would wait for its work.
 void OpenDocuments::forget_idle() {
   std::erase_if(closing_, [](const std::shared_ptr<Engine>& engine) { return engine->is_idle(); });
 }

@@ -28,7 +28,7 @@ class OpenDocuments {
     std::shared_ptr<Engine> engine;
   };
 
-  // `changed` is what engines call where there are no threads.
+  // `changed` is passed to the engines, which call it if there are no threads.
   explicit OpenDocuments(std::function<void()> changed = {}) : changed_(std::move(changed)) {}
 
   // Returns the document's engine; null if the document is not open.
@@ -40,16 +40,16 @@ class OpenDocuments {
 
   bool is_open(const std::string& document);
 
-  // Closes a document that no tab shows but, perhaps, the one named. Returns false if another one does.
+  // Closes a document. Returns false, and leaves it open, if a tab other than `tab` shows it.
   bool close(const std::string& document, const std::string& tab);
 
-  // The tab is closed.
+  // Call this when a tab is closed.
   void leave(const std::string& tab);
 
   // Without threads, this does the work that the engines were asked for, see Engine::work().
   void work();
 
-  // Returns all, the one that was used last first.
+  // Returns all open documents, the one used last first.
   std::vector<Entry> all();
 
  private:

@@ -132,7 +132,7 @@ EngineAction find_engine_action(std::string_view name) {
   return found == std::end(actions) ? nullptr : found->second;
 }
 
-// Tells whether options can be read and do not contradict each other.
+// Checks that the options can be read and do not contradict each other.
 Result<Answer> Actions::check(const nlohmann::json& json) {
   RELIEVO_CHECK(options_in(json));
   return answer_of(Json::object());

@@ -23,8 +23,8 @@ struct NumberedModel {
   std::uint64_t number = 0;
 };
 
-// The use of a piece, or of the height that its draft angle allows: for an export, for an entry that is tried, or for a
-// picture, which is given up when another one is asked for.
+// The purpose of a piece, or of the largest height under its draft angle: a file to export, a check of the
+// user's entry, or a picture. Work for a picture is cancelled by the next picture.
 enum class PieceUse { file, entry, picture };
 
 // Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any thread.

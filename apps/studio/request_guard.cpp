@@ -27,7 +27,7 @@ std::string random_token() {
   return text;
 }
 
-// Compares in a time that does not depend on how much of the texts is equal.
+// Compares in constant time, so that the time does not reveal how much of a token is right.
 bool is_equal(std::string_view a, std::string_view b) {
   unsigned different = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)

@@ -1,7 +1,7 @@
 // Authorises requests to the studio's server: only its own page, on this machine, may send them.
 #pragma once
 
-// Before the server's header, which defines a macro _res that Eigen cannot live with.
+// This header comes first, because the server's header defines a macro _res that breaks Eigen.
 #include "relievo/core/types.h"
 
 #include <httplib.h>
@@ -11,7 +11,8 @@
 
 namespace relievo::app::studio {
 
-// Has a random token for the page's address and checks that requests know it and come from there.
+// Has a random token for the page's address, and checks that requests contain the token and come from that
+// page.
 class RequestGuard {
  public:
   // Takes the token of a former run, or draws one if there is none.
@@ -21,7 +22,7 @@ class RequestGuard {
   const std::string& token() const { return token_; }
   std::string address() const;
 
-  // Returns the path below the token; otherwise refuses, for another host, origin or token.
+  // Returns the rest of the path after the token; refuses a request with a wrong host, origin or token.
   std::optional<std::string> admit(const httplib::Request& request, httplib::Response& response) const;
 
  private:

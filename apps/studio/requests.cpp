@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The materials for people, in the order of material_choices.
+// Names of the materials for users, in the order of material_choices.
 constexpr std::array<std::string_view, material_choices.size()> material_names{
     "Plaster", "Struck silver", "Bronze", "Walnut", "Porcelain, lit from behind"};
 constexpr double most_pixels = 8e6, most_fine_pixels = 2.5e6;
@@ -27,7 +27,8 @@ struct Range {
   double min, max, otherwise;
 };
 
-// Returns a number of the object; `otherwise` if it is missing, nothing if it is no number in the range.
+// Returns a number of the object; `range.otherwise` if it is missing, nothing if it is no number in the
+// range.
 std::optional<double> number(const Json& json, const char* key, const Range& range) {
   const auto found = json.find(key);
   if (found == json.end()) return range.otherwise;
@@ -105,7 +106,7 @@ Json to_json(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// A thousandth is a quarter of a pixel of the page's curve, and keeps the header with these short.
+// Rounds to thousandths: a quarter of a pixel in the page's curve, and short in the header.
 Json rounded(const std::vector<double>& samples) {
   Json json = Json::array();
   for (const double sample : samples) json.push_back(std::round(sample * 1e3) / 1e3);

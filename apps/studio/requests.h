@@ -17,25 +17,26 @@ Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
 
-// Returns the longer side of a height map, and the material of a picture.
+// Returns the export order: the longer side of a height map, and the material of a picture.
 Result<ExportOrder> export_order_from(const nlohmann::json& json);
 
-// Returns the options by which a scan is prepared, as the page sends them; those that are missing have their defaults.
+// Returns the page's options for preparing a scan; missing ones get their defaults.
 OptionValues view_values(const nlohmann::json& json);
 
-// Returns these options as a new document has them.
+// Returns these options for a new document.
 OptionValues first_view();
 
 nlohmann::json to_json(const EngineStatus& status);
 nlohmann::json to_json(const ModelFacts& facts);
 
-// Returns what is sent along with a picture's pixels.
+// Returns the facts that are sent with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
 
-// Returns the six sides: name, direction towards the viewer, direction shown upright.
+// Returns the six sides: for each its name, the direction towards the viewer, and the direction shown
+// upright.
 nlohmann::json view_list();
 
-// Returns the materials of pictures: id, and name for people.
+// Returns the materials of pictures: for each its id, and its name for users.
 nlohmann::json material_list();
 
 nlohmann::json error_json(const Error& error);

@@ -24,9 +24,9 @@ using namespace std::chrono_literals;
 constexpr std::size_t most_json = 4U << 20;
 constexpr int most_waiting = 32, most_pages = 8;
 constexpr int most_files =
-    24;  // that arrive at the same time: a quarter of the threads, so that all else is answered
+    24;  // uploads at the same time: a quarter of the threads, so that other requests are answered
 
-// Raises a counter by one for as long as it lives.
+// Raises a counter by one until it is destroyed.
 class ScopedCount {
  public:
   explicit ScopedCount(std::atomic<int>& count) : count_(count), number_(++count) {}
@@ -34,7 +34,7 @@ class ScopedCount {
   ScopedCount& operator=(const ScopedCount&) = delete;
   ~ScopedCount() { --count_; }
 
-  // Returns the count when this was made, itself included.
+  // Returns the count when this object was made, including this object.
   int number() const { return number_; }
 
  private:
@@ -48,7 +48,8 @@ class StatusStream {
   StatusStream(std::atomic<int>& pages, Actions& actions, const std::string& run_name)
       : count_(pages), actions_(actions), run_name_(run_name) {}
 
-  // Returns the events since the last call. A comment in place of none finds out whether the page is still there.
+  // Returns the events since the last call, after a comment: sending it shows whether the page is still
+  // there.
   std::string next() {
     std::string text = is_new_ ? cat("retry: 300\ndata: ", Json{{"run", run_name_}}.dump(), "\n\n") : ":\n";
     is_new_ = is_busy_ = false;
@@ -64,15 +65,16 @@ class StatusStream {
     return text;
   }
 
-  // Returns the pause before the next call. It is shorter while something is prepared, so that this is shown at once.
+  // Returns the pause before the next call. It is shorter while a document is prepared, so that the page
+  // shows the progress at once.
   std::chrono::milliseconds pause() const { return is_busy_ ? 15ms : 80ms; }
 
  private:
   ScopedCount count_;
   Actions& actions_;
   std::string run_name_;
-  bool is_new_ = true, is_busy_ = false;     // whether a document was being prepared at the last call
-  std::map<std::string, std::string> last_;  // by document
+  bool is_new_ = true, is_busy_ = false;     // is_busy_: a document was being prepared at the last call
+  std::map<std::string, std::string> last_;  // last statuses by document
 };
 
 }  // namespace
@@ -112,8 +114,8 @@ struct Server::State {
                          std::string(file->type));
   }
 
-  // Streams the statuses of the open documents as they change, and at first the name of this run. The page keeps the
-  // stream open for as long as it lives.
+  // Streams the statuses of the open documents as they change, and at first the name of this run. The page
+  // keeps the stream open until it is closed.
   void follow(Response& response) {
     if (pages >= most_pages) return refuse(response, 503, "too many pages are open");
     had_page = true;
@@ -201,7 +203,7 @@ struct Server::State {
     http.set_exception_handler([](const Request&, Response& s, std::exception_ptr e) { answer(s, e); });
   }
 
-  // Stops the server when no page was there for a while.
+  // Stops the server when no page has been open for a while.
   void watch() {
     auto last_seen = std::chrono::steady_clock::now();
     while (!is_stopping) {
@@ -224,7 +226,7 @@ Server::~Server() = default;
 Result<std::string> Server::bind() {
   const int wanted = state_->options.port, former = state_->store.address().port;
   std::optional<int> port;
-  if (wanted == 0 && former > 0) port = state_->http.bind(former);  // pages that are still open look there
+  if (wanted == 0 && former > 0) port = state_->http.bind(former);  // pages that are still open use that port
   if (!port) port = state_->http.bind(wanted);
   if (!port) return std::unexpected(Error{ErrorKind::option, "port", {}, "expected a port that is free"});
   state_->guard.set_port(*port);

@@ -1,4 +1,4 @@
-// The studio's web server: the page's files and the engines behind it, for this machine alone.
+// The studio's web server: serves the page's files and its requests to this machine alone.
 #pragma once
 
 #include <chrono>
@@ -11,14 +11,14 @@
 namespace relievo::app::studio {
 
 struct ServerOptions {
-  int port = 0;  // 0 takes that of the last run, or if it is taken a free one
+  int port = 0;  // 0: the port of the last run, or a free one if that is taken
   std::string
-      page_folder;  // where page files are read from instead of the program itself; for work on the page
-  std::chrono::seconds linger{15};  // how long to go on when the last page has gone
+      page_folder;  // if given, page files are read from there, not from the program; for work on the page
+  std::chrono::seconds linger{15};  // how long to go on after the last page is closed
 };
 
-// Answers on 127.0.0.1 only, and only requests whose path begins with a token that nobody else knows, that
-// were sent to this machine by name, and that no other web site sent.
+// Answers on 127.0.0.1 only. A request must have the secret token at the start of its path and name this
+// machine as its host, and must not come from another web site.
 class Server {
  public:
   Server(Actions& actions, const DiskStore& store, const ServerOptions& options);
@@ -27,7 +27,7 @@ class Server {
   // Opens the port and returns the page's address. Errors: kind option if the port is taken.
   Result<std::string> bind();
 
-  // Answers until the last page has gone for good. Before a first page came, it waits for one.
+  // Answers until the last page has been closed for good. Waits for the first page.
   void run();
 
  private:

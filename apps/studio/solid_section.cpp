@@ -7,12 +7,12 @@
 namespace relievo::app::studio {
 namespace {
 
-// A point of a triangle's edge on the plane of the section.
+// A crossing of a triangle's edge with the plane of the section.
 struct Crossing {
-  double along, z;  // in steps of the samples, and in mm
+  double along, z;  // `along` in steps of the samples, z in mm
 };
 
-// Raises the samples between two crossings to the edge between them.
+// Raises the samples between two crossings to at least the line between them.
 void raise(std::vector<float>& heights, Crossing a, Crossing b) {
   if (a.along > b.along) std::swap(a, b);
   const double last = static_cast<double>(heights.size() - 1);

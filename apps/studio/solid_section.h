@@ -14,8 +14,8 @@ struct SectionLine {
   std::size_t samples = 400;  // at least 2
 };
 
-// Returns the heights of the solid's highest surface above its ground in mm, in equal steps along the line; beside the
-// solid those of its lowest point.
+// Returns the heights of the solid's highest surface above its ground in mm, in equal steps along the line.
+// Beside the solid they are the height of its lowest point.
 std::vector<float> section_of(const Solid& solid, const SectionLine& line);
 
 }  // namespace relievo::app::studio

@@ -12,7 +12,7 @@
 
 namespace relievo::app::studio {
 
-// A scan that was dropped on the page and arrives piece by piece. It is gone unless Store::keep() takes it.
+// A scan that was dropped on the page and arrives in blocks. It is removed unless Store::keep() takes it.
 class DroppedScan {
  public:
   virtual ~DroppedScan() = default;
@@ -20,11 +20,12 @@ class DroppedScan {
   // Errors: kind output.
   virtual Result<void> append(std::string_view bytes) = 0;
 
-  // Waits until all that arrived is where it will stay, which may take as long as a disk does. Errors: kind output.
+  // Waits until all bytes that arrived are stored safely, which may take as long as a disk needs. Errors:
+  // kind output.
   virtual Result<void> finish() { return {}; }
 };
 
-// A document that is kept, for a list of them.
+// An entry of the list of kept documents.
 struct KeptDocument {
   std::string id;
   ScanSource input;
@@ -88,10 +89,11 @@ class Store {
 // Returns whether a text is the name of a document.
 bool is_document(std::string_view id);
 
-// Returns the scan of a document's present step; none if the state is not a page's.
+// Returns the scan of a document's present step; nothing if the text is not the state of a document.
 std::optional<ScanSource> input_of(const std::string& state);
 
-// Returns the last part of a path, without anything that a file system could read as more than a name.
+// Returns the last part of a path as a plain file name: without separators and control characters, of at most
+// 120 bytes, never empty.
 std::string plain_name(const std::string& name);
 
 }  // namespace relievo::app::studio

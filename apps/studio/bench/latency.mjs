@@ -1,15 +1,14 @@
-// Milliseconds from an event of the mouse to the picture on screen that shows it, in Chromium at 1280 x 800; and from the
-// choice of a file to the first relief, and to that of all points.
-//   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
-// With the page in one file, the engine is the one inside it.
-// A movement is a drag of 4 seconds with 60 events a second, which waits for no picture: what comes while a picture is
-// made is shown by the next one.
+// Measures, in Chromium at 1280 x 800, the milliseconds from an event of the mouse to the picture that shows it, and
+// from the choice of a file to the first relief and to the relief of all points.
+//   node apps/studio/bench/latency.mjs [relievo.html] SCAN... With the page in one file, the engine is the one inside
+//   it. A movement is a drag of 4 seconds with 60 events a second, which waits for no picture. Events that arrive while
+//   a picture is made are shown by the next one.
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {EngineProcess, areKindsDrawn, findBrowser, openPanels, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
-// The sliders by their names, today's and former ones; a drag goes over these shares of a slider or of the picture.
+// The sliders by their present and former names. A drag covers these shares of a slider or of the picture.
 const MOVEMENTS = {
   height: {slider: /^Height$/, from: 0.45, to: 0.6},
   detail: {slider: /^(Fine d|D)etail$/, from: 0.1, to: 0.5},
@@ -54,7 +53,7 @@ async function newPage() {
   return (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
 }
 
-// The median of five openings, each by an engine that was just started.
+// Prints the median of five openings, each by a newly started engine.
 async function measureOpening(scan) {
   const first = [], exact = [];
   for (let i = 0; i < 5; ++i) {
@@ -110,14 +109,15 @@ async function drag(page, {slider, tool, from, to}) {
   return heard;
 }
 
-// Runs in the page: keeps the times of events, and of pictures with that of the newest event that each shows.
+// Runs in the page: records the times of events, and those of pictures with the time of the newest event that each
+// shows.
 function listen(type) {
   const heard = window.heard = {events: [], pictures: [], pixels: 0};
   addEventListener(type, (event) => heard.events.push(event.timeStamp), {capture: true});
   document.querySelector("#stage").addEventListener("picture", ({detail: {about, ms}}) => {
     const shows = performance.now() - ms;
     heard.pixels = about.width * about.height;
-    // The frame after the one that shows the picture begins when that one is on its way to the screen.
+    // The next frame begins when the frame with this picture is on its way to the screen.
     requestAnimationFrame(() => setTimeout(() => heard.pictures.push({shows, at: performance.now()})));
   });
 }

@@ -18,7 +18,7 @@ async function take(name) {
     for (const colorScheme of ["light", "dark"]) {
       await page.setViewportSize(screen);
       await page.emulateMedia({colorScheme});
-      await page.waitForTimeout(900); // until what is drawn fits its new size
+      await page.waitForTimeout(900); // until the drawings fit their new size
       await page.screenshot({path: path.join(into, `${name.replace(/\W+/g, "-")}-${screen.width}-${colorScheme}.png`)});
     }
   await page.setViewportSize(SCREENS[0]);

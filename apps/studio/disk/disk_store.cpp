@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* documents = "documents";  // the folders
+constexpr const char* documents = "documents";  // folder names
 constexpr const char* scans = "scans";
 constexpr unsigned private_file = 0600;
 
-// Returns why something cannot be kept, by the value of errno.
+// Returns the error for a file that cannot be kept; `reason` is the value of errno.
 std::unexpected<Error> not_kept(int reason) {
   const bool is_full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
   return std::unexpected(Error{
@@ -72,12 +72,12 @@ Result<void> check_id(const std::string& id) {
   return std::unexpected(Error{ErrorKind::input, "document", {}, "expected the name of a document"});
 }
 
-// Makes a folder that nobody else may read.
+// Makes a folder that only its user may read.
 bool make_folder(const fs::path& path) {
   return ::mkdir(path.c_str(), 0700) == 0 || errno == EEXIST;
 }
 
-// Returns the entries of a folder that is no link to one.
+// Returns the entries of a folder; none for a link to a folder.
 std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
   std::error_code failed;
   std::vector<fs::directory_entry> entries;
@@ -112,7 +112,7 @@ std::set<std::string> scans_in(std::string_view text) {
 }  // namespace
 
 DiskStore::DiskStore(StateFolder folder)
-    // Nothing can be in that place, so that nothing is found and nothing is kept.
+    // No file can exist below /dev/null, so that nothing is found and nothing is kept.
     : folder_(folder.is_ours ? std::move(folder.path) : "/dev/null"),
       notice_(std::move(folder.notice)),
       lock_(std::move(folder.lock)) {
@@ -211,7 +211,7 @@ StudioAddress DiskStore::address() const {
   return {json["port"].get<int>(), json["token"].get<std::string>()};
 }
 
-// Everybody who knows the address may use the studio, so only its user can read the file.
+// Anybody with the address can use the studio, so only its user may read the file.
 void DiskStore::keep_address(const StudioAddress& address) const {
   (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(),
               Durability::machine);
@@ -222,7 +222,7 @@ std::unique_ptr<DroppedScan> DiskStore::begin_scan(const std::string& name) cons
 }
 
 Result<ScanSource> DiskStore::keep(DroppedScan& scan) {
-  auto& kept = static_cast<ScanFile&>(scan);  // which begin_scan() made
+  auto& kept = static_cast<ScanFile&>(scan);  // begin_scan() made it
   const std::string text = kept.hash.text();
   const fs::path folder = fs::path(folder_) / scans / digits_of(text), path = folder / kept.name;
   const bool is_kept = own_state_folder(folder_) && make_folder(folder.parent_path()) &&
@@ -239,7 +239,7 @@ std::optional<ScanSource> DiskStore::find_scan(const std::string& hash) const {
   return std::nullopt;
 }
 
-// Returns the folders of kept scans that texts name, and those that the scenes among them name.
+// Returns the folders of the kept scans that the texts name, and those that scenes among these scans name.
 Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts) const {
   std::set<std::string> found;
   for (std::size_t i = 0; i < texts.size(); ++i)
@@ -253,8 +253,8 @@ Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts
   return found;
 }
 
-// Removes the scans that no document needs; removes none while a document cannot be read. A file stays if its
-// folder is not named by its content: somebody else has put it there.
+// Removes the candidates that no document needs; removes none if a document cannot be read. A file stays if
+// its hash is not the name of its folder, since the studio did not put it there.
 void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
   if (candidates.empty()) return;
   std::vector<std::string> texts;
@@ -273,7 +273,7 @@ void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
       if (fs::is_regular_file(file.symlink_status(ignored)) &&
           digits_of(hash_of_file(file.path()).value_or("")) == scan)
         fs::remove(file.path(), ignored);
-    if (!fs::is_symlink(folder, ignored)) ::rmdir(folder.c_str());  // unless something else is in it
+    if (!fs::is_symlink(folder, ignored)) ::rmdir(folder.c_str());  // fails if other files are in it
   }
 }
 

@@ -18,12 +18,12 @@ struct StudioAddress {
   std::string token;  // empty if not known
 };
 
-// Says which crash a file survives: that of the program, or that of the machine as well.
+// The crashes that a file must survive: those of the program, or also those of the machine.
 enum class Durability { program, machine };
 
-// Files in one folder, each replaced as a whole. Removes documents only when asked to, and only those scans
-// that it has kept and no document needs. Errors are in words for users, without paths. Not for concurrent
-// use.
+// Keeps files in one folder, and replaces each as a whole. Removes documents only on request, and only scans
+// that it has kept itself and that no document needs. Errors are worded for users, without paths. Not for
+// concurrent use.
 class DiskStore final : public Store {
  public:
   explicit DiskStore(StateFolder folder);

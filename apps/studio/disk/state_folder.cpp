@@ -16,11 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_studios = 9;  // that keep their work side by side
+constexpr int most_studios = 9;  // with state folders side by side
 constexpr std::string_view mark_owner = "studio";
 constexpr unsigned private_folder = 0700;
 
-// Locks the folder until this program ends; otherwise errno tells why not.
+// Locks the folder until this program ends. If that fails, errno has the reason.
 Descriptor lock_of(const std::string& folder) {
   const std::string path = folder + "/lock";
   Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));

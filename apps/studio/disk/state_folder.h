@@ -18,9 +18,9 @@ struct StateFolder {
 // Returns whether a folder has a studio's mark; one that is gone is made anew.
 bool own_state_folder(const std::string& folder);
 
-// Takes the folder for this studio alone, or the default one if `chosen` is empty: while another studio has it, the folder
-// of that name with -2, or -3 and so on. A folder with files of others is never taken: of the default one this is the
-// same as if another studio had it. Errors: kind option if `chosen` is such a folder.
+// Reserves the folder `chosen` for this studio alone, or the default one if `chosen` is empty. If another
+// studio has it, tries the names with -2, -3 and so on. A folder with files of others is never taken; instead
+// of such a default folder the next name is tried. Errors: kind option if `chosen` has files of others.
 Result<StateFolder> take_state_folder(const std::string& chosen);
 
 }  // namespace relievo::app::studio
