@@ -1,5 +1,5 @@
 // The engine, and its answer when the page began: options with their ranges and defaults, names of views, materials and
-// stages. The page spells none of these itself.
+// stages. The page has no copy of these.
 
 import {Engine} from "./engine.js";
 import {toast} from "./messages.js";
@@ -11,7 +11,7 @@ async function ask() {
   try {
     return await engine.about();
   } catch (error) {
-    document.body.inert = false; // the line is there to be read
+    document.body.inert = false; // the error must be readable
     toast(error.message, true);
     throw error;
   }
@@ -19,15 +19,15 @@ async function ask() {
 
 export const about = await ask();
 
-// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated}, with min and
-// max of numbers, and choices of enumerations.
+// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated}, numbers also
+// have min and max, enumerations have choices.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
 // Returns the default of an option; null if it has none. `by` is the method, or a form or "diameter" that has a default
 // of its own.
 export function defaultOf(name, by) {
   const option = optionOf(name), value = option.default ?? null;
-  return option.default_with?.[by] ?? value?.[by] ?? value; // an object where methods differ
+  return option.default_with?.[by] ?? value?.[by] ?? value; // an object if methods have different defaults
 }
 
 // Returns the names of the options of some stages.

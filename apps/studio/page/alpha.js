@@ -1,5 +1,5 @@
-// The flatness: the paper's height coefficient alpha. Where no height is kept, alpha and the saturation decide how high
-// the relief is.
+// The flatness: the paper's height coefficient alpha. If the height is not locked, alpha and the saturation determine
+// it.
 
 import {optionOf} from "./about.js";
 import {$, pair, sentence, textField} from "./controls.js";

@@ -8,11 +8,11 @@ const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
 const isImage = (base) => base === "image" || base.startsWith("image:");
 
-// Returns what else changes with the base: one without an image loses its height map.
+// Returns the other changes that come with a base: a base without an image loses its height map.
 export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
 
 export class BaseImage {
-  // `say` takes a line for people; `redraw` shows the document anew.
+  // `say` shows a line to the user; `redraw` shows the document anew.
   constructor({engine, doc, say, redraw}) {
     Object.assign(this, {engine, doc, say, redraw});
     this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
@@ -37,13 +37,13 @@ export class BaseImage {
     this.element.ondragleave = veil("Drop to open");
     this.element.ondrop = (event) => {
       veil("Drop to open")();
-      event.preventDefault(); // the page opens no scan of it
+      event.preventDefault(); // otherwise the page would open it as a scan
       const [file] = event.dataTransfer?.files ?? [];
       if (file) this.take(file);
     };
   }
 
-  // Takes an image, unless the engine cannot read it or another document is shown by then.
+  // Takes an image, unless the engine cannot read it or another document is shown meanwhile.
   async take(file) {
     const {document} = this.engine;
     try {
@@ -51,7 +51,7 @@ export class BaseImage {
       const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
       await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
       if (document !== this.engine.document) return;
-      const wasGone = isGone(path); // the same picture was chosen again: its path depends on its content
+      const wasGone = isGone(path); // the path depends on the content, so the same picture has the same path
       markGone(path, false);
       this.doc.change({options: part});
       if (wasGone) this.redraw();
@@ -60,7 +60,7 @@ export class BaseImage {
     }
   }
 
-  // Returns whether an error of a picture says that the image is gone, and then shows that once.
+  // Returns whether an error of a picture means that the image is missing. The first time, also shows that.
   isMissing({kind, input}) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     if (kind !== "input" || !path || isGone(path) || input !== path) return false;

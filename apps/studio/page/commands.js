@@ -1,4 +1,4 @@
-// The commands that the page's buttons and keys give.
+// Connects the page's buttons and keys to their commands.
 
 import {about} from "./about.js";
 import {$} from "./controls.js";
@@ -6,8 +6,8 @@ import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 
 const TOOL_KEYS = {l: "light", r: "turn", o: "orbit", h: "pan", p: "place", s: "section", m: "measure", x: "crop"};
 
-// Takes the parts of the page, and as `own` its functions isThere(), which returns whether a relief is there, save(),
-// which saves a project, openFiles(files), showStart(isShown), chooseUnit(unit) and failed(error).
+// Takes the parts of the page. `own` has functions of the page: isThere(), which returns whether there is a relief,
+// save(), which saves a project, openFiles(files), showStart(isShown), chooseUnit(unit) and failed(error).
 export function takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, ...own}) {
   const help = $("#help-dialog"), showHelp = () => help.showModal(), choose = () => $("#file").click();
   const undo = () => entries.undo(), redo = () => entries.redo(), makeFiles = () => exporting.open();
@@ -28,7 +28,7 @@ export function takeCommands({doc, stage, entries, exporting, views, modes, crop
   takeDrops($("#veil"), own.openFiles);
 
   const isShown = () => !$("#studio").hidden, isReady = () => own.isThere() && isShown();
-  const ofDocument = (act, may = isShown) => () => may() && act(); // nothing that is not shown changes by a key
+  const ofDocument = (act, may = isShown) => () => may() && act(); // keys must not change a document that is not shown
   const commands = {z: ofDocument(undo), Z: ofDocument(redo), y: ofDocument(redo), s: ofDocument(own.save, isReady),
     e: ofDocument(makeFiles, isReady), o: choose};
   const keys = {

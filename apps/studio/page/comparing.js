@@ -1,19 +1,19 @@
-// Compares the relief with the model: a picture of the model lies over that of the relief, as large and in the same
-// place. The engine fits each picture to its own plate, and the model's is no larger than the figure with its margin.
+// Compares the relief with the model: a picture of the model lies over that of the relief, in the same size and place.
+// The engine fits each picture to its plate, and the model's plate is the figure with its margin, so the zooms differ.
 
 import {$, clamp, make} from "./controls.js";
 import {isRound} from "./measure.js";
 
-const NEAR = 12; // pixels from the divider at which the pointer takes it
+const NEAR = 12; // pixels from the divider within which the pointer takes it
 const ALIKE = 1e-3; // scales that differ by less differ by less than a pixel
-const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // as the engine takes it
+const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // the range of the engine
 
 export class Comparing {
   constructor(stage) {
     this.stage = stage;
     this.canvas = $("#before");
     this.split = 0.5;
-    this.ratio = 1; // of the zoom with which the engine draws the model to that of the relief
+    this.ratio = 1; // ratio of the model's zoom to that of the relief
   }
 
   get isShown() {
@@ -53,8 +53,8 @@ export class Comparing {
       ? [make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height})] : [];
   }
 
-  // Returns the request for the model's picture. Its camera looks at the middle of the figure, which may stand anywhere
-  // on the plate; a figure that is mirrored is drawn from the other side, as is its light.
+  // Returns the request for the model's picture. Its camera looks at the middle of the figure, which may be anywhere on
+  // the plate. If the figure is mirrored, camera and light are mirrored, and paint() mirrors the picture.
   request(isFine) {
     const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true});
     const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
@@ -67,7 +67,7 @@ export class Comparing {
     return this.stage.on.placing.isMirrored;
   }
 
-  // Draws the model as the picture shows the relief, unless it was drawn so before.
+  // Draws the model like the relief in the picture, unless that picture is already drawn.
   async draw(isFine) {
     const request = this.request(isFine), {stage} = this, {zoom} = request.camera, {options, ...rest} = request;
     const {margin, thickness, form} = options, {width_mm: width} = stage.about;
@@ -96,8 +96,8 @@ export class Comparing {
     this.layOnPlate(context, image.width / this.stage.size.width);
   }
 
-  // The model has a plate of its own, which is a rectangle: seen from the front it becomes the plate of the piece,
-  // where that is round or larger. `scale` is that of the picture's pixels.
+  // Seen from the front, changes the model's own rectangular plate into the plate of the piece, if that is round or
+  // larger. `scale` is the number of the picture's pixels per pixel of the page.
   layOnPlate(context, scale) {
     const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
     const {outline, plate, wrap, margin} = stage.doc.now.options, isEllipse = isRound(outline);

@@ -1,4 +1,4 @@
-// Small helpers: they make elements, change their state, and put off work.
+// Small helpers: make elements, change their state, and delay work.
 
 export const $ = (selector, root = document) => root.querySelector(selector);
 
@@ -19,18 +19,18 @@ export function make(tag, attributes = {}, ...children) {
 export const pair = (label, control, attributes = {}) =>
   make("label", {class: "pair", ...attributes}, make("span", {}, label), control);
 
-// Returns a field. It calls take(text) with a text that was typed, and after Escape show(), which brings the former
-// text back.
+// Returns a field. It calls take(text) with the typed text, and after Escape show(), which must restore the former
+// text.
 export function textField(attributes, {take, show}) {
   const input = make("input", {autocomplete: "off", ...attributes});
   input.onchange = () => take(input.value.trim());
   input.onkeydown = ({key}) => {
-    if (key === "Escape") show(); // a result of false would take the key away
+    if (key === "Escape") show(); // a result of false would cancel the key's own effect
   };
   return input;
 }
 
-// Returns a text within which no line ends, such as a size.
+// Returns a text without line breaks, such as a size.
 export const unbroken = (text) => make("span", {class: "unbroken"}, text);
 
 // Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
@@ -46,7 +46,7 @@ export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
 export const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
-// The way of each arrow key, to the right and up.
+// The direction of each arrow key, to the right and up.
 export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 export function paint(canvas, image) {
@@ -55,7 +55,7 @@ export function paint(canvas, image) {
   canvas.getContext("2d").putImageData(image, 0, 0);
 }
 
-// Acts after a pause, which begins anew whenever that is asked for meanwhile.
+// Calls act() after a pause. Each call of begin() meanwhile restarts the pause.
 export class Pause {
   constructor(act, ms) {
     Object.assign(this, {act, ms, timer: 0});
@@ -79,7 +79,7 @@ export class Pause {
   }
 }
 
-// Returns a function that runs an asynchronous one, which throws nothing; calls meanwhile make it run once more.
+// Returns a function that runs the asynchronous `act`, which must not throw. Calls during a run make it run once more.
 export function oneAtATime(act) {
   let isWanted = false, running = null;
   const run = async () => {

@@ -5,11 +5,12 @@ import {$, clamp, make, paint} from "./controls.js";
 import {directionsOf} from "./directions.js";
 import {WHOLE, cropText, numbersOf} from "./scan_panel.js";
 
-const LEAST = 0.05; // of the scan's box, that a side of the frame keeps
-const NEAR = 14; // pixels from a side of the frame at which the pointer takes it
-const KEY_STEP = 0.01; // of the scan's box
+const LEAST = 0.05; // least width and height of the frame, as a share of the scan's box
+const NEAR = 14; // pixels from a side within which the pointer takes it
+const KEY_STEP = 0.01; // share of the scan's box
 
-// Returns the box of the pixels that show something, for `scale` pixels per unit of the page.
+// Returns the box of the pixels that are not transparent, in pixels of the page. `scale` is the number of the picture's
+// pixels per pixel of the page.
 function boxOf({data, width, height}, scale) {
   const colours = new Uint32Array(data.buffer, data.byteOffset, width * height); // 0 where nothing is shown
   let left = width, right = 0, top = height, bottom = 0;
@@ -38,7 +39,7 @@ function movedBy(numbers, x, y) {
 }
 
 export class CropFrame {
-  // Calls done() when the frame is not wanted any more, and failed(error).
+  // Calls done() when the user closes the frame, and failed(error).
   constructor({engine, doc, done, failed}) {
     Object.assign(this, {engine, doc, failed, key: "", box: null, drag: null});
     this.element = $("#crop-frame");
@@ -65,9 +66,9 @@ export class CropFrame {
     this.draw();
   }
 
-  // Draws the scan again if its view or the page's size is another one, and the frame.
+  // Draws the frame, and the scan if its view or the size of the page has changed.
   async refresh() {
-    if (this.element.hidden) return; // before sizes are read, for which the browser would lay the page out
+    if (this.element.hidden) return; // comes first, as reading sizes would make the browser lay out the page
     const {clientWidth: width, clientHeight: height} = this.element, directions = directionsOf(this.doc.now.options);
     if (!width || !directions) return;
     const key = JSON.stringify([directions, width, height, this.doc.now.input]);
@@ -113,7 +114,7 @@ export class CropFrame {
   listen() {
     const {element} = this;
     const place = (act) => (event) => {
-      event.stopPropagation(); // it is not meant for the relief below
+      event.stopPropagation(); // the relief below must not get it
       if (event.target.closest("button")) return;
       const {left, top} = element.getBoundingClientRect();
       act(event.clientX - left, event.clientY - top, event);
@@ -143,13 +144,13 @@ export class CropFrame {
     return x > left && x < right && y > top && y < bottom && cropText([...this.numbers.slice(0, 4), 0, 1]) !== "";
   }
 
-  // Returns a pixel's place in shares of the scan's box, from below on the left.
+  // Returns a pixel's place in shares of the scan's box, measured from its lower left corner.
   shares(x, y) {
     const {left, top, width, height} = this.box;
     return [clamp((x - left) / width, 0, 1), clamp(1 - (y - top) / height, 0, 1)];
   }
 
-  // A drag takes a side or a corner, moves a frame from its inside, and draws another one from anywhere else.
+  // A drag moves a side or a corner, from the inside the whole frame; from anywhere else it draws another frame.
   press(x, y, event) {
     if (!this.box || event.button !== 0 || !event.isPrimary || this.drag) return;
     this.element.setPointerCapture(event.pointerId);
@@ -168,7 +169,7 @@ export class CropFrame {
     this.draw();
   }
 
-  // Returns the crop between two places, which keeps the depths.
+  // Returns the crop between two places, with unchanged depths.
   drawn(a, b) {
     const low = [0, 1].map((k) => Math.min(a[k], b[k], 1 - LEAST)), depths = this.drag.from.slice(4);
     return [...low, ...low.map((x, k) => Math.max(a[k], b[k], x + LEAST)), ...depths];
@@ -189,7 +190,7 @@ export class CropFrame {
     if (numbers) this.choose(numbers);
   }
 
-  // Takes a drag back. Returns whether one ran.
+  // Takes a running drag back. Returns whether there was one.
   giveUp() {
     const ran = Boolean(this.drag);
     this.drag = null;

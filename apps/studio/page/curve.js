@@ -1,13 +1,13 @@
 // The tone curve: the share of a slope that is kept, over the square root of its curvature. The engine samples the
-// curve, or without one the paper's formula, and sends the samples with each picture.
+// curve or, if there is none, the paper's formula, and sends the samples with each picture.
 
 import {about} from "./about.js";
 import {$, ARROWS, Pause, clamp, make} from "./controls.js";
 import {REST_MS} from "./slider.js";
 
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
-const AROUND = 9; // units around the diagram, so that a handle at its end lies within the box
-const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // where handles stand while the formula rules
+const AROUND = 9; // units around the diagram, so that handles at its ends are not cut off
+const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // places of handles while the formula applies
 
 const PRESETS = [
   {name: "As Edge emphasis says", tone: ""},
@@ -22,7 +22,7 @@ const round = (x) => Math.round(x * 1000) / 1000;
 export const format = (points) => points.map(([x, y]) => `${round(x)},${round(y)}`).join(";");
 
 export class CurveEditor {
-  // Calls onChange(tone), which returns the tone to be shown, while a point moves; onEnd() after it.
+  // While a point moves, calls onChange(tone), which returns the tone to show; afterwards calls onEnd().
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
     this.rest = new Pause(onEnd, REST_MS);
@@ -41,7 +41,7 @@ export class CurveEditor {
     this.preset.onchange = () => this.change(this.preset.value, true);
   }
 
-  // Returns the drawn points or, ready to be moved, some of the paper's formula.
+  // Returns the points of the curve or, without one, some points of the paper's formula, which can be moved.
   get points() {
     if (this.tone) return parse(this.tone);
     const {share} = this.samples;
@@ -53,11 +53,11 @@ export class CurveEditor {
     if (isOver) this.onEnd();
   }
 
-  // Draws all; `part` is what has changed of {tone, samples, histogram}.
+  // Draws the diagram; `part` has the changed members of {tone, samples, histogram}.
   show(part = {}) {
     Object.assign(this, part);
     const key = JSON.stringify([this.tone, this.samples, this.histogram]);
-    if (key === this.drawnKey) return; // it is called for every picture
+    if (key === this.drawnKey) return; // this runs for every picture
     this.drawnKey = key;
     const isPreset = PRESETS.some(({tone}) => tone === this.tone);
     this.preset.value = isPreset ? this.tone : "own";

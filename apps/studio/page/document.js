@@ -1,26 +1,26 @@
-// The document: the options of the relief that is being made, and all its former states. It is plain data, so that
-// it can be stored, undone and saved.
+// The document: the options of the relief and the steps before and after, for undo and redo. It is plain data, so that
+// it can be stored and saved.
 
 import {about, defaultOf, optionOf} from "./about.js";
 
-// Returns the value of an option in a new document: its own for the studio, or else the engine's default.
+// Returns the value of an option in a new document: the studio's own default, or else the engine's.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
 
 export const FIRST = Object.freeze({
   input: null,
-  // In place of alpha, which depends on the height, a document has u.
+  // A document has u instead of alpha, which depends on the height.
   options: Object.freeze({...Object.fromEntries(about.options.filter(({name}) => name !== "alpha")
     .map((option) => [option.name, firstOf(option)])), "base-image": ""}),
   isHeightLocked: true,
-  u: null, // of the compression, while the height is not locked
-  isDieOfPiece: false, // a die that was made of the piece before, whose kind it keeps
+  u: null, // parameter of the compression, while the height is not locked
+  isDieOfPiece: false, // whether the die was made of another piece; it then keeps the kind of that piece
   material: "plaster",
   light: [-1, 1, 1],
 });
 
-const MOST_STEPS = 200, MOST_U = 1e12; // as the engine takes it
+const MOST_STEPS = 200, MOST_U = 1e12; // the engine's limit of u
 
-// Returns the parameter u of the compression that the paper's alpha and beta make.
+// Returns the parameter u of the compression for the paper's alpha and beta.
 export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
 
 const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -41,7 +41,7 @@ export class Document {
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // steps before the first one
-    this.changedAt = 0; // in milliseconds since 1970: of two states of a document the one that changed last wins
+    this.changedAt = 0; // in milliseconds since 1970: of two states the newer one wins
   }
 
   stamp() {
@@ -56,7 +56,7 @@ export class Document {
   begin(step) {
     this.steps = [step];
     this.at = 0;
-    this.changedAt = 0; // anything that is kept is newer
+    this.changedAt = 0; // any kept state is newer
     this.stroke = null;
   }
 
@@ -66,7 +66,7 @@ export class Document {
     if (this.append(part, stroke)) this.onChange(before);
   }
 
-  // Returns the place of the present step among all, forgotten ones too.
+  // Returns the number of steps before the present one, forgotten ones included.
   get position() {
     return this.forgotten + this.at;
   }
@@ -74,7 +74,7 @@ export class Document {
   // Returns the step at a position, or the first one that is kept.
   stepAt = (position) => this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
 
-  // Changes the document as it was at a position that was the newest then. Later changes follow and keep their values.
+  // Inserts a change after the step at a position. Later changes follow it and keep their values.
   changeAt(position, part) {
     const at = Math.max(0, position - this.forgotten);
     if (at >= this.at) return this.change(part);
@@ -89,7 +89,7 @@ export class Document {
     this.onChange(before);
   }
 
-  // Does the same as change() without a call of onChange(). Returns whether anything is new.
+  // Does the same as change() without a call of onChange(). Returns whether anything has changed.
   append(part, stroke = null) {
     if (stroke !== null && stroke === this.cancelled) return false;
     const next = withPart(this.now, part);
@@ -108,19 +108,19 @@ export class Document {
     return true;
   }
 
-  // Enters values that the engine found, which are no step of their own.
+  // Sets values that the engine found in the present step, without a new step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }
 
-  // Ends the running stroke or, if one is named, that one alone: a slider's pause may end after another drag began.
+  // Ends the running stroke; if `stroke` is given, only that one, as a slider's pause may end after another drag began.
   endStroke(stroke = null) {
     if (stroke !== null && stroke !== (this.stroke ?? this.cancelled)) return;
     this.stroke = this.cancelled = null;
     this.onStrokeEnd();
   }
 
-  // Takes back what the running stroke has changed, and lets the rest of it change nothing. Returns whether one ran.
+  // Takes back the changes of the running stroke, and ignores the rest of it. Returns whether a stroke was running.
   cancelStroke() {
     if (this.stroke === null) return false;
     const before = this.now;
@@ -149,7 +149,7 @@ export class Document {
   // Returns all of it as plain data.
   keep = () => ({version: 1, changed: this.changedAt, steps: this.steps, at: this.at});
 
-  // Returns whether the kept state could be used.
+  // Takes over a kept state. Returns whether the state is valid.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
     this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
@@ -160,10 +160,10 @@ export class Document {
   }
 }
 
-// A lithophane is printed and has none of these options. A document keeps them for its other kinds of work.
+// A lithophane, which is printed, has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
-// Returns the options as the engine and `relievo make` take them: most values of a new document are left out.
+// Returns the options for the engine and `relievo make`, without most values of a new document.
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
   for (const [name, value] of Object.entries(step.options)) {
@@ -177,12 +177,12 @@ export function engineOptions(step) {
   return options;
 }
 
-// The height maps of bases that the engine could not read when it was asked for a picture.
+// The paths of height maps of bases that the engine failed to read for a picture.
 const goneImages = new Set();
 export const isGone = (path) => goneImages.has(path);
 export const markGone = (path, isGone = true) => (isGone ? goneImages.add(path) : goneImages.delete(path));
 
-// Returns the options of pictures: a relief whose base image is gone is shown on a plane.
+// Returns the options of pictures: if the base image is missing, the relief is shown on a plane.
 export function shownOptions(step) {
   const options = engineOptions(step);
   if (isGone(options["base-image"])) delete options.base, delete options["base-image"];
@@ -196,12 +196,12 @@ export function projectOf(step) {
   return {relievo: 1, input, options: engineOptions(step), studio};
 }
 
-// A project file may come from anywhere: what the engine would refuse in each picture is left out.
+// Returns whether a light is valid. A project file may have another one, which the engine would refuse in each picture.
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
 // Returns the step that a project file describes, as the engine has read it. `usual` has the defaults of numbers that
-// it does not name; the width may depend on the plate.
+// the file does not state. Without a stated width, the plate may determine it.
 export function stepOfProject({input, options: {alpha, ...options} = {}, usual = {}, studio = {}}) {
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
   const step = {...FIRST, input, options: {...FIRST.options, ...usual, method, width: null, ...options}};

@@ -1,5 +1,5 @@
 // The engine as the page sees it. A transport takes requests to it: transport.js sends them to the program `relievo
-// studio` by HTTP, and in the page that is one file alone apps/web/page/transport.js takes its place.
+// studio` by HTTP, and in the page that is a single file, apps/web/page/transport.js replaces it.
 //
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files that it refers to are uploaded together;
@@ -14,7 +14,7 @@
 //                                  people
 // and throws EngineError with a text for people.
 
-// `input` names the option or the file that the error is about; the text begins with that name.
+// `input` names the option or the file of the error; the text begins with that name.
 export class EngineError extends Error {
   constructor({kind, text, input = ""}) {
     super(text);
@@ -22,14 +22,14 @@ export class EngineError extends Error {
   }
 }
 
-export const CANCELLED = 202; // the status of an answer that was given up
+export const CANCELLED = 202; // the status of a cancelled request
 
 export const cancelled = () => new EngineError({kind: "cancelled", text: "Cancelled."});
 
-export const TAB = Math.random().toString(36).slice(2); // the name of this page among those that are open
+export const TAB = Math.random().toString(36).slice(2); // the name of this page among the open ones
 
 export class Engine {
-  document = ""; // the one that most requests concern
+  document = ""; // the document that most requests refer to
   #transport;
   #making = null;
 
@@ -59,18 +59,18 @@ export class Engine {
   follow = (...listeners) => this.#transport.follow(...listeners);
 
   // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (the
-  // input or project with which the program was started), notice (about the place where work is kept), most_upload
-  // (bytes), and perhaps limits (texts about the limits of this engine).
+  // input or project with which the program was started), notice (a message about the folder in which work is kept),
+  // most_upload (bytes), and in some engines limits (texts about them).
   about = async () => (await this.#transport.call("about")).body;
 
   // Returns {document, input, is_there, kept}: the document of a scan, and its state if it is kept.
   find = (input) => this.#ask("document", {input});
-  // Returns the input that files of the browser make.
+  // Uploads files of the browser, and returns them as an input.
   upload = async (files) => (await this.#ask("upload", {name: files[0].name}, {files})).input;
   // Returns {input, is_there, options, usual, studio} of a project file.
   readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
 
-  // Prepares the scan of the document that is shown. A view has the options by which a scan is prepared, see viewOf().
+  // Prepares the scan of the shown document. `view` has the options for preparing a scan, see viewOf().
   open = (input, view) => this.#ask("open", {input, tab: TAB, ...view});
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
@@ -80,24 +80,25 @@ export class Engine {
   // Returns {view, up} of each side, best first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, about}. A picture that is aborted by its signal is cancelled.
+  // Return {image: ImageData, about}. Aborting its signal cancels a picture.
   frame = (request, options) => this.#picture("frame", request, options);
   scan = (request) => this.#picture("scan", request);
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
-  // Returns the largest height in mm.
+  // Returns the largest height in mm that the options allow.
   reach = async (options) => (await this.#ask("reach", {options})).height_mm;
   // Throws unless the options can be read.
   check = (options) => this.#ask("check", {options});
 
-  // Returns {triangles, points, size_mm, height_mm} of the finished piece, which is then at hand for exportFile().
+  // Returns {triangles, points, size_mm, height_mm} of the finished piece, which the engine then has ready for
+  // exportFile().
   piece = (options) => this.#make("piece", {options});
   // Return the file of a piece, and a project file with its scan, as a Blob.
   exportFile = (request) => this.#make("export", request);
   packProject = (project) => this.#ask("save", {project});
 
-  // Gives up the request for the piece or its file as well: its answer is of no use then.
+  // Cancels the work on the piece, and the request for the piece or its file.
   cancelPiece() {
     this.#making?.abort();
     return this.#ask("cancel_piece");
@@ -110,6 +111,6 @@ export class Engine {
   remove = (document) => this.#ask("remove", {document, tab: TAB});
   keep = (document, state, isMoving) => this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
   keepPicture = (document, picture) => this.#ask("picture", {document, picture});
-  // Reports that the page is left. If that fails, there is nothing left to do.
+  // Reports that the user leaves the page. A failure is ignored.
   leave = () => this.#ask("leave", {tab: TAB}).catch(() => {});
 }

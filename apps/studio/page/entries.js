@@ -1,24 +1,24 @@
-// The entries for the piece, typed or chosen: the document takes one after the other, in the order in which they were
-// made, each as a step of its own. An entry is tried before if the engine may be unable to make a piece of it.
+// The typed or chosen entries for the piece. The document takes them in the order in which they were made, each as a
+// step of its own. If the engine may be unable to make a piece with an entry, the entry is tried first.
 
 import {$} from "./controls.js";
 import {engineOptions, shownOptions} from "./document.js";
 
 export class Entries {
-  // Calls changed() when an entry has come or gone, and refused(entry, error) for one that the engine refuses.
+  // Calls changed() when an entry was added or removed, and refused(entry, error) when the engine refuses one.
   constructor({engine, doc, changed, refused}) {
     Object.assign(this, {engine, doc, changed, refused, waiting: [], last: Promise.resolve()});
   }
 
-  // Returns the entries of this document that it has not taken yet.
+  // Returns the entries that this document has not taken yet.
   get pending() {
     return this.waiting.filter(({document}) => document === this.engine.document);
   }
 
   isPending = (name) => this.pending.some((entry) => entry.name === name);
 
-  // Takes {name, label, part, isTried}: the option or control, its name for people, and a function that returns the
-  // changes to the step before it. An entry that is not tried is taken at once if none is waiting.
+  // Takes {name, label, part, isTried}: the option or control, its name for users, a function that returns the changes
+  // to a step, and whether to try the entry. An entry that is not tried is taken at once if none is waiting.
   add(entry) {
     Object.assign(entry, {document: this.engine.document, position: this.doc.position});
     if (!entry.isTried && this.pending.length === 0) return this.doc.change(entry.part(this.doc.now));
@@ -28,7 +28,7 @@ export class Entries {
     return this.last;
   }
 
-  // Takes an entry, unless it was withdrawn, or the engine cannot read it or make a piece of it.
+  // Takes an entry, unless it was withdrawn, or the engine cannot read it or make a piece with it.
   async take(entry) {
     const isMeant = () => this.pending.includes(entry);
     if (!isMeant()) return;
@@ -41,8 +41,9 @@ export class Entries {
     }
   }
 
-  // Throws the engine's error if it cannot read the options or make a piece of them; asking for one height of the piece
-  // shows that. A width that does not fit is put right later, and another view is still to be prepared.
+  // Throws the engine's error if it cannot read the options or make a piece with them; a request for one height of the
+  // piece finds out. Two errors do not count: a width that does not fit, as it is corrected later, and a view that is
+  // not prepared yet.
   async tryOut(step, {isMade}) {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;
@@ -51,37 +52,37 @@ export class Entries {
     });
   }
 
-  // Changes that were made since the entry come after it, as do all other entries.
+  // Inserts the change at the position of its entry: changes made since the entry, and all other entries, follow it.
   insert(part, entry) {
     const before = this.doc.position;
     this.doc.changeAt(entry.position, part);
     for (const other of this.pending) other.position += this.doc.position - before;
   }
 
-  // Forgets an entry that was taken, refused or withdrawn.
+  // Removes an entry that was taken, refused or withdrawn.
   end(entry) {
     this.waiting = this.waiting.filter((other) => other !== entry);
     this.changed();
   }
 
-  // Takes back the newest entry if it is still waiting and nothing was changed since. Returns whether there was one.
+  // Withdraws the newest entry if it is still waiting and nothing was changed since. Returns whether there was one.
   withdraw() {
     const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
     if (isNewest) this.end(entry);
     return isNewest;
   }
 
-  // Takes back the newest change, be it an entry that is still waiting.
+  // Takes back the newest change, which may be an entry that is still waiting.
   undo() {
     if (!this.withdraw()) this.doc.undo();
   }
 
-  // An entry that is waiting leaves nothing to redo.
+  // Redoes a step, unless an entry is waiting.
   redo() {
     if (this.pending.length === 0) this.doc.redo();
   }
 
-  // Shows what is waiting, and what can be undone.
+  // Shows the waiting entries, and whether anything can be undone.
   show() {
     const names = [...new Set(this.pending.map(({label}) => label))], isWaiting = names.length > 0;
     $("#trying").textContent = isWaiting ? `Trying ${names.join(", ")} …` : "";

@@ -7,8 +7,8 @@ import {inWords} from "./pieces.js";
 
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 
-// Returns how large the files of a piece become, as text: exactly where triangles and points decide it, about where
-// they are compressed or written as text, and at most where a height map is compressed.
+// Returns the sizes of a piece's files as text: exact ones if triangles and points determine them, "about" for
+// compressed files and text files, "at most" for a compressed height map.
 function sizes({triangles, points, size_mm: [x, y]}, pixels) {
   const share = Math.min(x, y) / Math.max(x, y), area = pixels * pixels * share;
   const around = (bytes) => `about ${fileSize(bytes)}`, atMost = (bytes) => `at most ${fileSize(bytes)}`;
@@ -20,8 +20,8 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
 }
 
 export class ExportDialog {
-  // `outcome` is an Outcome; `name` returns the usual name of the files, `heightText` a height as the page shows it;
-  // `say` takes a line for people.
+  // `outcome` is an Outcome; `name` returns the default name of the files, `heightText` a height as the page shows it;
+  // `say` shows a line to the user.
   constructor({engine, outcome, name, heightText, say}) {
     Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, piece: null, runs: 0});
     this.dialog = $("#export-dialog");
@@ -30,7 +30,7 @@ export class ExportDialog {
       make("span", {}, label, make("small", {}, use)), make("span", {class: "muted", id: `size-${name}`}))));
     this.dialog.oninput = () => this.show();
     $("#pixels").onchange = () => this.choosePixels();
-    // The dialog may be open again when the event of its closing comes.
+    // The dialog may be open again when its close event arrives.
     this.dialog.onclose = () => this.isBusy && !this.dialog.open && this.engine.cancelPiece().catch(() => {});
     $("#export-cancel").onclick = () => this.dialog.close();
     $("#export-go").onclick = (event) => {
@@ -43,7 +43,7 @@ export class ExportDialog {
     return about.formats.filter(({name}) => $(`#formats [value="${name}"]`).checked);
   }
 
-  // Takes the number that was typed; returns false after saying that it was not understood.
+  // Takes the typed number. If it is invalid, says so and returns false.
   choosePixels() {
     let complaint = "";
     const pixels = typedNumber($("#pixels").value, PIXELS, (text) => (complaint = text));
@@ -53,8 +53,8 @@ export class ExportDialog {
     return !complaint;
   }
 
-  // Makes the piece at once, when all that was entered is taken: then its sizes are known, and files of it are written
-  // in a moment.
+  // Makes the piece at once after all entries are taken. Then the sizes of its files are known, and each file is
+  // written quickly.
   async open() {
     const outcome = this.outcome.known(), usual = this.name();
     this.piece = null;
@@ -90,8 +90,8 @@ export class ExportDialog {
     $("#export-progress").value = making.fraction;
   }
 
-  // Does a piece of work with its progress shown, and says why it failed. Returns whether it succeeded and is still
-  // wanted, which it is not after the dialog was closed.
+  // Does some work while its progress is shown, and shows the error if it fails. Returns whether it succeeded and the
+  // dialog is still open.
   async run(text, work) {
     const number = ++this.runs, isWanted = () => this.dialog.open && number === this.runs;
     this.isBusy = true;

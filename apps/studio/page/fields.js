@@ -1,4 +1,4 @@
-// The sliders: options of the engine, each with a label, a place, and the range that a hand needs.
+// The sliders: options of the engine, each with a label, a place, and the usual range.
 
 import {optionOf} from "./about.js";
 import {sentence} from "./controls.js";
@@ -19,7 +19,7 @@ const SLIDERS = {
   thickness: {label: "Plate thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
 };
 
-// The engine's units as the page shows them, and as it reads them out.
+// The engine's units as the page shows them, and as screen readers read them.
 const UNITS = {
   MM: {unit: "mm", unitName: "mm"},
   DEG: {unit: "°", unitName: "degrees"},

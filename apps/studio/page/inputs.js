@@ -1,6 +1,6 @@
 // Handles keys, and files that are dropped on the page.
 
-// Panels stay open or closed as they were left.
+// Remembers which panels are open.
 export function keepPanels(panels, storage) {
   for (const panel of panels) {
     const key = `panel:${panel.querySelector("summary").textContent.trim()}`, was = storage.getItem(key);
@@ -31,20 +31,20 @@ export function takeDrops(veil, open) {
   addEventListener("dragover", show(true));
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
-    const isTaken = event.defaultPrevented; // by the part of the page on which they were dropped
+    const isTaken = event.defaultPrevented; // by the element on which they were dropped
     show(false)(event);
     if (!isTaken) open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 
-// The field in which something is typed that is neither entered nor taken back. Ctrl Z belongs to it, and what is typed
-// there stays when the document changes.
+// The field with a typed text that is neither entered nor taken back. Ctrl Z applies to this field, and its text stays
+// when the document changes.
 let unfinished = null;
 export const isUnfinished = (field) => field === unfinished;
 
 export function finish() {
   unfinished = null;
-  if (postponed) setTimeout(doPostponed); // when the field's own functions have run
+  if (postponed) setTimeout(doPostponed); // after the field's own handlers
 }
 
 let postponed = null;
@@ -55,13 +55,14 @@ function doPostponed() {
   act();
 }
 
-// Calls a function when nothing is being typed, in place of one that still waits: a moved field loses the focus.
+// Calls a function as soon as nothing is being typed, because a field loses the focus when it is moved. The function
+// replaces one that still waits.
 export function whenFinished(act) {
   postponed = act;
   doPostponed();
 }
 
-// Confirms what is being typed, as Enter does.
+// Confirms the text that is being typed, like Enter.
 export const confirmTyping = () => unfinished?.dispatchEvent(new Event("change", {bubbles: true}));
 
 // These listeners run before the field's own, which may then show the document's value in the field.
@@ -69,10 +70,10 @@ addEventListener("input", ({target}) => (unfinished = target), true);
 for (const end of ["change", "focusout"]) addEventListener(end, finish, true);
 addEventListener("keydown", ({key}) => key === "Escape" && finish(), true);
 
-// A finger that comes down on a slider may be about to scroll the panel: the slider follows it when it has moved
-// sideways or was a tap, and stays as it was when the browser takes the finger for scrolling.
+// A finger on a slider may be about to scroll the panel. The slider follows the finger after a sideways movement or a
+// tap, and is unchanged if the browser uses the finger for scrolling.
 const SIDEWAYS = 6; // pixels
-let swipe = null; // {range, x, before, wanted} until it is known what the finger does; {isScrolling} after a scroll
+let swipe = null; // {range, x, before, wanted} until the gesture is clear; {isScrolling} after a scroll
 
 function follow() {
   const {range, wanted} = swipe;
@@ -107,8 +108,8 @@ addEventListener("change", (event) => {
 
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
-// Calls the function of a key: `commands` with Ctrl or Cmd; `always` and, while `isReady()`, `keys` without; and
-// `hold(true)` while B is down. No key counts while a dialog is open, nor letters while something is typed.
+// Calls the function of a key: one of `commands` with Ctrl or Cmd; without them one of `always` or, while isReady(), of
+// `keys`; and hold(true) while B is down. Keys are ignored while a dialog is open, and letters while the user types.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
@@ -127,8 +128,8 @@ export function takeKeys({commands, always, keys, isReady, hold}) {
   });
   addEventListener("keyup", ({key, target}) => {
     if (key.toLowerCase() === "b") hold(false);
-    // A field that has taken its text gives up the focus, so that letters are keys of the page again. Tab goes on from
-    // its place.
+    // A field gives up the focus after it has taken its text, so that letters are keys of the page again. Tab continues
+    // from the field.
     if (key === "Enter" && target.matches?.(`.inspector :is(${TEXTS})`)) target.blur();
   });
 }

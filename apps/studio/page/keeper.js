@@ -1,13 +1,15 @@
-// Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in
-// the browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
+// Keeps documents: sends each state to the engine, also during drags. A state that no engine has confirmed also stays
+// in the browser, so that it outlives the engine and the page. This file does not depend on the page, so that tests can
+// run it alone.
 
-// A state follows the one before after the period, and its answer after the pause, at the earliest: the page and the
-// engine need time for pictures.
+// A state is sent at the earliest after this period since the state before, and after this pause since the answer to
+// that state: the page and the engine need time for pictures.
 const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {
   // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers and "older" if a
-  // newer state is kept already; onOlder(document); onFailed(error); onKept(). `storage` is as localStorage.
+  // newer state is kept already; onOlder(document); onFailed(error); onKept(). `storage` has the interface of
+  // localStorage.
   constructor({send, storage, prefix, onOlder, onFailed, onKept}) {
     Object.assign(this, {send, storage, prefix, onOlder, onFailed, onKept});
     this.waiting = new Map(); // by document, the newest state that is not yet sent
@@ -18,18 +20,18 @@ export class Keeper {
     this.pump();
   }
 
-  // Sends what waits, when the engine is back.
+  // Sends the waiting states when the engine is back.
   retry() {
     if (!this.isSending) this.pump();
   }
 
-  // Neither sends nor stores what it has of a document, which was removed.
+  // Drops the waiting and the stored state of a document that was removed.
   forget(document) {
     this.waiting.delete(document);
     this.storage.removeItem(this.prefix + document);
   }
 
-  // Stores what waits in the browser, when the page goes.
+  // Stores the waiting states in the browser when the page is closed.
   flush() {
     for (const [document, {state}] of this.waiting) this.copy(document, JSON.stringify(state));
   }
@@ -75,7 +77,7 @@ export class Keeper {
     try {
       this.storage.setItem(this.prefix + document, text);
     } catch {
-      // no room: the page itself still has it
+      // no room: only the page has the state
     }
   }
 }

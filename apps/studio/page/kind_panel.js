@@ -1,5 +1,5 @@
-// The panel of the kind of work: the controls that matter for it, together and first, with those of a rim if there is
-// one, and the button that makes the piece its die. The controls of the other options stay in the panels below.
+// The panel of the kind of work: the controls that matter for the kind, those of a rim if there is one, and the button
+// that turns the piece into its die. The controls of the other options stay in the panels below.
 
 import {$} from "./controls.js";
 import {whenFinished} from "./inputs.js";
@@ -8,7 +8,7 @@ import {sizeText} from "./lengths.js";
 
 const HOMES = ["#piece", "#plate-sliders", "#making"];
 
-// Says what the die of a piece is, and its size if it is known.
+// Returns a note that explains the die of a piece, with its size if that is known.
 function dieNote({options: {draft}}, {label}, size) {
   const walls = draft ? "" : " It has no draft angle: give it one if steep walls hold what it shapes.";
   return `This die shapes the ${label.toLowerCase()} with all its measures.${walls}` +
@@ -45,7 +45,7 @@ export class KindPanel {
   }
 
   place(mine) {
-    const focused = document.activeElement; // which loses the focus where it is moved
+    const focused = document.activeElement; // a moved element can lose the focus
     $("#kind-rows").append(...mine);
     for (const {home, children} of this.homes) home.append(...children.filter((child) => !mine.includes(child)));
     if (document.activeElement !== focused) focused.focus();

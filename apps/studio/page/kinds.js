@@ -18,7 +18,7 @@ const circle = {...PLAIN, outline: "circle", width: null, margin: defaultOf("mar
 export const RIM = ["rim", "rim-height", "rim-bevel"];
 const PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
-// `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
+// `part` has the options that choosing a kind sets, `panel` the options with controls in the panel of the kind.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque", part: plaque, material: "plaster",
     panel: PLATE},
@@ -48,8 +48,8 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work that a document's step is, whatever its material: a thick plate with round corners is a
-// carving. A die that was made of a piece has that piece's kind.
+// Returns the kind of work of a document's step. The material does not matter: a thick plate with round corners is a
+// carving. A die that was made of a piece has the kind of that piece.
 export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
   if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;
   if (wrap !== "none") return "shell";
@@ -58,12 +58,12 @@ export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfP
   return outline === wood.outline && thickness >= wood.thickness ? "wood" : "relief";
 }
 
-// Returns the changes that make a piece its die, of the same options, or its die the piece.
+// Returns the changes that turn a piece into its die with the same options, or the die back into the piece.
 export const dieOf = ({options: {form}}) =>
   ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
 
-// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and a seal have the
-// same diameter, and plates with corners begin with the size of the plate before.
+// Returns the changes that begin a kind of work, or continue from its last step. A coin and a seal have the same
+// diameter, and a kind with a plate with corners begins with the size of the present plate.
 function partOf(kind, {diameter, plate, outline}, last) {
   const {part, material} = KINDS[kind];
   const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;
@@ -80,7 +80,8 @@ function measuresOf({diameter, plate, width, height}) {
     .filter(Boolean).join(", ");
 }
 
-// OF_KINDS has the options that kinds set. kept() returns the others, which say how the scan is seen and shaped.
+// OF_KINDS has the options that kinds set. kept() returns the others, which determine the view and the shape of the
+// relief.
 const OF_KINDS = new Set(Object.values(KINDS).flatMap(({part}) => Object.keys(part)));
 const kept = (options) => Object.fromEntries(Object.entries(options).filter(([name]) => !OF_KINDS.has(name)));
 
@@ -101,16 +102,17 @@ const OUTLINES = {
 // Returns the name of a scan without its ending.
 export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
 
-// Returns the name of a step's files: the scan's name, and the words for its kind and form unless it is a plain plaque.
+// Returns the name of a step's files: the scan's name, followed by the kind and the form unless the step is a plain
+// plaque.
 export function fileName(step) {
   const kind = kindOf(step), {form} = step.options;
   const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];
-  const isForm = ["die", "lithophane"].includes(form); // whose kind says no more
+  const isForm = ["die", "lithophane"].includes(form); // the kind would repeat the form
   return [plainName(step.input), ...words.slice(isForm ? 1 : 0)].filter(Boolean).join("-");
 }
 
 export class KindCards {
-  // `isAtRest` returns whether the engine has time for pictures; `say` takes a line for people.
+  // `isAtRest` returns whether the engine has time for pictures; `say` shows a line to the user.
   constructor({engine, doc, entries, isAtRest, say}) {
     Object.assign(this, {engine, doc, entries, isAtRest, say, model: 0});
     const outline = (kind) => make("svg", {viewBox: "0 0 48 36", "aria-hidden": "true"},
@@ -122,7 +124,7 @@ export class KindCards {
     takeArrowKeys($("#kinds"));
   }
 
-  // Chooses a kind after the entries that are still waiting, and says so if its plate does not keep the size.
+  // Chooses a kind after the waiting entries, and tells the user if its plate cannot keep the size.
   async choose(kind) {
     let lost = "";
     await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {
@@ -134,8 +136,8 @@ export class KindCards {
     if (lost) this.say(lost);
   }
 
-  // Returns the step with which a kind of work goes on after another one: as it was left in this document, or as it
-  // begins.
+  // Returns the step with which a kind of work continues after another one: its last step in this document, or its
+  // first.
   stepOf(kind, step = this.doc.now) {
     const {steps} = this.doc, isThis = (former) => kindOf(former) === kind;
     const part = partOf(kind, step.options, steps.slice(0, steps.indexOf(step) + 1).findLast(isThis));
@@ -158,8 +160,8 @@ export class KindCards {
     }
   }
 
-  // Draws the pictures when a model is there, one after the other, while nothing else is drawn. Before the first model
-  // they show the coarse relief of the view that is `turned`, if there is one.
+  // Draws the pictures one after the other when there is a model, while nothing else is drawn. Before the first model
+  // they show the coarse relief of the view `turned`, if that is given.
   async pictured(model, turned) {
     const drawn = model ? "exact" : turned ? "coarse" : "", key = model || drawn;
     if (!drawn || key === this.model) return;
@@ -170,7 +172,7 @@ export class KindCards {
       const {options, ...step} = this.stepOf(kind), {material, light} = step;
       const request = {options: shownOptions({options}), material, light, width: WIDTH, height: HEIGHT,
         camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}, ...(!model && {turned})};
-      const made = await this.engine.frame(request).catch(() => null); // a view that does not suit the kind
+      const made = await this.engine.frame(request).catch(() => null); // the kind may be impossible in this view
       if (!made || key !== this.model) continue;
       const card = $(`#kinds [data-kind="${kind}"]`);
       paint($("canvas", card), made.image);
@@ -178,7 +180,7 @@ export class KindCards {
     }
   }
 
-  // Another scan is shown: its pictures are still to come.
+  // Removes the pictures when another scan is shown.
   clear() {
     this.model = 0;
     for (const card of $("#kinds").children) delete card.dataset.drawn;

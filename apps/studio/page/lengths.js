@@ -1,5 +1,5 @@
-// Numbers as people type them: the twin of parse_length() in include/relievo/core/length.h, tested by the same cases,
-// tests/core/lengths.json.
+// Parses numbers as people type them, like parse_length() in include/relievo/core/length.h. Both are tested by the same
+// cases, tests/core/lengths.json.
 
 const MM = {mm: 1, cm: 10, in: 25.4, '"': 25.4};
 const NUMBER = "(?:\\d+(?:[.,]\\d*)?|[.,]\\d+)(?:[eE][+-]?\\d+)?", WHOLE_PART = "(?:(\\d+) +(?=\\d+/))?";
@@ -7,14 +7,15 @@ const TERM = `${WHOLE_PART}${NUMBER}(?:/${NUMBER})?`;
 const WHOLE = new RegExp(`^ *(?<sum>-?${TERM}(?: *[+-] *${TERM})*) *(?<unit>mm|cm|in|")? *$`);
 const TERMS = new RegExp(`([+-]?) *${WHOLE_PART}(${NUMBER})(?:/(${NUMBER}))?`, "g");
 
-// Nobody can tell whether "1,234" has a decimal comma or a thousand; "0,125" has a comma.
+// Returns NaN for texts like "1,234", in which the comma may be decimal or separate thousands. In "0,125" it is
+// decimal.
 function number(text) {
   const value = Number(text.replace(",", "."));
   return /^\d*[1-9]\d*,\d{3}$/.test(text) || !Number.isFinite(value) ? NaN : value;
 }
 
-// Returns the millimetres of "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5", or the number of a text that may have no
-// unit; NaN of any other text. Lengths without a unit are in units of `mm` millimetres.
+// Returns the millimetres of a text such as "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5", or its number if it must have
+// no unit; NaN for other texts. Lengths without a unit are in units of `mm` millimetres.
 export function parseLength(text, mayHaveUnit = true, mm = 1) {
   const {sum, unit} = text.match(WHOLE)?.groups ?? {};
   if (!sum || (unit && !mayHaveUnit)) return NaN;
@@ -33,10 +34,9 @@ export const millimetresPerUnit = () => MM[shown.unit];
 // Returns the unit of an option as the page shows it.
 export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
-const NOISE = 1e-6; // mm, by which sums of the same lengths differ: it must not decide how 6.175 is rounded
+const NOISE = 1e-6; // mm, the difference of equal sums of lengths, which must not affect the rounding of 6.175
 
-// Returns a length with so many decimals of a millimetre, and without its unit. Inches have three, or four for a length
-// that needs them.
+// Returns a length without its unit. `decimals` is for millimetres; inches have three decimals, or four if needed.
 export function lengthText(mm, decimals = 2) {
   if (shown.unit === "mm") return (mm + NOISE).toFixed(decimals);
   const text = (mm / MM.in).toFixed(4);
@@ -51,7 +51,8 @@ export const sizeText = (size) => `${size.map((mm) => lengthText(mm)).join(" × 
 // Returns a length as the text of a field has it, without zeros at its end.
 export const shortLength = (mm) => String(Number(lengthText(mm, 4)));
 
-// Returns the number that was typed into a field; null if there is none in its range, after saying what was expected.
+// Returns the number that was typed into a field. Outside the range, or without a number, says what was expected and
+// returns null.
 export function typedNumber(text, {label, unit, min, max}, say) {
   const isLength = unit === "mm", scale = isLength ? millimetresPerUnit() : 1, value = parseLength(text, isLength,
     scale);

@@ -33,7 +33,7 @@ import {START, Shelf, nameOf, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
-const PICTURE_MS = 600; // from the fine picture to the small one of the document
+const PICTURE_MS = 600; // from the fine picture to the document's small picture
 const SHOW_MS = 120; // pause of a drag after which all controls show its changes
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
@@ -80,11 +80,11 @@ const reach = new Reach({engine, doc, slider: () => sliders.all.height, chooseVi
 const projects = new Projects({engine, open: openInput, take, failed, rest: () => opened.id || showStart(true)});
 const shelf = new Shelf({engine, opened, keeper, open: openInput, failed});
 
-let facts = null; // of the model that is shown
+let facts = null; // facts about the shown model
 let last = null; // numbers of the newest picture
 let isKept = !about.notice;
 
-// Returns the tone curve of the document, which refuses another one after its drag was taken back.
+// Sets the tone curve, and returns the document's curve: it stays unchanged after the drag was taken back.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
   return doc.now.options.tone;
@@ -98,7 +98,7 @@ function chooseUnit(unit) {
   if (last) stage.invalidate();
 }
 
-// Says why an entry is refused, until the next one.
+// Shows why an entry is refused, until the next entry.
 let takeRefusalBack = () => {};
 function refuse(text) {
   takeRefusalBack = toast(text);
@@ -106,15 +106,15 @@ function refuse(text) {
 function refused({label}, error) {
   refuse(error.input ? inWords(error) : `${label}: ${error.message}`);
 }
-// Any entry takes a refusal back, even one that changes nothing. The end of a slider's movement is no entry: its
-// changes came while it moved.
+// Any entry removes the message of a refusal, even an entry that changes nothing. The end of a slider's movement is not
+// an entry, as the changes came during the movement.
 addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
 
 // ----------------------------------------------------------------------------------------------- the document
 
 function changed(before) {
   const {now} = doc;
-  if (doc.steps.includes(before)) takeRefusalBack(); // a drag that goes on is no other entry
+  if (doc.steps.includes(before)) takeRefusalBack(); // a drag that continues is not a new entry
   opened.keep(doc.stroke !== null);
   tour.takeBack();
   doc.stroke === null ? showDocument() : showing.begin();
@@ -132,7 +132,7 @@ function stateCame() {
   shownView.adopt();
 }
 
-// A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
+// A drag updates its own control at once, the others when it pauses or ends: showing them takes as long as a picture.
 const showing = new Pause(showDocument, SHOW_MS);
 
 function showDocument() {
@@ -156,7 +156,7 @@ function showEntries() {
   for (const part of [entries, pieces, sliders, kinds]) part.show();
 }
 
-// Says once that work is not kept, unless the engine is gone, which is said elsewhere.
+// Tells the user once that work is not kept. A lost engine is reported elsewhere.
 function notKept({message}) {
   if (isKept) toast(`Your work is not kept: ${message}`);
   isKept = false;
@@ -169,12 +169,12 @@ addEventListener("pagehide", () => engine.leave());
 const pictureRests = new Pause(keepPicture, PICTURE_MS);
 async function keepPicture() {
   const {id} = opened, small = opened.isReady ? smallPicture($("#picture")) : "";
-  if (small) await engine.keepPicture(id, small).catch(() => {}); // it is not missed where nothing can be kept
+  if (small) await engine.keepPicture(id, small).catch(() => {}); // documents need no picture
 }
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  const {u} = doc.now, isNewest = u === null || u === frame.u; // else it was asked for before u was typed
+  const {u} = doc.now, isNewest = u === null || u === frame.u; // otherwise it was requested before u was typed
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     doc.note({u: frame.u, options: {height: clamp(frame.height_mm, 1e-3, 1e5)}});
     sliders.all.height.show(doc.now.options.height);
@@ -206,7 +206,7 @@ function progress(status) {
   if (stage.isReady && stage.model === status.model) shownView.settle(status);
 }
 
-// Another document is shown, and its model is not ready yet: no picture of the one before stays under its name.
+// Called when another document is shown and its model is not ready: removes the pictures of the former document.
 function begun(former) {
   if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
   $(".inspector").scrollTop = 0;
@@ -225,7 +225,7 @@ function begun(former) {
   showProgress({busy: true, stage: "waiting"}, true);
 }
 
-// The first view is still being prepared: a coarse relief stands for it.
+// Shows a coarse relief while the first view is being prepared.
 function measured({shown}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
   doc.note({options: opened.wantedView(shown)});
@@ -240,7 +240,7 @@ async function arrived(status) {
   const {id} = opened;
   try {
     const found = await engine.facts();
-    if (id !== opened.id || status.model !== opened.model) return; // another one has come meanwhile
+    if (id !== opened.id || status.model !== opened.model) return; // another model has arrived meanwhile
     facts = found;
   } catch (error) {
     return failed(error);
@@ -252,7 +252,7 @@ async function arrived(status) {
   stage.share = 1;
   scanPanel.tell(facts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : facts.models); // no other scene would find their files
+  scenePanel.show(engine.takesSeveral ? [] : facts.models); // another scene would not find their files
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
@@ -268,7 +268,7 @@ function failed(error) {
   reopening.begin();
 }
 
-// Text that was typed before belongs to the work that is shown.
+// Takes typed texts first, as they belong to the shown work.
 async function openInput(input, work) {
   await outcome.entered();
   return opened.open(input, work).catch(failed);
@@ -276,7 +276,7 @@ async function openInput(input, work) {
 
 const openFiles = (files) => projects.openFiles(files).catch(failed);
 
-// Shows that bytes are on their way to the engine or back, which takes a moment for large scans.
+// Shows that an upload or download is running, which takes some time for large scans.
 async function take(bytes) {
   const isStart = !$("#start").hidden;
   showStart(false);
@@ -307,8 +307,7 @@ const showRecentNow = () => keepPicture().then(() => shelf.show());
 
 // ------------------------------------------------------------------------------------------------------- start
 
-// Shows the document that the address names, or the one with which the program was started, or the one that was changed
-// last.
+// Shows the document of the page's address, or the one with which the program was started, or the one changed last.
 async function resume({first, recent}) {
   const mine = recent.find(({document}) => `#${document}` === location.hash);
   if (mine) return opened.open(mine.input);

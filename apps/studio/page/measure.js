@@ -4,15 +4,15 @@
 import {clamp, make, oneAtATime, scaleOfType} from "./controls.js";
 import {withUnit} from "./lengths.js";
 
-const NEAR = 12; // pixels from an end of a line at which the pointer takes it
-const ROW = 22; // pixels that a label needs in height, where type has its usual size
+const NEAR = 12; // pixels from an end of a line within which the pointer takes it
+const ROW = 22; // height of a label in pixels at the usual size of type
 const GAP = 14; // pixels from the piece to its dimensions
-const STROKE = 5; // pixels by which the end strokes of a dimension stand out on either side
+const STROKE = 5; // half length in pixels of a dimension's end strokes
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 
-let labels = []; // of the marks that are being drawn: {x, y, width}, of their middles
+let labels = []; // {x, y, width} of each drawn label, with x and y of its middle
 
 // Returns the place nearest to `y` that keeps a label clear of the others, within the picture.
 function freeHeight(x, y, width, row, picture) {
@@ -22,23 +22,23 @@ function freeHeight(x, y, width, row, picture) {
   return steps.flatMap((step) => [y - step, y + step]).find(isFree) ?? y;
 }
 
-const widthOf = (text) => (7.6 * text.length + 12) * scaleOfType(); // pixels of a label
+const widthOf = (text) => (7.6 * text.length + 12) * scaleOfType(); // width of a label in pixels
 
-// Returns the pixel where the label of a line stands above it, and covers nothing of it.
+// Returns the middle of a line's label, in pixels, above the line and without covering it.
 function beside([x1, y1], [x2, y2], text) {
   const size = Math.hypot(x2 - x1, y2 - y1) || 1, [right, up] = [(y2 - y1) / size, Math.abs(x2 - x1) / size];
   const side = x2 < x1 ? -right : right, gap = (Math.abs(right) * widthOf(text) + up * ROW * scaleOfType()) / 2 + NEAR;
   return [(x1 + x2) / 2 + side * gap, (y1 + y2) / 2 - up * gap];
 }
 
-// Says how the second of two heights differs from the first.
+// Returns the difference between two heights as text.
 function rise(from, to) {
   const text = withUnit(Math.abs(to - from));
   return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
 }
 
-// Returns a line between two pixels with a text in its middle or at another pixel, on a ground that keeps it readable,
-// within the picture and beside the labels before it.
+// Returns a line between two pixels with a text in its middle or at another pixel, on a background that keeps it
+// readable. The text stays within the picture and clear of earlier labels.
 function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, (y1 + y2) / 2]) {
   const scale = scaleOfType(), width = widthOf(text), row = ROW * scale, height = row - 2;
   const x = clamp(at[0], width / 2, picture.width - width / 2);
@@ -49,11 +49,12 @@ function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, 
     make("rect", {class: "ground", x: x - width / 2, y: y - height / 2, width, height, rx: 5}), label];
 }
 
-// Returns where a dimension is drawn beside the end of a piece, in pixels. It stays in a picture that shows the end.
+// Returns where a dimension is drawn beside the end of a piece, in pixels. The dimension stays within the picture if
+// the end does.
 const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
 
-// Returns where the label of a dimension stands, so that it covers nothing of the figure: outside of the line, or where
-// there is no room at its lower end. The outside of a level line is above it, as the figure is below.
+// Returns the place of a dimension's label, so that it does not cover the figure: outside of the line or, without room
+// there, at its lower end. Outside of a horizontal line is above it, as the figure is below.
 function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
   const scale = scaleOfType(), half = widthOf(text) / 2 + STROKE, middle = [(x1 + x2) / 2, (y1 + y2) / 2];
   if (y1 === y2) return [middle[0], y1 - ROW * scale / 2];
@@ -87,14 +88,14 @@ function onPlate({from, to}, [width, height], isEllipse) {
 }
 
 export class Measure {
-  // `stage` turns places into pixels and back, and has the newest picture's {size_mm, relief_mm}.
+  // `stage` converts places to pixels and back, and has {size_mm, relief_mm} of the newest picture.
   constructor(stage) {
     this.stage = stage;
     this.askHeight = oneAtATime(() => this.tellHeight());
     this.clear();
   }
 
-  // The line goes from one point to another, and has their heights.
+  // Removes the measuring line and the height under the pointer.
   clear() {
     this.line = this.pointer = this.wanted = null;
   }
@@ -145,7 +146,7 @@ export class Measure {
       ...labelled([left + 60, below], [left + 60, below], `${withUnit(thickness)} thick`, "none", picture)];
     if (!about.relief_mm) return marks;
     const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
-    if (x1 - left < 2 && right - x2 < 2) return marks; // there is no ground around the relief
+    if (x1 - left < 2 && right - x2 < 2) return marks; // the relief reaches the edges of the plate
     return [make("rect", {class: "bounds", x: x1, y: y2, width: x2 - x1, height: y1 - y2}),
       ...side([x1, y2 - 8], [x2, y2 - 8], high[0] - low[0]),
       ...side([x1 - 8, y1], [x1 - 8, y2], high[1] - low[1]), ...marks];
@@ -177,7 +178,8 @@ export class Measure {
 
   // -------------------------------------------------------------------------------------------------- the pointer
 
-  // Asks for the height under the pointer, one place at a time, always of the newest one; null: the pointer has left.
+  // Requests the height under the pointer, one request at a time, always for the newest place. `place` is null if the
+  // pointer has left.
   point(place) {
     this.wanted = place;
     if (place) return this.askHeight();
@@ -196,12 +198,12 @@ export class Measure {
     this.line = line;
     this.stage.drawOverlay();
     const heights = await this.stage.heights(line.from, line.to).catch(() => []);
-    if (this.line !== line || heights.length === 0) return; // another one is drawn by now
+    if (this.line !== line || heights.length === 0) return; // another line was drawn meanwhile
     line.heights = [heights[0], heights.at(-1)];
     this.stage.drawOverlay();
   }
 
-  // Called for each new picture, as its heights are new, too.
+  // Call this for each new picture, which has new heights.
   pictured() {
     if (this.line) this.setLine({...this.line, heights: null});
   }

@@ -1,11 +1,11 @@
-// Lines for people, at the edge of the page.
+// Shows messages for users at the edge of the page.
 
 import {$, Pause, make} from "./controls.js";
 
 const shown = new Pause(hideToast, 8000);
 let isLost = false;
 
-// The parts above the line make room for it, and the element with the focus stays in sight.
+// The parts above a message make room for it, and the element with the focus stays visible.
 new ResizeObserver(() => {
   document.documentElement.style.setProperty("--toast-height", `${$("#toast").offsetHeight}px`);
   if (!$("#toast").hidden) $(".inspector :focus")?.scrollIntoView({block: "nearest"});
@@ -13,7 +13,7 @@ new ResizeObserver(() => {
 
 $("#toast .close").onclick = hideToast;
 
-// Shows a line until the next, for eight seconds at most unless `isLasting`. Returns a function that takes it back.
+// Shows a message until the next one, for at most eight seconds unless `isLasting`. Returns a function that removes it.
 export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);
@@ -22,11 +22,11 @@ export function toast(text, isLasting = false) {
   return () => line.isConnected && hideToast();
 }
 
-// Shows a line for `ms` with a button for an action, and with `others`, [label, action] of each. Returns a function
-// that takes it back.
+// Shows a message for `ms` with a button for `action`, and one for each [label, action] of `others`. Returns a function
+// that removes it.
 export function offer(text, label, action, ms = Infinity, others = []) {
   const takeBack = toast(text, true), act = (chosen) => () => {
-    takeBack(); // before the action, which may say something itself
+    takeBack(); // comes first, as the action may show a message
     chosen();
   };
   if (ms < Infinity) shown.begin(ms);

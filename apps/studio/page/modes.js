@@ -1,4 +1,4 @@
-// The modes of the picture: tool, light table, comparison, and the material that it shows.
+// The modes of the picture: tool, light table, comparison, and material.
 
 import {about} from "./about.js";
 import {$, check, make} from "./controls.js";

@@ -1,5 +1,5 @@
-// The document that this page shows: opens scans and projects, follows the engine's news of the document, and goes on
-// when another engine or another tab has news of it.
+// The document that this page shows: opens scans and projects, follows the engine's status of the document, and
+// continues after another engine or another tab has changed it.
 
 import {namesOf} from "./about.js";
 import {FIRST} from "./document.js";
@@ -18,15 +18,15 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun(former) when another document is shown, with the input of the one before if there was one,
-  // on.progress(status), on.measured(status) when pictures can be drawn of the view that is being prepared first,
-  // on.arrived(status) when its model is ready, on.changed() when its state came from elsewhere,
-  // on.missing(input, kept) if its scan is not there, on.refused(why) if the view cannot be prepared, without a reason
-  // if that was cancelled, on.failed(error), and on.closed() when there is no document left to show.
+  // Calls on.begun(former) when another document is shown, with the input of the former one if there was one;
+  // on.progress(status); on.measured(status) when pictures of the first view can be drawn during its preparation;
+  // on.arrived(status) when the model is ready; on.changed() when a newer state came from elsewhere; on.missing(input,
+  // kept) if the scan is missing; on.refused(why) if the view cannot be prepared, without a reason if that was
+  // cancelled; on.failed(error); and on.closed() when no document is left to show.
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
-    this.asked = null; // the view that this page asked for last, until the engine names it
-    this.statuses = new Map(); // of all documents that are open
+    this.asked = null; // the view that this page requested last, until the engine reports it
+    this.statuses = new Map(); // statuses of all open documents
   }
 
   get input() {
@@ -38,7 +38,7 @@ export class OpenDocument {
   }
 
   // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved: it becomes
-  // the document's, or its newest step if it has a state already.
+  // the document's steps or, if the document has a state already, its newest step.
   async open(input, work = null) {
     const found = await this.engine.find(input);
     if (!found.is_there) return this.on.missing(found.input, work ?? found.kept);
@@ -48,7 +48,7 @@ export class OpenDocument {
     this.former = former;
     this.id = this.engine.document = found.document;
     this.takeState(newest, found.input, work);
-    if (work || (copy && newest === copy)) this.keep(); // a new one is kept when its scan could be read
+    if (work || (copy && newest === copy)) this.keep(); // a new document is kept after its scan was read
     this.isKept = Boolean(newest);
     this.model = 0;
     this.asked = null;
@@ -58,16 +58,16 @@ export class OpenDocument {
     await this.openInEngine(found.input);
   }
 
-  // Opens the document that is shown. The engine's news of it may have come already.
+  // Opens the shown document in the engine. Its status may have arrived already.
   async openInEngine(input) {
     const {id} = this, isOpen = this.engine.open(input, viewOf(this.doc.now));
-    this.isOpen = isOpen.catch(() => {}); // the caller of this function is told why it failed
+    this.isOpen = isOpen.catch(() => {}); // the caller gets the error from the line below
     await isOpen;
     const status = this.statuses.get(id);
     if (status && this.id === id) this.take(status);
   }
 
-  // Asks for the view that the document has when the engine has opened it: until then the engine refuses to.
+  // Requests the document's view after the engine has opened the document. Before that the engine would refuse.
   async chooseView() {
     const {id} = this;
     this.asked = viewOf(this.doc.now);
@@ -80,7 +80,7 @@ export class OpenDocument {
     });
   }
 
-  // Asks for the document's view unless the engine was asked for it already.
+  // Requests the document's view unless it was already requested.
   async ensureView() {
     this.asked = viewOf(this.doc.now);
     await this.openInEngine(this.input);
@@ -129,7 +129,7 @@ export class OpenDocument {
   // Returns the document's view, with the side that the engine chose if the document has none yet.
   wantedView = (shown) => withSide(viewOf(this.doc.now), shown);
 
-  // Returns whether the model may be shown. The first one needs the view that was asked for, unless that failed.
+  // Returns whether the model may be shown. The first model must have the requested view, unless that view failed.
   isWanted({busy, error, shown}) {
     return this.model > 0 || (!busy && (error || isSameView(shown, this.wantedView(shown))));
   }
@@ -147,12 +147,12 @@ export class OpenDocument {
   }
 
   complain({error, model}) {
-    const {path, name} = this.input; // a dropped scan is read from where the engine has put it
+    const {path, name} = this.input; // of a dropped scan, the path in the engine's store
     const message = path ? error.text.replaceAll(path, () => name) : error.text;
     const why = error.kind === "cancelled" ? "" : inWords({input: error.input, message});
     if (model > 0 && !(this.asked && why)) return this.on.refused(why);
     if (why) toast(why);
-    if (model > 0) return; // another view is on its way already
+    if (model > 0) return; // another view is already being prepared
     const {former} = this;
     this.former = null;
     this.id = this.engine.document = "";
@@ -168,7 +168,7 @@ export class OpenDocument {
     return true;
   }
 
-  // Another engine has taken the place of the one before.
+  // Called when another engine has replaced the former one.
   async resume() {
     if (!this.id) return;
     if (await this.adopt()) toast("The engine is back. It had newer work on this scan, which is shown here.");
@@ -179,7 +179,7 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // The engine has closed the document: its former news is not valid any more.
+  // Called when the engine has closed the document, which makes its last status invalid.
   async closed() {
     this.statuses.delete(this.id);
     await this.reopen();

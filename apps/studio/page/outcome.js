@@ -1,4 +1,4 @@
-// Files and projects are made of the document once it has taken all entries and its picture is there.
+// Returns the document for files and projects, after it has taken all entries and its picture is drawn.
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";
@@ -11,14 +11,15 @@ export class Outcome {
     Object.assign(this, {doc, stage, entries, pieces, frame});
   }
 
-  // Waits until all that was typed is taken or refused. What Enter has not confirmed counts, too.
+  // Waits until all typed entries are taken or refused, also those that Enter has not confirmed.
   async entered() {
     confirmTyping();
     this.pieces.takeSteps();
     await this.entries.settled();
   }
 
-  // Returns the order for the piece, once known. A height that the view does not reach becomes the one reached.
+  // Returns the order for the piece as soon as it is known. An unreachable height is replaced by the one that is
+  // reached.
   async known() {
     await this.entered();
     const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), frame = this.frame();
@@ -28,7 +29,7 @@ export class Outcome {
     return {options, note, name: fileName(now), material: now.material, step: now};
   }
 
-  // Returns the document's step with the height that its files have.
+  // Returns the document's step with the height of its files.
   async step() {
     const {step, options: {height}} = await this.known();
     return {...step, options: {...step.options, height}};

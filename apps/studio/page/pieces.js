@@ -1,4 +1,4 @@
-// The rows of all options of the engine that are no sliders.
+// The rows of all options of the engine that have no slider.
 
 import {about, optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
@@ -19,20 +19,20 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
 // Choices of the command line that need more words.
 const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"};
-const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // of other stages "#piece"
+const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // other stages: "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
-// These tips say why one would choose a shape; the help of the options tells how their texts are written.
+// These tips explain the purpose of shapes. The help of the options explains the format of their texts.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
-const LEAST_STEP = 0.001; // of arrow keys
+const LEAST_STEP = 0.001; // least step of arrow keys
 
 // The options of two lengths, with the text between these.
 const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
 
-// Returns a text such as "200x150" or "5,-3" with each length as typed(length) has it; the text itself if it is no such
-// pair, which the engine then refuses.
+// Returns a text such as "200x150" or "5,-3" with each length replaced by typed(length). A text that is no such pair is
+// returned unchanged, and the engine refuses it.
 function pairText(name, text, typed) {
   const {between, split} = PAIRS[name], lengths = text.toLowerCase().split(split).map(typed);
   return lengths.length === 2 && lengths.every(Number.isFinite) ? lengths.join(between) : text;
@@ -41,12 +41,12 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns whether a width was chosen: it is not that of a new document or of a kind of work.
+// Returns whether the user chose the width: it differs from those of a new document and of all kinds of work.
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns what else changes with the outline: a size that the new outline cannot have is dropped, and so is the
-// rim of a piece without an outline.
+// Returns the other changes that come with an outline: a size that it cannot have is dropped, and without an outline
+// also the rim.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
   const isRound = value === "circle", isFree = FREE_OUTLINES.includes(value);
@@ -54,8 +54,8 @@ function besidesOutline(value, {diameter, plate}, shownWidth) {
   return hasSize ? rim : {...rim, diameter: null, plate: "", shift: "", width: shownWidth};
 }
 
-// Returns what else changes with an option: a plate of a given size decides how wide the relief is, unless a width
-// was chosen.
+// Returns the other changes that come with an option: a given size of the plate determines the width of the relief,
+// unless the user chose a width.
 function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
@@ -71,23 +71,24 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
 const OTHERS = {tone: "Tone curve", view: "View"};
 // The page's words for what the engine expects of an option.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
-// Only a command line can follow the engine's advice about pictures in colours.
+// The engine's advice about coloured pictures applies only to the command line, so the page replaces it.
 const ADVICE = /; the option channel takes one .*$/;
 const OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
 
 const controlOf = (name) => document.querySelector(`[data-option="${name}"]`);
 
-// Returns whether an option has a label, or a control somewhere else on the page. Any other gets a row with its name.
+// Returns whether an option has a label, or a control somewhere else on the page. Any other option gets a row labelled
+// with its name.
 const isLabelled = (name) => name in LABELS || name in FIELDS || controlOf(name) !== null;
 
-// Returns the name of an option on the page: where no table has it, that of its control.
+// Returns the name of an option on the page: from the tables, otherwise from its control.
 function labelOf(name) {
   const control = controlOf(name);
   return LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? control?.getAttribute("aria-label") ??
     control?.closest("label")?.firstElementChild.textContent ?? name;
 }
 
-// Returns the message of an error in the words of the page: it names an option as the label of its field does.
+// Returns the message of an error in the words of the page: an option has the name of its label.
 export function inWords({input, message}) {
   const label = optionOf(input) && labelOf(input);
   const text = message.replace(ADVICE, OTHER), [found] = (EXPECTED[input] && text.match(/, found '.*$/)) ?? [];
@@ -96,7 +97,7 @@ export function inWords({input, message}) {
 }
 
 export class PieceRows {
-  // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
+  // `say` shows a line to the user; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, entries, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, entries, say, shownWidth, rows: {}});
     for (const {name} of about.options) if (!isLabelled(name)) LABELS[name] = sentence(name.replaceAll("-", " "));
@@ -133,7 +134,7 @@ export class PieceRows {
     const element = pair(label, input, {title: sentence(help)});
     const rest = new Pause(() => input.dispatchEvent(new Event("change")), REST_MS);
     input.onchange = () => this.take(name);
-    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // typing follows the keys
+    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // the user types after using the arrow keys
     input.onkeydown = (event) => {
       if (event.key === "Escape") rest.end(), this.show();
       if (event.key in UPWARDS) this.step(event, name);
@@ -141,7 +142,8 @@ export class PieceRows {
     return {element, input, rest, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
 
-  // Arrow keys go from a number to the next round one, with shift finely; it is taken when they rest.
+  // Arrow keys go from a number to the next round one, in small steps with Shift. It is taken after a pause of the
+  // keys.
   step(event, name) {
     const row = this.rows[name], {input, isNumber, unit, min, max} = row, isLength = unit === "mm";
     const scale = isLength ? millimetresPerUnit() : 1, value = parseLength(input.value, isLength, scale) / scale;
@@ -149,11 +151,11 @@ export class PieceRows {
     event.preventDefault();
     const next = clamp(nextValue(value, UPWARDS[event.key], event.shiftKey, LEAST_STEP) * scale, min, max);
     input.value = isLength ? shortLength(next) : String(Number(next.toPrecision(12)));
-    input.dispatchEvent(new Event("input")); // as typing does
+    input.dispatchEvent(new Event("input")); // like typing
     row.rest.begin();
   }
 
-  // Takes the choice or the text that was entered, unless it is no number where one is wanted.
+  // Takes the entered choice or text, unless the row needs a number and the text is none.
   take(name) {
     const {input, rest, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     rest.end();
@@ -163,7 +165,7 @@ export class PieceRows {
     return this.set(name, () => (PAIRS[name] ? inMm(name, value ?? "") : value));
   }
 
-  // Changes an option after all entries before; `change` makes its new value of the present one.
+  // Changes an option after all earlier entries; `change` returns the new value for the present one.
   set(name, change) {
     const part = ({options}) => {
       const value = change(options[name]);
@@ -175,13 +177,12 @@ export class PieceRows {
     return this.entries.add({name, label: LABELS[name], part, isTried: true, isMade});
   }
 
-  // Takes the numbers to which arrow keys have stepped, also before the keys rest.
+  // Takes the numbers set by arrow keys at once, without waiting for the pause.
   takeSteps() {
     for (const [name, {rest}] of Object.entries(this.rows)) if (rest?.isRunning) this.take(name);
   }
 
-  // Shows the document's values, but not in a field in which something is typed, nor in one with an entry that is
-  // tried.
+  // Shows the document's values, except in fields in which the user types or with an entry that is being tried.
   show() {
     const {options} = this.doc.now, tried = new Set(this.entries.pending.map(({name}) => name));
     for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;

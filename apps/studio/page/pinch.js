@@ -1,14 +1,15 @@
-// Two fingers on the relief: they move the picture and zoom, but with the tool Place they scale and turn the figure.
+// Two fingers on the relief move the picture and zoom; with the tool Place they scale and turn the figure.
 
-const SLACK = 8; // degrees by which fingers turn that only scale
+const SLACK = 8; // degrees that fingers may turn while they scale
 
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
 
-// Calls begin() when the second finger is down, end() when one is up, and between them move(from, to, ratio, turn): the
-// middles before and after in pixels of the element, the ratio of their distances, and the turn in degrees to the left.
+// Calls begin() when the second finger comes down, end() when one is lifted, and between these move(from, to, ratio,
+// turn): the middle of the fingers before and after in pixels of the element, the ratio of their distances, and the
+// turn in degrees to the left.
 function takePinches(element, {begin, move, end}) {
   const fingers = new Map();
-  let last = null; // while there are two
+  let last = null; // the last measurement, while there are two fingers
   const measure = () => {
     if (fingers.size !== 2) return null;
     const [a, b] = fingers.values(), [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -40,10 +41,10 @@ function takePinches(element, {begin, move, end}) {
   for (const type of ["pointerup", "pointercancel"]) element.addEventListener(type, lift);
 }
 
-// The figure is scaled at once, and turned when the fingers are up, as by a drag. All of it is one step.
+// Scales the figure at once, and notes the turn, which is made when the fingers are lifted. All of it is one step.
 function placeFigure(stage, ratio, turn) {
   const {drag, about} = stage, {placing} = stage.on;
-  if (drag?.tool !== "place") return; // the plate has no size, or Escape has ended it
+  if (drag?.tool !== "place") return; // placing is impossible, or Escape has ended it
   drag.ratio *= ratio;
   drag.turned += turn;
   drag.angle = Math.abs(drag.turned) > SLACK ? drag.turned : 0;
@@ -54,7 +55,7 @@ function placeFigure(stage, ratio, turn) {
 export function takeFingers(stage) {
   takePinches(stage.element, {
     begin() {
-      stage.takeBack(); // the first of them moved nothing
+      stage.takeBack(); // the first finger alone must not change anything
       stage.release();
       const {placing} = stage.on;
       if (stage.tool === "place" && stage.about && placing.begin(stage.about.size_mm))

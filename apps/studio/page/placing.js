@@ -10,7 +10,7 @@ const TURN_STEP = 1; // degrees
 const rounded = (x) => Number(x.toFixed(2));
 
 export class Placing {
-  // `shownWidth` returns the figure's longer side in mm, `setWidth` takes it, `say` takes a line for people.
+  // `shownWidth` returns the figure's longer side in mm, `setWidth` sets it, `say` shows a line to the user.
   constructor({doc, entries, shownWidth, setWidth, say}) {
     Object.assign(this, {doc, entries, shownWidth, setWidth, say});
   }
@@ -19,8 +19,8 @@ export class Placing {
     return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
-  // Begins a movement on a piece of that size. A plate that is as large as the figure needs becomes one of its present
-  // size, on which there is a place to choose. Returns whether it has one.
+  // Begins a movement on a piece of that size. A plate that is fitted to the figure first gets its present size as a
+  // fixed size, so that the figure can be placed on it. Returns whether the figure can be placed.
   begin([width, height]) {
     const {outline, diameter, plate, form, shift} = this.doc.now.options;
     if (this.entries.pending.length > 0)
@@ -35,21 +35,21 @@ export class Placing {
     return true;
   }
 
-  // Moves the figure from where it was by millimetres to the right and up, as seen.
+  // Moves the figure from its place at the beginning by millimetres to the right and up in the picture.
   move(right, up) {
     const x = this.from[0] + (this.isMirrored ? -right : right), y = this.from[1] + up;
     const isMiddle = Math.hypot(x, y) < 0.2;
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
 
-  // Scales the figure from a width on a piece of that size, which stays as large as it is.
+  // Scales the figure from a width on a piece of that size, without changing the size of the piece.
   scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
     if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");
-    this.setWidth(clamp(width * factor, LEAST, MOST)); // of the same stroke
+    this.setWidth(clamp(width * factor, LEAST, MOST)); // in the same stroke
   }
 
-  // Turns the figure by degrees, to the left for positive ones, as seen.
+  // Turns the figure in the picture by degrees, positive ones to the left.
   turn(degrees) {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
     if (angle === 0) return;
@@ -58,9 +58,10 @@ export class Placing {
     if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 
-  // Takes the error of the newest picture, and the numbers of the one that is shown. A figure that was moved too far
-  // stays where it is shown; one that is too large for its plate becomes as large as fits, or goes to the middle where
-  // nothing fits, in the step that left it too little room. Returns whether it was one of these.
+  // Corrects a figure that does not fit its plate; takes the error of the newest picture, and the numbers of the shown
+  // one. A figure that was moved too far returns to the shown place. A figure that is too large gets the largest width
+  // that fits or, if none fits, moves to the middle, in the step that left too little room. Returns whether the error
+  // was one of these.
   fit({kind, input, message}, shown) {
     if (kind !== "option" || input !== "width") return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;

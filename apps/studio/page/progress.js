@@ -3,7 +3,7 @@
 import {about} from "./about.js";
 import {$} from "./controls.js";
 
-// `isAlone` while there is no relief to look at.
+// `isAlone` is true while there is no relief to show.
 export function showProgress({busy, stage, fraction = 0}, isAlone) {
   const box = $("#progress"), percent = Math.round(fraction * 100), name = about.stages[stage] ?? stage;
   box.hidden = !busy;

@@ -1,4 +1,4 @@
-// Project files: opens them, asks for scans that they do not find, and saves them with or without the scan.
+// Opens project files, asks for missing scans, and saves project files with or without the scan.
 
 import {about} from "./about.js";
 import {$, download, fileSize} from "./controls.js";
@@ -11,7 +11,7 @@ import {zipOf} from "./zip.js";
 // Returns whether one of several files is a scan or scene that names the others.
 const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
 
-// Returns one file that holds a .gltf and the files that it names.
+// Returns one file that contains a .gltf and the files that it names.
 async function together(files) {
   const gltf = files.find(({name}) => /\.gltf$/i.test(name));
   if (!gltf) throw new Error("Several files at once: expected scans, or a .gltf with the files that it names.");
@@ -22,8 +22,8 @@ async function together(files) {
 }
 
 export class Projects {
-  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way; `rest()`
-  // shows what there is when nothing is opened.
+  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows a running upload or download;
+  // `rest()` shows the page when nothing is opened.
   constructor({engine, open, take, rest, failed}) {
     Object.assign(this, {engine, open, take, rest, failed});
     $("#locate").onchange = (event) => {
@@ -33,7 +33,7 @@ export class Projects {
     };
   }
 
-  // Opens what was dropped or chosen: a project, a scan, perhaps of several files, or several scans as a scene.
+  // Opens dropped or chosen files: a project, a scan of one or several files, or several scans as a scene.
   async openFiles(files) {
     if (!files.length) return null;
     const most = about.most_upload, tooLarge = files.find(({size}) => size > most);
@@ -63,7 +63,7 @@ export class Projects {
     this.askFor(project.input, work);
   }
 
-  // Asks for a scan that is not where it was.
+  // Asks the user for a scan that is missing.
   askFor(input, work) {
     this.wanted = {input, work};
     this.rest();
@@ -80,7 +80,7 @@ export class Projects {
       () => this.open(input, work), Infinity, [["Locate another file", () => $("#locate").click()]]);
   }
 
-  // Saves the step that is promised of the document of a scan, at once if there is nothing to choose.
+  // Saves the promised step of the document of a scan, without a question if there is no choice.
   save(input, promised) {
     const name = plainName(input), saveStep = async (isWithScan) => {
       try {

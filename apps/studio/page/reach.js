@@ -1,18 +1,18 @@
-// The largest height that can be reached: marks it on the slider, and names what limits it where a height is out of
-// reach, with a button that loosens it.
+// The largest height that can be reached: marks it on the slider. If a height is out of reach, names the option that
+// limits it, with a button that loosens this option.
 
 import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may allow a higher relief, with the words for the limit that each removes. The draft angle is first, as
-// without it the answer takes no time.
+// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle is first, as
+// without it the engine answers at once.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
   {limit: "The tone curve", action: "Drop the tone curve", part: {tone: ""}},
 ];
-const WORTH = 1.02; // so many times the height
+const WORTH = 1.02; // least factor of the height for an offer
 
 export class Reach {
   constructor({engine, doc, slider, chooseView}) {
@@ -27,16 +27,16 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Called with each picture of a model; a fine one comes when things rest. The reach does not depend on the height: it
-  // is asked for when something else changes.
+  // Called with each picture of a model; a fine one comes when nothing moves. The largest height does not depend on the
+  // wanted height, so it is requested only when something else changes.
   async pictured(frame, isFine, model) {
     const isMissed = this.doc.now.isHeightLocked && !frame.is_height_met;
     this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(frame.height_mm)} high` : "");
     if (!isFine) return;
     if (frame.is_height_met) $("#reach").replaceChildren();
-    if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
+    if (this.doc.now.options.form === "lithophane") return this.clear(); // can have any height
     const {height, ...rest} = shownOptions(this.doc.now), key = `${model} ${JSON.stringify(rest)}`;
-    const turn = ++this.turn; // whoever waits longer than until the next picture says nothing
+    const turn = ++this.turn; // an answer after the next picture is ignored
     if (key !== this.key) this.answer = this.engine.reach({...rest, height});
     this.key = key;
     try {
@@ -45,7 +45,8 @@ export class Reach {
       return turn === this.turn ? this.clear() : undefined; // another view is being prepared
     }
     if (turn !== this.turn) return;
-    // A picture may be too high, as it need not wait for the limit of the draft angle, which no steps raise.
+    // A picture may be too high, as it does not wait for the limit of the draft angle. Steps at depth jumps do not
+    // raise that limit.
     const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
@@ -61,7 +62,7 @@ export class Reach {
       if (Object.entries(looser.part).every(isLoose)) continue;
       const changed = shownOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
       const reach = await this.engine.reach(changed).catch(() => null);
-      if (reach === null || turn !== this.turn) return; // something else is shown, perhaps another document
+      if (reach === null || turn !== this.turn) return; // another picture is shown, perhaps of another document
       if (reach > this.reach * WORTH) {
         best = looser;
         break;

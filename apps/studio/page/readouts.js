@@ -3,11 +3,11 @@
 import {$, clamp, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown, sizeText, withUnit} from "./lengths.js";
 
-const FEWEST = 6; // pictures in a second from which their number is told
+const FEWEST = 6; // least pictures per second for showing their number
 
-let times = []; // of the newest pictures
+let times = []; // of the pictures of the last second
 
-// Returns the size of a picture's piece, which is near that of its file until the piece is finished.
+// Returns the size of a picture's piece, which is approximate until the piece is finished.
 const pieceText = ({size_mm: size, is_size_exact: isExact}) => `piece ${isExact ? "" : "≈ "}${sizeText(size)}`;
 
 // Shows the numbers that come with a picture: `height` is the text to show, `facts` are those of the model.
@@ -35,14 +35,14 @@ export function paperWords({alpha, beta, u}, gamma) {
   return `In the paper's words: ${words.join(", ")}`;
 }
 
-// Shows what share of the front the tool reaches; the piece is coloured where it leaves material.
+// Shows the share of the front that the tool reaches. The picture colours the areas where the tool leaves material.
 export function showToolReach(tool) {
   $("#tool-reach").textContent = !tool ? "" :
     `The tool reaches ${(100 * tool.share).toFixed(1)} % of the front, and leaves up to ` +
     `${withUnit(tool.left_mm)}: orange to red on the piece.`;
 }
 
-// Returns round values between two, about so many.
+// Returns about `count` round values between `low` and `high`.
 function ticks(low, high, count) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= rough), all = [];
@@ -50,9 +50,9 @@ function ticks(low, high, count) {
   return {all, decimals: Math.max(0, -Math.floor(Math.log10(step)))};
 }
 
-const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // pixels beside the chart, where type has its usual size
+const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // pixels beside the chart at the usual size of type
 
-// Shows heights along a line; none of a line that passes the piece by.
+// Shows heights along a line; none if the line misses the piece.
 export function showSection(heights, from, to) {
   const svg = $("#section-chart"), box = svg.getBoundingClientRect();
   svg.replaceChildren();
@@ -81,7 +81,7 @@ export function showSection(heights, from, to) {
     `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
 }
 
-let pointed = null; // where the pointer is over the chart, which is drawn anew while it rests there
+let pointed = null; // place of the pointer over the chart, kept as the chart is redrawn under it
 
 // Shows the place and the height of the section under the pointer in an element of the chart.
 function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {

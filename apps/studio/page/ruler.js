@@ -4,11 +4,11 @@
 import {make, scaleOfType} from "./controls.js";
 import {millimetresPerUnit, shortLength, shown} from "./lengths.js";
 
-const BAR = 150; // pixels that the bar has at most, where type has its usual size
+const BAR = 150; // greatest length of the bar in pixels at the usual size of type
 const APART = 64, FINE = 6; // least pixels between numbers of a ruler, and between its strokes
 const EDGE = 14, STROKE = 5;
 
-// Returns the largest of 1, 2, 5, 10 ... units that is not longer than so many mm.
+// Returns the largest of 1, 2, 5, 10 ... units that is at most `mm`, in mm.
 function roundBelow(mm) {
   const units = mm / millimetresPerUnit(), power = 10 ** Math.floor(Math.log10(units));
   return [5, 2, 1].find((digit) => digit * power <= units * (1 + 1e-9)) * power * millimetresPerUnit();
@@ -20,8 +20,8 @@ function scaleBar({pixelsPerMm, size: {height}}) {
     make("text", {class: "scale", x: EDGE + 6, y: y - 6}, `${shortLength(mm)} ${shown.unit}`)];
 }
 
-// Returns the strokes of a ruler that is at 0 at a pixel and goes over so many to the right or, with the sign -1,
-// upwards: the pixel of each, and its number if it has one.
+// Returns the strokes of a ruler with its 0 at the pixel `zero` that is `pixels` long and goes to the right or, with
+// the sign -1, upwards: the pixel of each stroke, and its number if it has one.
 function strokes({pixelsPerMm}, zero, sign, pixels) {
   const step = 2 * roundBelow(APART * scaleOfType() / pixelsPerMm);
   const parts = [10, 5, 2, 1].find((n) => step * pixelsPerMm / n >= FINE), apart = sign * step / parts * pixelsPerMm;
@@ -31,7 +31,7 @@ function strokes({pixelsPerMm}, zero, sign, pixels) {
   return all;
 }
 
-// Numbers stand where they cover nothing of the piece, unless it is so close that it fills the picture.
+// Numbers do not cover the piece, unless it fills the picture.
 function rulers(stage) {
   const {size: {width, height}, about: {size_mm: [wide, high]}, camera} = stage, type = scaleOfType();
   const [left, bottom] = stage.toPixels([-wide / 2, -high / 2]), [, top] = stage.toPixels([0, high / 2]);
@@ -48,7 +48,7 @@ function rulers(stage) {
       make("text", {class: "scale", x: 2 * STROKE + 4, y: at + 4 * type}, number))];
 }
 
-// Returns the marks that show how large the piece is; none before there is one.
+// Returns the marks that show the size of the piece; none before there is a piece.
 export function scaleMarks(stage) {
   if (!stage.about) return [];
   return ["section", "measure", "place"].includes(stage.tool) ? rulers(stage) : scaleBar(stage);

@@ -1,11 +1,11 @@
-// The panel shows the findings about a scan, each with its remedy, and sets where the scan is cut and its noise.
+// The panel shows the findings about a scan, each with its remedy, and has the controls for cropping and denoising it.
 
 import {$, make, pair} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
 // The sides that can be cut away, each with its index in a crop's numbers, X0,Y0,X1,Y1,NEAR,FAR. These are shares of
-// the model's box: from its left, from its bottom, and from its nearest point. A cut of 0 takes nothing away.
+// the model's box: from its left, from its bottom, and from its nearest point. A cut of 0 removes nothing.
 const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
 const MOST_CUT = 95; // percent
 
@@ -20,18 +20,18 @@ export function cropText(numbers) {
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
 }
 
-// The offers of notes, by the option and the value that they set.
+// The labels of the notes' buttons, by the option and the value that they set.
 const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
   "denoise 0": "Keep the noise"};
 
-// Returns whether a note stands beside the picture, too. It does if something was taken out of the picture, or fills it
-// and is not the figure. Readers of depth images tell of their background in words alone.
+// Returns whether a note is also shown beside the picture: if something was removed from the picture, or something
+// other than the figure fills it. Readers of depth images report their background only in the text.
 const isOffered = ({option, text}) => ["crumbs", "plane"].includes(option) || /background taken out/.test(text);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
   make("input", {id: name, "data-option": name, type: "checkbox"}));
 
-// Returns the rows of what the view leaves out of a scan.
+// Returns the rows for the parts that the view leaves out of a scan.
 const viewRows = () => [
   keepRow("crumbs", "Keep small pieces", "Pieces of less than 0.5 % of what is seen"),
   keepRow("plane", "Keep table, background",
@@ -46,7 +46,7 @@ const viewRows = () => [
 ];
 
 export class ScanPanel {
-  // Calls cropOnPicture() for a frame on the picture.
+  // Calls cropOnPicture() to show the crop frame on the picture.
   constructor({doc, cropOnPicture}) {
     this.doc = doc;
     this.cuts = SIDES.map(([label, at]) => {
@@ -62,7 +62,7 @@ export class ScanPanel {
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
     $("#remarks").onclick = () => this.open();
     $("#offers .close").onclick = () => {
-      this.hidden = this.offeredKey; // until something else is found
+      this.hidden = this.offeredKey; // until there are other findings
       $("#offers").hidden = true;
     };
     $("#crop-picture").onclick = cropOnPicture;
@@ -89,7 +89,7 @@ export class ScanPanel {
     const isFar = WHOLE[at] === 1;
     numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
     this.doc.change({options: {crop: cropText(numbers)}});
-    this.shown = null; // a cut that takes everything is refused
+    this.shown = null; // so that a refused cut, one that would remove everything, is shown as it was
     this.show();
   }
 
@@ -121,7 +121,7 @@ export class ScanPanel {
       this.showCut(cut, 100 * (WHOLE[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
   }
 
-  // Shows the facts that were found; none for null.
+  // Shows the given facts; none for null.
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];
@@ -136,7 +136,7 @@ export class ScanPanel {
     this.show();
   }
 
-  // The engine says nothing of small pieces that are kept.
+  // Adds a note on kept small pieces, which the engine does not report.
   notesOn({remarks}) {
     const {crumbs} = this.doc.now.options;
     const kept = {text: "Small pieces are kept.", option: "crumbs", value: "drop", label: "Leave them out"};

@@ -1,13 +1,13 @@
-// The models of a scene: how each is turned and how large it is. A change makes another scene file, which is opened.
+// The models of a scene: the turn and the size of each. A change makes another scene file, which is opened.
 
 import {$, make, pair, textField} from "./controls.js";
 import {typedNumber} from "./lengths.js";
 
 const nameOf = (path) => path.split(/[/\\]/).at(-1);
 const TURN = {label: "Turn", unit: "°", min: -360, max: 360}, SIZE = {label: "Size", unit: "", min: 1, max: 10000};
-const MOST_NAMES = 3; // in the name of a scene
+const MOST_NAMES = 3; // models in the name of a scene
 
-// Returns the scene of models as a file: side by side, unless they have places.
+// Returns a scene file with the models, side by side unless they have places.
 export function sceneFile(models) {
   const names = models.slice(0, MOST_NAMES).map(({file}) => nameOf(file).replace(/\.[a-z0-9]+$/i, ""));
   const name = names.join(" + ") + (models.length > MOST_NAMES ? " + …" : "");
@@ -15,7 +15,7 @@ export function sceneFile(models) {
 }
 
 export class ScenePanel {
-  // `open(models)` shows the scene of other models; `say` takes a line for people.
+  // `open(models)` shows the scene of other models; `say` shows a line to the user.
   constructor({open, say}) {
     Object.assign(this, {open, say, models: []});
   }

@@ -1,5 +1,5 @@
-// Options whose texts are shapes with parameters, such as "wave:height=3,length=40,hollow" or the tool "v:60:0.5": a
-// menu of the shapes, and a field for each parameter of the chosen one.
+// Rows for options that are shapes with parameters, such as "wave:height=3,length=40,hollow" or the tool "v:60:0.5": a
+// menu of the shapes, and a field for each parameter of the chosen shape.
 
 import {make, pair, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
@@ -15,7 +15,7 @@ const tip = ["tip", {label: "Tip", ...mm, otherwise: "sharp"}];
 
 const shape = (label, ...parameters) => ({label, parameters: new Map(parameters)});
 
-// The parameters of each shape, which the engine takes as well.
+// The parameters of each shape, the same as the engine's.
 export const SHAPES = {
   base: {
     plane: shape("Plane"), fold: shape("Fold", height, angle, direction, hollow),
@@ -30,17 +30,17 @@ export const SHAPES = {
   tool: {"": shape("None"), ball: shape("Ball end", diameter), flat: shape("Flat end", diameter),
     v: shape("V bit", angle, tip)},
 };
-// The texts of shapes that need a size, when they are chosen.
+// The first texts of shapes that need a size.
 export const FIRST_TEXTS = {ball: "ball:3", flat: "flat:3", v: "v:60"};
 const IMAGE = "image"; // the shape that the row of the base image chooses
-// The parameters that each one replaces, as a shape has only one of them.
+// The parameters that each parameter replaces, as they exclude each other.
 const REPLACED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
 
-// A shape that this page does not know has none.
+// Returns the parameters of a shape; none for a shape that this page does not have.
 const parametersOf = (option, name) => SHAPES[option][name]?.parameters ?? new Map();
 
-// Returns the text's shape and its values as texts, by parameter. A word that is there is "". A comma before a digit is
-// a decimal comma.
+// Returns the shape of a text, and its values as texts by parameter. A parameter without a value, such as "hollow", has
+// the value "". A comma before a digit is a decimal comma.
 export function parseShape(option, text) {
   const [name] = text.split(":", 1), rest = text.slice(name.length + 1), names = [...parametersOf(option, name).keys()];
   const entries = option === "tool" ? rest.split(":").map((value, i) => [names[i], value])
@@ -56,8 +56,8 @@ function shapeText(option, {name, values}) {
 }
 
 export class ShapeRow {
-  // Calls take(change) with a function that turns the option's present text into its new one, and say(text) with a line
-  // for people.
+  // Calls take(change) with a function that turns the option's present text into its new one, and say(text) to show a
+  // line to the user.
   constructor({option, label, title, take, say}) {
     Object.assign(this, {option, label, take, say, fields: []});
     this.input = make("select", {id: option, "data-option": option, "aria-label": label},
@@ -91,7 +91,7 @@ export class ShapeRow {
     return {name, about, input};
   }
 
-  // Takes the entry, unless it is no value or another shape was chosen meanwhile.
+  // Takes the entry, unless its value is invalid or another shape was chosen meanwhile.
   changed(name, about, input) {
     const {name: shape, text: shown} = this.shown, typed = input.value.trim(), {checked} = input;
     const value = about.isWord || typed === "" ? "" : typedNumber(typed, about, this.say);
@@ -102,7 +102,8 @@ export class ShapeRow {
   }
 }
 
-// Returns a text with a parameter, or without it if the value is null; one that the shape needs gets its first value.
+// Returns a text with the parameter set, or without it if the value is null. A parameter that the shape needs gets its
+// first value instead.
 function withParameter(option, text, parameter, value) {
   const {name, values} = parseShape(option, text);
   const needed = parseShape(option, FIRST_TEXTS[name] ?? name).values.get(parameter);

@@ -1,5 +1,5 @@
-// The view whose model is shown, and the wait for another one. When nothing is asked for any more, the views of the
-// document, the engine and the picture are the same, whichever page asked, and whatever was cancelled or refused.
+// The view whose model is shown, and the wait for another one. When no request is left, the views of the document, the
+// engine and the picture are the same, also after requests of other pages and after cancelled or refused requests.
 
 import {isSameView, viewOf} from "./opening.js";
 
@@ -12,19 +12,19 @@ export class ShownView {
 
   // Begins another document, which has no model yet.
   clear() {
-    this.view = null; // the newest one that a model was shown of when nothing else was asked for
+    this.view = null; // the last shown view for which no other request was waiting
   }
 
-  // Asks the engine for the document's view.
+  // Requests the document's view.
   choose() {
     return this.opened.chooseView().catch((error) => {
       if (error.kind === "option" && !this.opened.asked) this.restore();
-      this.failed(error); // which is said until the next change
+      this.failed(error); // shows the error until the next change
     });
   }
 
-  // Waits for the view of a state that another page has kept, also if its model is shown: another view may have been
-  // asked for meanwhile.
+  // Waits for the view of a state that another page has kept. This is needed even if the model has that view, as
+  // another view may have been requested meanwhile.
   adopt() {
     const {view, stage, opened} = this;
     if (!view || (!stage.isAwaiting && isSameView(view, opened.wantedView(view)))) return;
@@ -32,7 +32,7 @@ export class ShownView {
     opened.ensureView().catch(this.failed);
   }
 
-  // Takes the status of a model that is shown now. The engine may have sent others since.
+  // Takes the status of a model that is shown now. The engine may have sent newer statuses since.
   arrived(status) {
     const newest = this.opened.status;
     if (!status.busy && !status.error) this.view ??= status.shown;
@@ -40,7 +40,7 @@ export class ShownView {
     if (newest.error && !newest.busy) this.restore();
   }
 
-  // Ends the wait when the model has the view that was asked for last, by this page or by another one.
+  // Ends the wait when the model has the view that this or another page requested last.
   settle({busy, error, shown}) {
     if (busy || error || this.opened.asked) return;
     this.view = shown;

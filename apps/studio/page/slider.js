@@ -4,7 +4,7 @@ import {Pause, clamp, make} from "./controls.js";
 import {finish, isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "./lengths.js";
 
-// Ways to spread values over a slider.
+// Mappings between values and positions on a slider, both ways.
 export const spread = {
   linear: {to: (v, min, max) => (v - min) / (max - min), from: (p, min, max) => min + p * (max - min)},
   root: {to: (v, min, max) => Math.sqrt((v - min) / (max - min)), from: (p, min, max) => min + p * p * (max - min)},
@@ -12,22 +12,22 @@ export const spread = {
 };
 
 const STEPS = 1000;
-export const REST_MS = 400; // after which keys and the wheel have ended a movement
+export const REST_MS = 400; // pause of keys or the wheel that ends a movement
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 
-// Returns the next value in a direction that has one digit less than `value`, or with `isFine` as many, but no step is
-// smaller than `least`.
+// Returns the next round value in a direction: the next multiple of a tenth of the value's power of ten, but of at
+// least `least`; with `isFine`, the next multiple of a tenth of that.
 export function nextValue(value, direction, isFine, least) {
-  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // 10 is left downwards by 0.1
+  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // 10 goes down by 0.1
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
   const steps = value / step;
   return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
 }
 
 // A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
-// spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets `otherwise`. Calls
-// onInput(value, isTyped) while the slider moves, onEnd() when a movement is over, and say(text) if a number is
+// spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets it to `otherwise`.
+// Calls onInput(value, isTyped) while the slider moves, onEnd() when a movement is over, and say(text) if a number is
 // refused.
 export class Slider {
   constructor(field, onInput, onEnd, say) {
@@ -35,7 +35,7 @@ export class Slider {
     this.value = this.otherwise;
     this.rest = new Pause(onEnd, REST_MS);
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
-    // No input of type number: browsers make 18 of "1/8in" there, and nothing of "2,5".
+    // The type is not "number", because browsers would read "1/8in" as 18 there, and could not read "2,5".
     this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});
     this.name = make("span", {class: "name", title: this.help}, this.label);
     this.shownUnit = make("span", {class: "unit", "aria-hidden": "true"});
@@ -78,7 +78,7 @@ export class Slider {
     this.range.onkeydown = (event) => this.step(event, FORWARDS);
   }
 
-  // Takes the number that was typed, with more decimals than the slider has if they were typed.
+  // Takes the typed number with all its typed decimals, also more than the slider has.
   typed() {
     const value = typedNumber(this.number.value, this, this.say);
     this.exact = value === null ? this.exact : Number(value.toFixed(4));
@@ -87,13 +87,13 @@ export class Slider {
     this.onEnd();
   }
 
-  // Shows the number before the typing again, after Escape.
+  // Restores the number from before the typing, after Escape.
   takeBack() {
     this.show(this.value);
     this.number.select();
   }
 
-  // The wheel moves the slider that has the focus. Over any other it scrolls the panel, and changes nothing.
+  // The wheel moves the slider only if it has the focus. Over other sliders it scrolls the panel.
   wheel(event) {
     if (this.range.disabled || event.ctrlKey || !this.element.contains(document.activeElement)) return;
     event.preventDefault();
@@ -102,7 +102,7 @@ export class Slider {
     this.rest.begin();
   }
 
-  // Arrow keys go to the next round number, with shift finely.
+  // Arrow keys go to the next round number, in small steps with Shift.
   step(event, directions) {
     const direction = directions[event.key];
     if (!direction) return;
@@ -125,7 +125,7 @@ export class Slider {
     this.onInput(value === this.exact ? value : this.rounded(value), isTyped);
   }
 
-  // Returns the value that the shown number stands for.
+  // Returns the value of the number as shown, in millimetres for a length.
   rounded(value) {
     const number = Number(this.text(value));
     return this.isLength ? Number((number * millimetresPerUnit()).toFixed(4)) : number;
@@ -151,17 +151,17 @@ export class Slider {
   // Marks a value on the slider, such as the largest that can be reached, with a title; none for null.
   showMark(value, title = "") {
     this.mark.hidden = value === null || value > this.hand[1];
-    this.range.title = value === null ? "" : title; // the mark is too thin to be pointed at
+    this.range.title = value === null ? "" : title; // the mark itself is too thin for a pointer
     if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
   }
 
-  // Marks the number as one that the piece does not have, with a text that says why; "" if the piece has it.
+  // Marks the number as one that the piece does not have, with the reason as text; "" removes the mark.
   complain(text) {
     this.number.title = text;
     this.number.setAttribute("aria-invalid", text !== "");
   }
 
-  // Takes no entries, for the reason that is given; takes them again without one.
+  // Disables the slider for the given reason; enables it again without one.
   disable(why) {
     this.range.disabled = this.number.disabled = Boolean(why);
     this.element.classList.toggle("disabled", Boolean(why));
@@ -169,7 +169,7 @@ export class Slider {
   }
 }
 
-// Returns a button that says whether the height is kept while other things change.
+// Returns a button that locks the height: a locked height stays the same while other options change.
 export function lockButton(onclick) {
   const lock = make("button", {
     class: "lock", "aria-label": "Lock the height", "aria-pressed": "true", onclick,

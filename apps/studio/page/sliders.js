@@ -8,17 +8,18 @@ import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 import {Slider, lockButton} from "./slider.js";
 
-// The sliders that shape heights, besides sizes: a lithophane, which is made from light and colours, has none of them.
+// The sliders for the shape of the heights, other than sizes. A lithophane, which is made from light and colours, has
+// none of them.
 const SHAPING = namesOf("shape").filter((name) => FIELDS[name] && optionOf(name).unit !== "MM");
 
-// The width that the plate leaves depends on these.
+// The largest width on the plate depends on these options.
 const PLATE = namesOf("plate");
 
-// Returns the changes of the document that a slider makes: u is to be found anew for another height.
+// Returns the changes of the document for a slider. For another height, u must be found again.
 const partOf = (name, value) => ({options: {[name]: value}, ...(name === "height" ? {u: null} : {})});
 
 export class Sliders {
-  // `frame` returns the numbers of the newest picture, or null; `say` takes a line for people.
+  // `frame` returns the numbers of the newest picture, or null; `say` shows a line to the user.
   constructor({doc, entries, frame, say}) {
     Object.assign(this, {doc, entries, frame, say});
     this.lock = lockButton(() => this.toggleLock());
@@ -41,7 +42,7 @@ export class Sliders {
 
   shownWidth = () => Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
 
-  // Marks the width that a plate of a given size leaves.
+  // Marks the largest width that fits into a plate of a given size.
   showWidth() {
     const most = this.frame()?.most_width_mm ?? null;
     if (!this.entries.isPending("width")) this.all.width.show(this.shownWidth());
@@ -51,26 +52,27 @@ export class Sliders {
   slide(name, value, isTyped = false) {
     if (isTyped && this.entries.pending.length > 0) return this.enter(name, value);
     const most = this.mostWidth() ?? Infinity, {doc} = this;
-    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // as wide as the plate leaves
+    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // null: the largest width that fits
     if (name === "width" && value > most && isTyped)
       this.say(`The plate leaves ${withUnit(most)} for the longer side: the figure is as large as that.`);
     if (name === "width") this.showWidth();
     else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was taken back
   }
 
-  // Returns the width that the plate leaves; null if it has no size, or was changed since the newest picture.
+  // Returns the largest width that fits into the plate; null if the plate has no given size or was changed since the
+  // newest picture.
   mostWidth() {
     const {options: shown, most_width_mm: most} = this.frame() ?? {}, {options} = this.doc.now;
     return most && PLATE.every((name) => shown[name] === options[name]) ? most : null;
   }
 
-  // Takes a number after the entries that are still waiting.
+  // Takes a number after the waiting entries.
   enter(name, value) {
     this.all[name].show(value);
     this.entries.add({name, label: FIELDS[name].label, part: () => partOf(name, value)});
   }
 
-  // Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
+  // Changes the method. A soft rim with the default of the old method gets that of the new one.
   changeMethod(method) {
     const {options} = this.doc.now;
     const isUntouched = options.boundary === defaultOf("boundary", options.method);

@@ -12,13 +12,13 @@ import {TOOLS, takeKey} from "./tools.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
-const REST_MS = 160; // pause without changes after which the fine picture is asked for
-const FINISH_MS = 500; // and after which the finished piece is made
-const MOST_PIXELS = 7.9e6; // a little less than the engine draws: a window on a screen of 5,120 x 2,880 has more
+const REST_MS = 160; // pause without changes before the fine picture
+const FINISH_MS = 500; // and before the finished piece
+const MOST_PIXELS = 7.9e6; // a little less than the engine's limit; a window on a screen of 5,120 x 2,880 has more
 
 export class Stage {
-  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() where the
-  // view of the document is to be prepared again.
+  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
+  // view of the document must be prepared again.
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
@@ -30,7 +30,7 @@ export class Stage {
     // Each state to be seen has a number: the newest, and the last that was shown or refused, drawn, drawn finely, and
     // drawn as export makes the piece.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
-    Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting`: who waits for rest()
+    Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting` has the callbacks of rest()
     this.pause = new Pause(() => this.pump());
     this.measure = new Measure(this);
     this.comparing = new Comparing(this);
@@ -55,19 +55,19 @@ export class Stage {
   invalidate() {
     ++this.wanted;
     this.changedAt = performance.now();
-    this.unwanted?.abort(); // a picture at rest
+    this.unwanted?.abort(); // the request for a picture at rest
     this.showBusy();
     this.pump();
   }
 
-  // Begins another scan, which has no pictures yet: no mark of the one before stays.
+  // Begins another scan, which has no pictures yet, and removes all marks of the former one.
   clear() {
     Object.assign(this, {isReady: false, model: 0, about: null, line: null});
     this.measure.clear();
     this.drawOverlay();
   }
 
-  // Shows that another model is being prepared, and until then a coarse relief of its view.
+  // Shows that another model is being prepared, and meanwhile a coarse relief of its view.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
     this.turning.await(isAwaiting);
@@ -80,7 +80,7 @@ export class Stage {
     if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
   }
 
-  // Waits for the last picture of the document as it is, or until there can be none. Returns whether it is there.
+  // Waits for the last picture of the present document, or until it cannot be drawn. Returns whether it is shown.
   async rest() {
     await new Promise((resolve) => {
       this.resting.push(resolve);
@@ -89,7 +89,7 @@ export class Stage {
     return this.drawn === this.wanted;
   }
 
-  // The one queue of the studio: asks for one picture at a time, always of the newest state.
+  // The studio's only queue of pictures: requests one at a time, always of the newest state.
   async pump() {
     if (this.isBusy || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
@@ -110,12 +110,12 @@ export class Stage {
       else this.adapt(performance.now() - start);
       this.shown = this.drawn = number;
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
-      else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
+      else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: try again after a pause
     } catch (error) {
       const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
       if (!isCancelled) this.shown = this.fine = this.finished = number;
-      if (!isCancelled && isNewest) this.on.failed(error); // the newest state may have no such fault
-      if (isCancelled && isNewest) this.changedAt = performance.now(); // by another page: once more, after a pause
+      if (!isCancelled && isNewest) this.on.failed(error); // ignore errors of older states
+      if (isCancelled && isNewest) this.changedAt = performance.now(); // as above
     }
     this.isBusy = false;
     this.unwanted = null;
@@ -123,7 +123,8 @@ export class Stage {
     this.pump();
   }
 
-  // Returns whether the picture shows the piece as in its file, or nearly so where others would have to wait for it.
+  // Returns whether the picture shows the piece as in its file. A plain piece counts too if making it would delay other
+  // pictures.
   get isLikeFile() {
     return this.about?.is_finished || (this.about?.is_plain && !this.engine.drawsMeanwhile);
   }
@@ -134,25 +135,25 @@ export class Stage {
     return {width: Math.round(width * scale), height: Math.round(height * scale)};
   }
 
-  // Asks for the picture of the newest state. The last picture of a state shows the piece as it will be exported.
+  // Requests the picture of the newest state. The last picture of a state shows the piece as it will be exported.
   ask(isFine, isLast) {
     const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
     const frame = this.isTable ? null : this.frame(request, this.unwanted?.signal);
     return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
   }
 
-  // Returns a picture of the newest state, with the options of the document among its numbers.
+  // Returns a picture of the newest state, with the document's options among its facts.
   async frame(request, signal) {
     const {options} = this.doc.now, {image, about} = await this.engine.frame(request, {signal});
     return {image, about: {...about, options}};
   }
 
-  // While things move, the engine makes the next picture when this one is shown.
+  // While things move, the next picture is requested before this one is shown.
   async drawRelief(isFine, {model, changedAt, number, frame}) {
     const {image, about} = await frame;
-    if (!this.isReady || model !== this.model) return; // another document or view is shown by now
+    if (!this.isReady || model !== this.model) return; // another document or view is shown meanwhile
     if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
-      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // its error is told when it is drawn
+      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // its error is reported when it is drawn
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -160,12 +161,12 @@ export class Stage {
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine);
-    // The tool and the document may have changed meanwhile; the next picture shows that.
+    // The tool and the document may have changed meanwhile. The next picture takes account of that.
     if (this.tool === "section" && this.line && this.about) await this.measure.cut(this.line);
     if (this.tool === "measure") this.measure.pictured();
   }
 
-  // Returns whether the picture needs other answers of the engine before the next one.
+  // Returns whether this picture needs more answers of the engine before the next picture may be requested.
   get waitsForPicture() {
     return this.comparing.isShown || ["section", "measure"].includes(this.tool);
   }
@@ -264,7 +265,7 @@ export class Stage {
   press(event) {
     const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
     if (isOther || this.drag || !this.about) return;
-    this.doc.endStroke(); // changes by keys or the wheel before are another step
+    this.doc.endStroke(); // earlier changes by keys or the wheel are a separate step
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const isDivider = event.button === 0 && this.comparing.isAt(event.offsetX);
@@ -281,7 +282,7 @@ export class Stage {
     if (isStepwise) Object.assign(drag, {x, y});
   }
 
-  // The cursor tells whether a drag would take a line's end or the divider.
+  // The cursor shows whether a drag would move a line's end or the divider.
   hover({offsetX: x, offsetY: y}) {
     const line = {section: this.line, measure: this.measure.line}[this.tool];
     this.element.classList.toggle("at-divider", this.comparing.isAt(x));
@@ -316,7 +317,8 @@ export class Stage {
     this.invalidate();
   }
 
-  // Takes back the changes of the running drag; the rest of it changes nothing. Returns whether there were any.
+  // Takes back the changes of the running drag, and ignores the rest of the drag. Returns whether there were any
+  // changes.
   takeBack() {
     const isEnded = ["turn", "place"].includes(this.drag?.tool);
     if (isEnded) {

@@ -16,9 +16,9 @@ export function showSamples(open) {
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
 
-export const START = "#start"; // at the end of the page's address: it begins with the start page
+export const START = "#start"; // at the end of the page's address: opens the start page first
 
-// The documents that are kept: opens and removes them, and says how much they take.
+// The shelf of kept documents: opens and removes them, and shows how much space they take.
 export class Shelf {
   constructor({engine, opened, keeper, open, failed}) {
     Object.assign(this, {engine, opened, keeper, open, failed});
@@ -51,10 +51,10 @@ export class Shelf {
     return make("li", {}, open, ...(this.engine.canRemove ? [make("button", remove, "×")] : []));
   }
 
-  // The page begins anew without the document that it showed.
+  // Removes a document. If it is the shown one, the page is loaded again without it.
   async remove(document) {
     const {engine, opened, keeper} = this, isShown = document === opened.id;
-    if (isShown) opened.id = ""; // so that nothing keeps it again
+    if (isShown) opened.id = ""; // so that it is not kept again
     try {
       await engine.remove(document);
     } catch (error) {
@@ -68,7 +68,7 @@ export class Shelf {
   }
 }
 
-// Says how much is kept, and for how long.
+// Returns a text that says how much is kept, and for how long.
 function inTotal({documents, bytes}, shown) {
   if (documents === 0) return "";
   const scans = documents === 1 ? "1 scan" : `${documents} scans`;

@@ -1,11 +1,11 @@
 // The tools of the picture, with their functions for drags and arrow keys. A tool has
-//   does                    what a drag does, for the label of the picture
-//   isLevel                 whether the relief is seen from the front with it
-//   isStepwise              whether a drag is taken step by step, from where the pointer was last
+//   does description of a drag, for the label of the picture
+//   isLevel whether the tool shows the relief from the front
+//   isStepwise whether move() gets each step since the last event
 //   press(stage, event)     when a drag begins
-//   move(stage, to)         `to` is {x, y, dx, dy, event}: where the pointer is, and how far it went
+//   move(stage, to) `to` is {x, y, dx, dy, event}: the pointer's place and its movement
 //   release(stage, drag)    when a drag has ended
-//   step(stage, x, y)       by arrow keys, finely with Shift
+//   step(stage, x, y) by arrow keys, in small steps with Shift
 
 import {ARROWS, clamp} from "./controls.js";
 import {angles, degrees, direction} from "./lights.js";
@@ -15,8 +15,8 @@ function setLight(stage, azimuth, elevation) {
   stage.doc.change({light}, "light");
 }
 
-// Over the middle of the picture the light comes from the viewer. The nearer the pointer is to the rim, the lower is
-// the light.
+// Returns the light for a pointer: over the middle of the picture it comes from the viewer, nearer to the rim it is
+// lower.
 function lightFrom(stage, {x, y}) {
   const {width, height} = stage.size, radius = Math.min(width, height) / 2;
   const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
@@ -25,7 +25,7 @@ function lightFrom(stage, {x, y}) {
   stage.drawOverlay();
 }
 
-// With shift the figure is turned, about its middle, when the drag ends: the model is then prepared anew.
+// Moves the figure. With Shift, turns it about its middle when the drag ends, as the model is then prepared again.
 function place(stage, {dx, dy, event}) {
   const {drag, pixelsPerMm} = stage, [x, y] = stage.toPixels(stage.figureMiddle());
   const angleAt = (px, py) => degrees(Math.atan2(y - py, px - x));
@@ -34,7 +34,7 @@ function place(stage, {dx, dy, event}) {
   stage.drawOverlay();
 }
 
-// Calls set(line) with the line that is drawn or dragged by an end.
+// Calls set(line) with the line that the user draws or drags by an end.
 function drawLine(stage, line, {x, y, dx, dy}, set) {
   if (Math.hypot(dx, dy) > 3) set(stage.measure.dragged(line, stage.drag, stage.toPlace(x, y)));
 }
@@ -83,10 +83,10 @@ export const TOOLS = {
     move: (stage, to) => drawLine(stage, stage.measure.line, to, (line) => stage.measure.setLine(line)),
   },
   divider: {move: ({comparing}, {x}) => comparing.drag(x)},
-  none: {}, // of a drag that was taken back
+  none: {}, // for a drag that was taken back
 };
 
-// Takes keys on the relief: arrows are for the tool in hand, and + and - zoom.
+// Handles keys on the relief: arrows apply to the chosen tool, + and - zoom.
 export function takeKey(stage, event) {
   const {width, height} = stage.size, step = ARROWS[event.key], size = event.shiftKey ? 0.2 : 1;
   if (event.key === "+") return stage.zoomBy(1.2, width / 2, height / 2);

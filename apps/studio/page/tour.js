@@ -1,4 +1,4 @@
-// The tour: five steps that explain the parts of the page. None covers the part that it explains.
+// The tour: five steps that explain the parts of the page. No step covers the part that it explains.
 
 import {$, make} from "./controls.js";
 import {offer, toast} from "./messages.js";
@@ -31,19 +31,19 @@ export class Tour {
     addEventListener("resize", () => !this.element.hidden && this.place());
   }
 
-  // Offers itself once in a browser, when the first scan is there. takeBack() ends the offer, because who begins to
-  // work does not want it.
+  // Offers the tour once per browser, when the first scan is open. takeBack() ends the offer when the user begins to
+  // work.
   offer() {
     if (localStorage.getItem("toured")) return;
     localStorage.setItem("toured", "yes");
     this.takeBack = offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
   }
 
-  // Starts whenever a dialog is left by the value "tour".
+  // Starts the tour whenever the dialog closes with the value "tour".
   follow(dialog) {
     dialog.onclose = () => {
       if (dialog.returnValue === "tour") this.start();
-      dialog.returnValue = ""; // which Escape leaves as it is
+      dialog.returnValue = ""; // Escape would leave it unchanged
     };
   }
 
@@ -68,7 +68,7 @@ export class Tour {
     this.next.focus();
   }
 
-  // Beside the part where there is room, else over its lower end.
+  // Places the text beside the explained part if there is room, otherwise over its lower end.
   place() {
     $(STEPS[this.step].at).scrollIntoView({block: "nearest"});
     const part = $(STEPS[this.step].at).getBoundingClientRect(), own = this.element.getBoundingClientRect();

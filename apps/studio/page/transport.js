@@ -1,15 +1,15 @@
-// Takes requests to the program `relievo studio`. This is the only file of the page that knows HTTP.
+// Sends requests to the program `relievo studio`. No other file of the page uses HTTP.
 
 import {CANCELLED, EngineError, cancelled} from "./engine.js";
 
-const ASK = "status?"; // of a new tab to the one that has the stream
+const ASK = "status?"; // message of a new tab to the tab with the stream
 
 async function errorIn(response) {
   try {
     const {error} = await response.json();
     if (error) return new EngineError(error);
   } catch {
-    // not JSON: the status must do
+    // not JSON: the message gives the status only
   }
   return new EngineError({kind: "request", text: `The engine answered ${response.status}.`});
 }
@@ -29,7 +29,7 @@ async function send(path, options) {
 export class Transport {
   traits = {takesSeveral: false, drawsMeanwhile: true, canRemove: true, slowMs: 55};
 
-  // A file is sent as it is; the request has its name. The last request outlives the page.
+  // The body of an upload is the file alone, with the name in the address. The request "leave" outlives the page.
   async call(name, request, {files: [file] = [], signal} = {}) {
     const path = file ? `api/${name}?name=${encodeURIComponent(file.name)}` : `api/${name}`;
     const body = file ?? JSON.stringify(request), keepalive = name === "leave";
@@ -42,15 +42,15 @@ export class Transport {
 
   addressOf = (file) => file;
 
-  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that
-  // has the lock opens the stream and passes on its events; when that tab goes, another has the lock.
+  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab with
+  // the lock opens the stream and passes on its events. When that tab is closed, another gets the lock.
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());
     tabs.onmessage = ({data}) => data !== ASK && take(data);
     tabs.postMessage(ASK);
     navigator.locks.request(location.pathname, () => {
-      const last = new Map(); // by document; by nothing the run
+      const last = new Map(); // statuses by document; the run's name by undefined
       const pass = (status) => {
         if (!status || !status.document) last.clear();
         if (status) last.set(status.document, status);
@@ -59,11 +59,11 @@ export class Transport {
       };
       tabs.onmessage = ({data}) => data === ASK && [...last.values()].forEach((status) => tabs.postMessage(status));
       this.listen(pass);
-      return new Promise(() => {}); // for as long as this page lives
+      return new Promise(() => {}); // keeps the lock until this page is closed
     });
   }
 
-  // A stream that broke off connects again by itself, one that was refused does not.
+  // A broken stream reconnects by itself; a refused one does not.
   listen(pass) {
     const source = new EventSource("api/events");
     source.onmessage = (event) => pass(JSON.parse(event.data));

@@ -4,10 +4,10 @@
 import {SIDES, directionsOf, optionsOf, turnedByHand} from "./directions.js";
 import {cross, dot, upright} from "./vectors.js";
 
-const NEAR = Math.cos(6 * Math.PI / 180); // views this near to a side or to level snap to it
-const HALF_TURN = 0.9; // of the shorter side of the picture, that a drag takes for half a turn
+const NEAR = Math.cos(6 * Math.PI / 180); // views within 6 degrees of a side or of level snap to it
+const HALF_TURN = 0.9; // length of a drag for half a turn, as a share of the picture's shorter side
 
-// Returns the nearest side if the view is near to one, else the same view without its roll if that is small.
+// Returns the side if the view is near to one; otherwise the view, without its roll if that is small.
 function snapped({towards, up}) {
   for (const side of Object.values(SIDES)) {
     if (dot(side.towards, towards) < NEAR) continue;
@@ -33,7 +33,7 @@ export class Turning {
     this.stage.invalidate();
   }
 
-  // Shows a coarse relief of a view as long as that is being prepared.
+  // Shows a coarse relief of the document's view while that view is being prepared.
   await(isAwaiting) {
     if (this.stage.drag?.tool === "turn") return;
     this.shown = isAwaiting ? directionsOf(this.stage.doc.now.options) : null;
@@ -60,7 +60,7 @@ export class Turning {
     this.end();
   }
 
-  // Gives the document the view in which the turning ends. One that it has already may have to be prepared again.
+  // Sets the document's view to the one in which the turning ends. The same view may have to be prepared again.
   end() {
     const {stage} = this, {doc} = stage;
     if (!this.shown) return;

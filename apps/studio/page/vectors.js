@@ -18,6 +18,6 @@ export const upright = (up, towards) => {
   return cross(towards, unit(right));
 };
 
-// Directions as the command line takes them, and back.
+// Convert directions to the command line's text, and back.
 export const text = (a) => a.map((x) => Number(x.toFixed(4))).join(",");
 export const triple = (t) => t.split(",").map(Number);

@@ -22,8 +22,8 @@ export class ViewDialog {
     this.listen();
   }
 
-  // Shows a picture of the document's view beside its name: sides have their names by the file's axes, and the face of
-  // a figure may look downwards in the file.
+  // Shows a picture of the document's view beside its name: the names of sides refer to the file's axes, and a figure
+  // may lie on its back in the file.
   async tell({options, input}, isThere) {
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");
@@ -64,7 +64,7 @@ export class ViewDialog {
 
   turn = (...angles) => this.look(turnedByHand(this.view, ...angles));
 
-  // Draws the model, and again with more pixels when nothing else is drawn for a while.
+  // Draws the model quickly, and with more pixels after a pause.
   async draw() {
     this.rest.end();
     await this.drawQuickly();

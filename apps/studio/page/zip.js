@@ -12,14 +12,14 @@ function checksum(bytes) {
   return ~sum >>> 0;
 }
 
-// Returns numbers of given sizes in bytes, [[number, size], ...], as bytes; the least significant byte comes first.
+// Returns the bytes of numbers, [[number, size in bytes], ...], each with the least significant byte first.
 const packed = (numbers) =>
   Uint8Array.from(numbers.flatMap(([number, size]) => Array.from({length: size}, (_, i) => number / 256 ** i & 255)));
 
 const LOCAL = 0x04034b50, CENTRAL = 0x02014b50, END = 0x06054b50; // the signatures of the format's records
-const VERSION = 20, UTF8 = 1 << 11, FIRST_DAY = 33; // 1 January 1980: the time of a file says nothing here
+const VERSION = 20, UTF8 = 1 << 11, FIRST_DAY = 33; // 1 January 1980: the same date for every file
 
-// Returns an archive of the files. Together they have less than 4 GiB.
+// Returns an archive of the files, which must have less than 4 GiB together.
 export async function zipOf(files, name) {
   const parts = [], directory = [];
   let offset = 0, directorySize = 0;
