@@ -1,4 +1,4 @@
-// The functions that JavaScript can call, by name, with JSON in, and JSON and bytes out.
+// Functions that JavaScript calls by name. They take JSON, and return JSON and bytes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,8 +14,8 @@ struct CallAnswer {
   std::vector<std::byte> bytes = {};
 };
 
-// Calls the function of that name. What it makes and keeps has a number, by which later calls name it. Errors: those of
-// the function; kind option for an unknown name.
+// Calls the function of that name. Objects that it makes and keeps get numbers, by which later calls refer to
+// them. Errors: those of the function; kind option for an unknown name.
 Result<CallAnswer> call(std::string_view name, const nlohmann::json& arguments);
 
 }  // namespace relievo::app::web

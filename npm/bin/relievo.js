@@ -47,7 +47,7 @@ function optionValue(option, text, units) {
   return Number(text);
 }
 
-// A file on disk that the engine reads piece by piece.
+// Returns a file on disk that the engine reads block by block.
 function fileOnDisk(name) {
   const descriptor = fs.openSync(name, "r");
   const status = fs.fstatSync(descriptor);
@@ -57,7 +57,7 @@ function fileOnDisk(name) {
 
 const REFERRING = [".obj", ".gltf", ".json", ".relievo"];
 
-// Lets the engine see the inputs and, where these can name other files, all files of their folders.
+// Gives the engine the inputs and, if these can name other files, all files of their folders.
 function addFiles(engine, inputs) {
   const names = new Map();
   const add = (file) => {

@@ -1,4 +1,4 @@
-// Writes files as wholes.
+// Writes files completely or not at all.
 import fs from "node:fs";
 
 // Writes a file under an unused name beside `name`, and adds that name to `made`.
@@ -19,7 +19,7 @@ function writeBeside(name, bytes, made) {
   }
 }
 
-// Writes all of [name, bytes], or none: first under other names. No file is removed that was not made here.
+// Writes all files, [[name, bytes], ...], or none: first under temporary names. Removes only files that it has made.
 export function writeAll(files) {
   const made = [];
   try {

@@ -1,4 +1,4 @@
-// Files made of arrays: clouds and meshes as PLY, depths as TIFF. The engine reads them as it reads any file.
+// Makes files from arrays: PLY from clouds and meshes, TIFF from depths. The engine reads them like other files.
 
 function expectLength(name, array, length) {
   if (!ArrayBuffer.isView(array) || array.length !== length)
@@ -10,7 +10,7 @@ function typedArray(name, array, Type) {
   throw new TypeError(`${name}: expected an array of numbers`);
 }
 
-// Returns a PLY file of points (x, y, z in a row), and of normals, colours and faces where these are given.
+// Returns a PLY file of points (x, y, z in a row), and of normals, colours and faces if they are given.
 export function cloudFile({ points, normals, colours, faces }) {
   const p = typedArray("points", points, Float64Array), count = Math.floor(p.length / 3);
   expectLength("points", p, 3 * count);

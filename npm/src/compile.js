@@ -1,4 +1,4 @@
-// Modules of WebAssembly from texts.
+// Compiles WebAssembly modules from texts.
 
 async function inflate(base64) {
   const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));

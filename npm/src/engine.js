@@ -1,7 +1,8 @@
-// One instance of the engine: its memory, the files that it sees, and calls with JSON.
+// One instance of the engine, with its memory, the files that it can read, and calls with JSON.
 import { asFile, wasi } from "./files.js";
 
-// An error of the engine: in which input or option, where in it, and what was expected there.
+// An error of the engine. `input` is the input or the option, `place` the place in it, `expected` what was expected
+// there.
 export class RelievoError extends Error {
   constructor({ kind, input = "", place = "", expected = "", message }) {
     super(message ?? expected);
@@ -12,7 +13,7 @@ export class RelievoError extends Error {
 
 const MEMORY = "expected more memory: a program in WebAssembly has at most 4 GiB; fewer points, the option points or a coarser scan need less";
 
-// The memory of an instance is given back when nothing refers to it any more.
+// The memory of an instance is freed when nothing refers to the instance any more.
 export class Engine {
   #exports;
   #files = new Map();
@@ -38,12 +39,12 @@ export class Engine {
     return engine;
   }
 
-  // Lets the engine see a file of that name, whose folders are separated by "/".
+  // Gives the engine a file of that name. "/" separates folders.
   addFile(name, source) {
     this.#files.set(name.replace(/^\.?\/+/, ""), asFile(source));
   }
 
-  // Calls a function of the engine. Returns its answer and its bytes, which are a copy.
+  // Calls a function of the engine. Returns its answer, and a copy of its bytes.
   call(name, options = {}) {
     if (this.#lastFailure) throw this.#lastFailure;
     const request = new TextEncoder().encode(JSON.stringify({ ...options, call: name }));
@@ -66,7 +67,7 @@ export class Engine {
     return new TextDecoder().decode(new Uint8Array(this.#exports.memory.buffer, at, size));
   }
 
-  // After a failure the instance is in no state to go on.
+  // Returns the error for a failure, after which the instance cannot be used any more.
   #failure(reason, cause) {
     const isMemory = reason === "memory" || cause instanceof RangeError;
     this.#lastFailure = new RelievoError({ kind: isMemory ? "memory" : "failure",

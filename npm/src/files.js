@@ -1,11 +1,11 @@
-// The files that the engine sees: names and bytes, which it reads by the functions of WASI.
+// The files that the engine can read by the functions of WASI.
 
 const BAD_FILE = 8, INVALID = 28, FAILED = 29, NOT_THERE = 44, UNKNOWN = 52;
 const REGULAR_FILE = 4, FOLDER = 3, CHARACTER_DEVICE = 2;
 const FIRST_FILE = 4; // after the standard streams and the root
 
-// Returns a file with `size` and read(offset, to), which fills `to` as far as the file goes and returns the number of
-// bytes. Whoever has such an object, as for a file on disk, passes it as it is.
+// Returns a file: an object with `size` and read(offset, to), which fills `to` as far as the file goes and returns the
+// number of bytes. A source that is such an object, as for a file on disk, is returned unchanged.
 export function asFile(source) {
   if (typeof source?.read === "function" && typeof source.size === "number") return source;
   const bytes = asBytes(source);
@@ -26,8 +26,8 @@ export function asBytes(source) {
   throw new TypeError("expected bytes: a Uint8Array or an ArrayBuffer");
 }
 
-// Returns the imports of WASI for files of these names. `memory` returns the engine's memory. `log` gets what the engine
-// writes to its standard streams, which it does only when it ends itself.
+// Returns the imports of WASI for files of these names. `memory` returns the engine's memory. `log` gets the text that
+// the engine writes to its standard streams, which happens only when it aborts.
 export function wasi(files, memory, log) {
   const open = new Map(); // by descriptor: {file, position}
   const view = () => new DataView(memory());
@@ -52,7 +52,7 @@ export function wasi(files, memory, log) {
       try {
         got = entry.file.read(position, bytes(at, size));
       } catch {
-        return FAILED; // as for a file that was changed or removed after it was chosen
+        return FAILED; // the file may have changed or vanished since it was chosen
       }
       position += got;
       sum += got;

@@ -3,7 +3,7 @@ export type { ReliefOptions };
 
 export type Bytes = Uint8Array | ArrayBuffer;
 
-/** A file that is read piece by piece. read() fills `to` as far as the file goes and returns the number of bytes. */
+/** A file that is read in blocks. read() fills `to` as far as the file goes and returns the number of bytes. */
 export interface ReadableFile {
   size: number;
   read(offset: number, to: Uint8Array): number;
@@ -34,7 +34,7 @@ export interface InputOptions {
   name?: string;
   /** The camera of a depth image, as numbers. */
   camera?: string;
-  /** Larger files are read piece by piece where that is possible. Default: 512. */
+  /** Larger files are read in blocks where that is possible. Default: 512. */
   streamAboveMb?: number;
   /** The height map of a base of kind image, PNG or TIFF. */
   baseImage?: Bytes | { name: string; bytes: Bytes };
@@ -43,7 +43,7 @@ export interface InputOptions {
 export interface Watching {
   /** Called at the beginning of each stage; returning false cancels. */
   progress?: (stage: string, fraction: number) => boolean | void;
-  /** Looked at between stages. */
+  /** Checked between stages. */
   signal?: AbortSignal;
 }
 
@@ -120,7 +120,7 @@ export declare class RelievoError extends Error {
   readonly kind: "input" | "option" | "geometry" | "cancelled" | "output" | "memory" | "failure";
   /** The file or the option. */
   readonly input: string;
-  /** Where in the file, such as "line 12". */
+  /** The place in the file, such as "line 12". */
   readonly place: string;
   readonly expected: string;
 }

@@ -1,4 +1,4 @@
-// Relievo in JavaScript: scans in, reliefs out.
+// Relievo in JavaScript: makes reliefs from scans.
 import { RelievoError } from "./engine.js";
 import { filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
 import { newEngine } from "./new_engine.js";
@@ -16,7 +16,7 @@ function call(engine, name, request = {}) {
   }
 }
 
-// Calls with progress, which cancels as soon as the signal is aborted or the callback returns false.
+// Makes a call with progress. Cancels it as soon as the signal is aborted or the callback returns false.
 function watchedCall(engine, name, request, { progress, signal } = {}) {
   signal?.throwIfAborted();
   engine.progress = (stage, fraction) => progress?.(stage, fraction) !== false && !signal?.aborted;
@@ -27,7 +27,7 @@ function watchedCall(engine, name, request, { progress, signal } = {}) {
   }
 }
 
-// Returns an engine that sees the files, and the request to make something of them.
+// Returns an engine with the files of `source`, and the request for the options.
 async function engineWith(source, options = {}) {
   const engine = await newEngine();
   const files = filesOf(source, options.name);
@@ -67,7 +67,7 @@ export class Relief {
     return this.#file("preview", "preview.png", { preview_px: size });
   }
 
-  // Returns a picture of what the tool reaches as the bytes of a PNG.
+  // Returns a picture of the areas that the tool reaches, as the bytes of a PNG.
   toolPicture() {
     return this.#file("tool_picture", "tool.png", {});
   }
@@ -129,7 +129,7 @@ export class Frame {
   }
 }
 
-// A scan that is prepared once, and then shown with any options within milliseconds.
+// A scan that is prepared once. Frames with other options then take milliseconds.
 export class Session {
   #engine;
   #number;
@@ -141,7 +141,7 @@ export class Session {
     this.triangleCount = json.triangles;
   }
 
-  // Prepares a scan. The options of the view, and those of reading, belong here.
+  // Prepares a scan. Options of the view and of reading must be given here.
   static async open(source, options = {}) {
     const { engine, request } = await engineWith(source, options);
     return new Session(engine, watchedCall(engine, "open", request, options).json);

@@ -1,4 +1,4 @@
-// Turns what users pass into files and requests of the engine.
+// Converts the arguments of users to files and requests for the engine.
 import { cloudFile, depthFile } from "./arrays.js";
 import { optionTable } from "./options.js";
 import { RelievoError } from "./engine.js";
@@ -32,7 +32,8 @@ export function filesOf(source, name) {
   return files;
 }
 
-// Files that others refer to are no models themselves: materials, buffers, textures, models of a scene.
+// Returns the files that are models, without files that others refer to: materials, buffers, textures, models of a
+// scene.
 export function modelsOf(files) {
   const names = files.map(([name]) => name);
   const ending = (name) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
@@ -42,7 +43,7 @@ export function modelsOf(files) {
   return names.filter((name) => !beside.has(ending(name)));
 }
 
-// Returns the request for options as users give them. Throws for unknown names.
+// Returns the request for a user's options. Throws for unknown names.
 export function requestOf(options = {}) {
   const request = { options: {} };
   for (const [keyword, value] of Object.entries(options)) {

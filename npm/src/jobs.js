@@ -1,4 +1,5 @@
-// Reliefs in a worker, so that the page goes on meanwhile. Cancelling ends the worker, and the next job starts another.
+// Makes reliefs in a worker, so that the page stays responsive. Cancelling ends the worker; the next job starts
+// another.
 import { RelievoError } from "./engine.js";
 
 export class WorkerJobs {
@@ -13,7 +14,8 @@ export class WorkerJobs {
     this.#start = start;
   }
 
-  // Makes a relief. `results` says what to send back: { solids: ["stl"], heightMap: { size }, preview: { size } }.
+  // Makes a relief. `results` names the results to send back: { solids: ["stl"], heightMap: { size }, preview: { size }
+  // }.
   make(source, { progress, signal, ...options } = {}, results = {}) {
     return this.#send({ job: "make", source, options, results }, progress, signal);
   }
@@ -22,7 +24,7 @@ export class WorkerJobs {
     return this.#send({ job: "sample", name, options });
   }
 
-  // Ends the worker; what it does is lost.
+  // Ends the worker; its unfinished work is lost.
   terminate(reason = new RelievoError({ kind: "cancelled", expected: "cancelled" })) {
     this.#worker?.end();
     this.#worker = null;

@@ -1,9 +1,9 @@
-// Instances of the package's own module.
+// Makes instances of the package's own module.
 import { compile } from "./compile.js";
 import { Engine } from "./engine.js";
 import { compressedModule } from "./module.js";
 
-let module; // compiled, which all instances share
+let module; // the compiled module, which all instances share
 
 export async function newEngine() {
   module ??= compile(compressedModule);

@@ -1,4 +1,4 @@
-// The other side of RelievoWorker: answers messages with calls of the package.
+// Runs in the worker of RelievoWorker: answers messages by calls of the package.
 import { make, sample } from "./index.js";
 
 const errorFields = ({ name, message, kind, input, place, expected }) => ({ name, message, kind, input, place, expected });

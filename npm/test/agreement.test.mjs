@@ -1,4 +1,4 @@
-// Solids in WebAssembly have the same bytes as those of the native program.
+// Tests that solids made by WebAssembly have the same bytes as those of the native program.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";

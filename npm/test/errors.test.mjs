@@ -1,4 +1,4 @@
-// Errors say what is wrong: in which file or option, where, and what was expected.
+// Tests that errors name the file or the option, the place, and what was expected.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { relievo } from "./support.mjs";

@@ -1,4 +1,4 @@
-// The package as npm installs it: in an empty folder, as a module, with a bundler, under tsc --strict, and as a program.
+// Tests the installed package: in an empty folder, as a module, with a bundler, under tsc --strict, and as a program.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import fs from "node:fs";

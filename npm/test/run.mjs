@@ -1,4 +1,4 @@
-// Runs a program in WebAssembly: run.mjs PROGRAM. Its output is passed on; it sees no files.
+// Runs a program in WebAssembly: run.mjs PROGRAM. Its output is passed on; it can read no files.
 import fs from "node:fs";
 import { wasi } from "../src/files.js";
 

@@ -1,4 +1,4 @@
-// The tests share the package as it was built, and the native program to compare it with.
+// Provides the tests with the built package, and with the native program to compare it with.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";

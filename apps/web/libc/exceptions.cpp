@@ -1,5 +1,5 @@
-// C++ exceptions end the program: clang's target has no library that could throw them. The host throws one of its own and
-// has to forget the instance.
+// C++ exceptions end the program, as clang's target has no library that can throw them. The host throws an
+// exception of its own, and must then discard the instance.
 #include <cstddef>
 #include <cstring>
 #include <new>

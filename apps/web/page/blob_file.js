@@ -1,9 +1,9 @@
-// Files of the browser as the engine reads them: piece by piece.
+// Lets the engine read files of the browser block by block.
 
 const PIECE = 4 << 20; // bytes that are read at once
 
-// Returns a file as npm/src/files.js describes, and throws if the browser does not let it be read. Only workers can
-// read without waiting.
+// Returns a file as npm/src/files.js describes it. Throws if the browser cannot read the blob. Only workers can read it
+// synchronously.
 export function fileOf(blob) {
   const reader = new FileReaderSync();
   let start = 0, piece = new Uint8Array();

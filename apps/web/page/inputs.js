@@ -1,4 +1,4 @@
-// Inputs of documents: their names, and the places of their files.
+// Returns the names of documents, and finds the files of their inputs.
 
 const MASK = (1n << 64n) - 1n;
 
@@ -14,7 +14,7 @@ export function documentOf({sample, path}) {
 export const scanOf = ({path = "", hash = ""}) =>
   path.match(/^scans\/([0-9a-f]{16})\//)?.[1] ?? hash.match(/:([0-9a-f]{16})$/)?.[1] ?? "";
 
-// Returns the input that a state of a document is about; null if it is none.
+// Returns the input of a document's state; null for a value that is no such state.
 export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 
 export const BASE_IMAGE = "base-image"; // the option that is the path of the height map of a base
@@ -24,10 +24,10 @@ export const scansOf = (state) => [scanOf(inputOf(state)),
   ...state.steps.map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
 
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
-const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // where another file is the model
+const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // endings of files that accompany a model
 
-// Returns the file to open among those given: the only one, the scene, or the model that the others belong to. For
-// several models, returns a new scene that has them side by side.
+// Returns the file to open: the only one, the scene, or the model to which the others belong. For several models,
+// returns a new scene with the models side by side.
 export function mainOf(files) {
   const scene = files.find((file) => endingOf(file) === "json");
   if (files.length === 1 || scene) return scene ?? files[0];
@@ -37,7 +37,7 @@ export function mainOf(files) {
   return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
 }
 
-// Returns files, [[path, file], ...], with their bytes in place of the browser's objects.
+// Replaces the browser's objects in files, [[path, file], ...], by their bytes.
 export function bytesOf(files) {
   return Promise.all(files.map(async ([path, file]) =>
     [path, file instanceof Blob ? new Uint8Array(await file.arrayBuffer()) : file]));

@@ -2,7 +2,7 @@
 import {EngineError} from "../../studio/page/engine.js";
 import {bytesOf, inputOf, scansOf} from "./inputs.js";
 
-const MOST_RECENT = 24; // documents that are kept, with their scans
+const MOST_RECENT = 24; // kept documents, with their scans
 
 const done = (request) => new Promise((resolve, reject) => {
   request.onsuccess = () => resolve(request.result);
@@ -16,7 +16,7 @@ const ended = (transaction) => new Promise((resolve, reject) => {
 
 const hasNoRoom = (error) => error?.name === "QuotaExceededError";
 
-// Returns what went wrong, in words for users.
+// Returns the reason of an error, in words for users.
 function reason(error) {
   if (hasNoRoom(error)) return "the browser has no room left for this page";
   return `the browser does not allow it (${error?.name ?? error})`;
@@ -25,7 +25,7 @@ function reason(error) {
 export class BrowserStore {
   notice = "";
   #base = null;
-  #memory = {documents: new Map(), scans: new Map()}; // what could not be kept, for as long as the page lives
+  #memory = {documents: new Map(), scans: new Map()}; // data that the browser could not keep; lost with the page
 
   async open() {
     try {
@@ -87,8 +87,8 @@ export class BrowserStore {
 
   touch = (id) => this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
 
-  // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}. Private windows of WebKit keep no blobs, but
-  // their bytes.
+  // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}. Private windows of WebKit cannot keep blobs,
+  // so their bytes are kept there.
   async keepScan(scan) {
     const keep = (kept) => this.#change("scans", scan.digits, () => kept);
     try {

@@ -1,5 +1,5 @@
-// Takes requests to the engine in WebAssembly, which runs in a worker, and to the work that the browser keeps. It takes
-// the place of apps/studio/page/transport.js; engine.js there describes transports.
+// Sends requests to the WebAssembly engine, which runs in a worker, and to the documents that the browser keeps.
+// Replaces apps/studio/page/transport.js; engine.js there describes transports.
 import {compile} from "../../../npm/src/compile.js";
 import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
 import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
@@ -19,22 +19,22 @@ const LIMITS = [
 ];
 
 export class Transport {
-  // 30 frames are to be drawn in a second.
+  // slowMs: the aim is 30 frames per second.
   traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
-  #pictures = null; // of the page, by name
+  #pictures = null; // pictures of the page, by name
   #worker = null;
-  #waiting = new Map(); // by number of the message
+  #waiting = new Map(); // requests by number of the message
   #last = 0;
   #opened = {document: "", input: null}; // the document that was opened last
   #isOpen = new Set(); // documents, in this worker
   #statuses = new Map(); // by document, as last reported
-  #kept = new Map(); // by document, when it was kept last, and by which tab
+  #kept = new Map(); // by document: the time and the tab of its last keeping
   #onStatus = () => {};
   #say = () => {};
   #tabs = null;
-  // The requests that the page answers itself, in place of the program's files and threads.
+  // Requests that the page itself answers, for which the program uses files and threads.
   #own = {
     about: () => this.#about(), document: ({input}) => this.#find(input), open: (request) => this.#open(request),
     upload: (_, files) => this.#upload(files), project: ({name}, [file]) => this.#readProject(name, file),
@@ -66,7 +66,8 @@ export class Transport {
     worker.postMessage({module});
   }
 
-  // Ends the worker: waiting requests get the error, and the next one starts another worker.
+  // Ends the worker. Requests for pieces and files get `error`, other waiting requests `others`. The next request
+  // starts another worker.
   #end(error, others = error) {
     this.#worker?.terminate();
     this.#worker = null;
@@ -76,12 +77,12 @@ export class Transport {
     for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
   }
 
-  // Ends the worker's preparation of a document that is not wanted any more.
+  // Ends the worker if it prepares the document that was opened before.
   #endPreparation() {
     if (this.#worker && this.#status().busy) this.#end(cancelled(), closed());
   }
 
-  // WebKit lets the worker of a page that was opened from disk read no files: the page reads them as a whole then.
+  // In WebKit the worker of a page opened from disk cannot read files. The page then reads them as a whole.
   async #work(call, request, files = []) {
     try {
       return await this.#send(call, request, files);
@@ -100,7 +101,7 @@ export class Transport {
     });
   }
 
-  // A call about a document, which has to be open.
+  // Sends a call for a document, which must be open.
   async #ask(call, request) {
     if (!this.#isOpen.has(request.document)) throw closed();
     return this.#work(call, request, await this.#imageOf(request.options));
@@ -127,13 +128,13 @@ export class Transport {
     waiting?.resolve({about, body: isFile ? new Blob([body], {type}) : body});
   }
 
-  // The memory was not enough, or the engine has a fault: the document cannot be shown, and the page says why.
+  // Ends the engine after it ran out of memory or failed, and reports that the document cannot be shown.
   #failed(error) {
     this.#end(new EngineError(error), closed());
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
-  // Nothing reaches a worker that computes, so it is ended.
+  // Ends the worker, because messages do not reach it while it computes.
   #cancel() {
     this.#end(cancelled(), closed());
     this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});
@@ -193,7 +194,7 @@ export class Transport {
     return {document, input: found, is_there: Boolean(input.sample || scan), kept};
   }
 
-  // The preparation of another document is of no use any more.
+  // Opens a document, and ends the preparation of another one.
   async #open({document: _, input, ...view}) {
     const document = documentOf(input);
     if (!this.#isOpen.has(document)) this.#endPreparation();
@@ -201,7 +202,7 @@ export class Transport {
     this.#statuses.delete(document);
     await this.#work("open", {input, ...view}, await this.#filesOf(input));
     this.#isOpen.add(document);
-    await this.#store.touch(document).catch(() => {}); // the page says what is not kept
+    await this.#store.touch(document).catch(() => {}); // the page reports work that is not kept
     return {document};
   }
 

@@ -1,14 +1,15 @@
-// The worker of the page: the engine in WebAssembly. It takes {id, call, request, files} and answers {id, status, type,
-// about, body}, {id, error} or, when it can go on no longer, {id, error, isOver}; and {statuses} when one has changed.
+// The worker of the page, which runs the engine in WebAssembly. It takes {id, call, request, files} and answers {id,
+// status, type, about, body}, {id, error} or, when it cannot go on, {id, error, isOver}. It also sends {statuses} when
+// a status has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
 
 const BEGINS_WORK = new Set(["open", "view"]);
 
 let engine, timer;
-let isDue = false; // work that was asked for and has not begun
+let isDue = false; // work was requested and has not begun
 
-// Prepares the view that was asked for. Waiting messages are handled first, so that it is the newest view.
+// Prepares the requested view. Waiting messages are handled first, so that it is the newest one.
 function work() {
   isDue = false;
   try {

@@ -1,4 +1,4 @@
-// The studio's store where a browser keeps documents and scans: what it hands over are names.
+// The studio's store if a browser keeps documents and scans.
 #pragma once
 
 #include <map>
@@ -7,8 +7,8 @@
 
 namespace relievo::app::web {
 
-// Names scans by their hash, and keeps their bytes for the page to take. Documents are the page's own affair,
-// see apps/web/page/store.js.
+// Names scans by their hash, and keeps their bytes for the page to take. The page keeps documents itself, see
+// apps/web/page/store.js.
 class BrowserStore final : public studio::Store {
  public:
   std::unique_ptr<studio::DroppedScan> begin_scan(const std::string& name) const override;

@@ -1,5 +1,5 @@
-// The calls of the studio's page: the actions that it sends to the native studio by HTTP, and calls that
-// replace that program's files and threads.
+// The calls of the studio's page: the actions that the page sends to the native studio by HTTP, and calls
+// that replace the files and threads of that program.
 #include "web/calls.h"
 
 #include "common/files.h"

@@ -1,4 +1,5 @@
-// The page in one file, from a scan to an exported solid: in Debian's browsers, opened from disk and from a static server.
+// Tests the page in one file, from a scan to an exported solid, in Debian's browsers, from disk and from a static
+// server.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
@@ -13,9 +14,9 @@ import {missingWebKit, WebKitPage} from "./webkit.mjs";
 const relievo = await import(pathToFileURL(path.join(process.env.PACKAGE ?? "build/web/npm", "src/index.js")));
 const native = process.env.RELIEVO;
 const browsers = {chromium: await findBrowser("chromium"), firefox: await findBrowser("firefox")};
-let scans; // a folder of them
+let scans; // a folder of scans
 
-// Returns a scan of that many rows, each with as many points.
+// Returns a scan of `rows` rows with `rows` points each.
 function waves(rows) {
   const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${rows * rows}\n` +
     "property float x\nproperty float y\nproperty float z\nend_header\n";
@@ -74,7 +75,7 @@ class Studio {
     await this.page.getByText(new RegExp(`height ${mm.toFixed(2)} mm`)).waitFor();
   }
 
-  // Waits for a file that the browser downloads, and returns its place.
+  // Waits for a file that the browser downloads, and returns its path.
   async download(trigger, name) {
     const place = path.join(this.downloads, name), [{bytes}] = await savedFiles(this.found, this.page, 1, trigger);
     fs.writeFileSync(place, bytes);
@@ -102,7 +103,7 @@ async function newStudio(t, name, address) {
   const openPage = async () => {
     const studio = new Studio(found, await context.newPage(), downloads);
     await studio.page.goto(address);
-    await studio.page.locator("#samples button").first().waitFor({state: "attached"}); // the page listens by then
+    await studio.page.locator("#samples button").first().waitFor({state: "attached"}); // then the page is ready
     return studio;
   };
   return {studio: await openPage(), openPage, context};
@@ -133,7 +134,7 @@ for (const [name, {skip}] of Object.entries(browsers))
 
 for (const place of ["from disk", "from a server"])
   test(`WebKit, ${place}: from a scan to a solid`, {skip: missingWebKit()}, async (t) => {
-    const CONTROL_A = "\uE009a\uE000", ENTER = "\uE007"; // as WebDriver writes keys
+    const CONTROL_A = "\uE009a\uE000", ENTER = "\uE007"; // WebDriver's codes of these keys
     const folder = temporaryFolder(t), address = place === "from disk" ? fileAddress : await serve(t);
     const page = await WebKitPage.open(t, address, folder);
     await page.untilThereIs("#samples button");

@@ -1,4 +1,4 @@
-// A static server and files, which the tests of the page need besides the studio's support.mjs.
+// A static server and helpers for files, for the tests of the page.
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
@@ -40,7 +40,8 @@ export async function serve(t) {
   return `http://127.0.0.1:${server.address().port}/relievo.html`;
 }
 
-// Returns the address of a page whose module has 256 MiB of memory at most: its text is no script, so the policy still holds.
+// Returns the address of a page with a module that has at most 256 MiB of memory. The module is not a script, so the
+// page's policy still fits.
 export function pageWithLittleMemory(t) {
   const page = fs.readFileSync(file, "utf8"), [all, before, packed] = page.match(/(<script id="engine"[^>]*>)([^<]*)/);
   const module = zlib.gunzipSync(Buffer.from(packed, "base64"));
@@ -68,7 +69,7 @@ function memorySection(module) {
   throw new Error("the module has no memory of its own");
 }
 
-// Calls a function until it returns something, for at most that long.
+// Calls a function until it returns something, for at most `seconds`.
 export async function eventually(look, seconds = 60) {
   for (const end = Date.now() + seconds * 1000; ;) {
     const found = await look();
@@ -78,7 +79,8 @@ export async function eventually(look, seconds = 60) {
   }
 }
 
-// Returns what admesh says of a solid: {facets, size, repairs}, repairs being how many of its checks found something.
+// Returns admesh's figures of a solid: {facets, size, repairs}. `repairs` is the number of its checks that found a
+// fault.
 export function admesh(solid) {
   const text = execFileSync("admesh", [solid], {encoding: "utf8"});
   const number = (pattern) => Number(text.match(pattern)?.[1] ?? NaN);

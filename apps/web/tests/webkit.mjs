@@ -1,11 +1,12 @@
-// WebKit by WebDriver: Debian's webkit2gtk-driver with its MiniBrowser on a display of Xvfb, as no driver of npm has it.
+// Drives WebKit by WebDriver: Debian's webkit2gtk-driver with its MiniBrowser on a display of Xvfb, as no npm package
+// does.
 import {spawn} from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import {eventually} from "./support.mjs";
 
 const BROWSER = "/usr/lib/x86_64-linux-gnu/webkit2gtk-4.1/MiniBrowser";
-const ELEMENT = "element-6066-11e4-a52e-4f735466cecf"; // as WebDriver names it
+const ELEMENT = "element-6066-11e4-a52e-4f735466cecf"; // WebDriver's key for elements
 
 // Returns why WebKit's test cannot run; false if it can.
 export function missingWebKit() {
@@ -15,7 +16,7 @@ export function missingWebKit() {
 
 // A page in WebKit.
 export class WebKitPage {
-  // Opens an address; what is downloaded goes into the folder.
+  // Opens an address; downloads go into the folder.
   static async open(t, address, folder) {
     const port = 20000 + process.pid % 20000;
     const driver = spawn("xvfb-run", ["-a", "WebKitWebDriver", `--port=${port}`], {
@@ -24,7 +25,7 @@ export class WebKitPage {
     const page = new WebKitPage();
     page.folder = folder;
     t.after(async () => {
-      await page.#command("DELETE", "").catch(() => {}); // without a session when it did not begin
+      await page.#command("DELETE", "").catch(() => {}); // there may be no session
       process.kill(-driver.pid);
     });
     page.address = `http://127.0.0.1:${port}`;
@@ -52,7 +53,7 @@ export class WebKitPage {
     return this.#command("POST", "/execute/sync", {script, args});
   }
 
-  // Types into a field, or gives the places of files to one that takes them.
+  // Types into a field, or gives the paths of files to a file field.
   async type(selector, text) {
     await this.#command("POST", `/element/${await this.#element(selector)}/value`, {text});
   }
