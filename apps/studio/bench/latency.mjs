@@ -1,8 +1,8 @@
 // Measures, in Chromium at 1280 x 800, the milliseconds from an event of the mouse to the picture that shows it, and
 // from the choice of a file to the first relief and to the relief of all points.
-//   node apps/studio/bench/latency.mjs [relievo.html] SCAN... With the page in one file, the engine is the one inside
-//   it. A movement is a drag of 4 seconds with 60 events a second, which waits for no picture. Events that arrive while
-//   a picture is made are shown by the next one.
+//   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
+// With the page in one file, the engine is the one inside it. A movement is a drag of 4 seconds with 60 events a second,
+// which waits for no picture. Events that arrive while a picture is made are shown by the next one.
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {EngineProcess, areKindsDrawn, findBrowser, openPanels, temporaryFolder} from "../tests/support.mjs";

@@ -1,18 +1,18 @@
-// The engine as the page sees it. A transport takes requests to it: transport.js sends them to the program `relievo
+// The engine as the page uses it. A transport takes requests to it: transport.js sends them to the program `relievo
 // studio` by HTTP, and in the page that is a single file, apps/web/page/transport.js replaces it.
 //
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files that it refers to are uploaded together;
 //                                  drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove: whether
 //                                  work is kept until it is removed; slowMs: frames that take longer are drawn with
-//                                  fewer pixels}. The Engine has them, too
-//   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture, with
-//                                  an object about it; the request may be left out
+//                                  fewer pixels}. The Engine has the same traits
+//   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture,
+//                                  with the object `about` about it; the request may be left out
 //   addressOf(file)             -> the address of one of the page's pictures
-//   follow(onStatus, onLost, say)  calls back with each new status of each open document, in all tabs, and once with
-//                                  {run} alone when an engine is found; onLost when it has gone; say with a text for
-//                                  people
-// and throws EngineError with a text for people.
+//   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and once with
+//                                  {run} alone when an engine is found; onLost when the engine is lost; say with a
+//                                  message for the user
+// and throws EngineError with a text for the user.
 
 // `input` names the option or the file of the error; the text begins with that name.
 export class EngineError extends Error {
