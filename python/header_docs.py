@@ -3,12 +3,12 @@
 import re
 import sys
 
-# A block of comment lines before a declaration, at the beginning of a line: of a function or of a class.
+# Matches a block of unindented comment lines before the declaration of a function or a class.
 BLOCK = re.compile(r"((?:^//.*\n)+)^(?:class|struct)?[^\n(;]*?\b(\w+)(?: final)?(?:\(| \{)", re.MULTILINE)
 
 
 def docs(text):
-    """Yields name and comment of each documented declaration of a header."""
+    """Yields the name and the comment of each documented declaration of a header."""
     for match in BLOCK.finditer(text):
         lines = [line[2:].removeprefix(" ") for line in match[1].splitlines()]
         yield match[2], "\n".join(lines).strip()

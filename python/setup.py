@@ -1,7 +1,7 @@
-"""Builds the wheel: its native module comes from CMake, as `cmake --build build/python --target relievo_python_package`
-builds it, and so do the types for checkers.
+"""Builds the wheel. Its native module and its stub file come from CMake, as built by `cmake --build build/python
+--target relievo_python_package`.
 
-RELIEVO_BUILD names a build folder to use, which may have been built already; `../build/python` is made otherwise.
+RELIEVO_BUILD may name a build folder, which may be built already; otherwise `../build/python` is made.
 """
 
 import os

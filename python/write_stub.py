@@ -1,4 +1,5 @@
-"""Writes the types of the package that is on the path, its options included: write_stub.py FILE, while it is built."""
+"""Writes the stub file, with the types of all options, of the package on the path: write_stub.py FILE, during the
+build."""
 
 import inspect
 import re
@@ -6,7 +7,7 @@ import sys
 import typing
 from pathlib import Path
 
-sys.path.pop(0)  # the sources beside this file, which have no native module
+sys.path.pop(0)  # the sources beside this file are left out, as they have no native module
 
 import relievo  # noqa: E402
 
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 
 
 def annotation(value):
-    """Returns the annotation as it stands in the sources."""
+    """Returns the text of an annotation for the stub file."""
     text = value if isinstance(value, str) else inspect.formatannotation(value)
     text = text.replace("typing.", "").replace("NoneType", "None").replace("Path]", "Union[str, os.PathLike[str]]]")
     text = re.sub(r"\bProgress\b", "Optional[Callable[[str, float], object]]", text)

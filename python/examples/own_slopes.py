@@ -1,4 +1,4 @@
-"""Makes a surface from slopes of one's own: a wave that dies away towards its boundary. Usage: own_slopes.py"""
+"""Makes a surface from given slopes: a wave that fades towards the boundary. Usage: own_slopes.py"""
 
 from pathlib import Path
 

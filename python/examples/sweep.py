@@ -1,4 +1,4 @@
-"""Measures how steep a relief becomes with its height, by frames of one session. Usage: sweep.py SCAN"""
+"""Measures how the steepness of a relief grows with its height, in frames of one session. Usage: sweep.py SCAN"""
 
 import sys
 

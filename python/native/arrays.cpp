@@ -11,7 +11,7 @@
 namespace relievo::python {
 namespace {
 
-// The library cannot number more points: see delaunay().
+// The largest number of points for which the library has indices, see delaunay().
 constexpr py::ssize_t most_rows = (py::ssize_t{1} << 29) - 2;
 
 std::string shape_text(const py::array& array) {
@@ -28,7 +28,7 @@ std::string dtype_text(const py::array& array) {
   raise_input(given.name, "shape", cat("expected ", expected, ", found ", shape_text(given.array)));
 }
 
-// Calls f with a function that returns the number at a row and a column, whatever type it has in memory.
+// Calls f with a function that returns the number at a row and a column, for any type of number in memory.
 template <typename F>
 void with_reader(const NamedArray& given, F&& f) {
   const py::array& array = given.array;
@@ -36,7 +36,7 @@ void with_reader(const NamedArray& given, F&& f) {
   const auto* const data = static_cast<const std::byte*>(array.data());
   const auto read_as = [&]<typename T>(T) {
     f([data, strides](py::ssize_t row, py::ssize_t column) {
-      T value;  // its place may be unaligned
+      T value;  // its address may be unaligned
       std::memcpy(&value, data + row * strides.first + column * strides.second, sizeof value);
       return value;
     });
@@ -54,7 +54,7 @@ void with_reader(const NamedArray& given, F&& f) {
   if (kind == 'u' && size == 1) return read_as(std::uint8_t{});
   if (kind != 'f' && kind != 'i' && kind != 'u')
     raise_input(given.name, "dtype", cat("expected numbers, found ", dtype_text(array)));
-  // Half and extended precision, other byte orders: rare enough for a copy.
+  // Half and extended precision and other byte orders are rare, so the array is copied.
   const char* const plain = kind == 'f' ? "float64" : "int64";
   return with_reader({given.name, py::array(array.attr("astype")(plain))}, std::forward<F>(f));
 }
@@ -101,7 +101,7 @@ void check_whole(const NamedArray& given) {
     raise_input(given.name, "dtype", cat("expected whole numbers, found ", dtype_text(given.array)));
 }
 
-// Returns the number of one of `size` points.
+// Returns the value as an index of one of `size` points. Raises if it is out of range.
 Index index_of(const NamedArray& given, py::ssize_t row, std::int64_t value, std::size_t size) {
   if (value < 0 || value >= static_cast<std::int64_t>(size))
     raise_row(given, row, cat("expected numbers of points from 0 to ", size - 1, ", found ", value));

@@ -1,4 +1,4 @@
-// NumPy's arrays as the library's vectors, and its results as arrays.
+// Converts NumPy's arrays to the library's vectors, and the library's results to arrays.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -22,30 +22,32 @@ struct NamedArray {
   py::array array;
 };
 
-// Return the rows of an array of real numbers: whole ones or fractions of any size, in any order in memory. The rows are
-// copied once, straight into the library's memory: other threads may change the array while the library works. Raise
-// relievo.Error for another shape or kind, naming the row of the first number that is not finite.
+// Return the rows of an array of real numbers, of integers or floats of any size, in any memory layout. The
+// rows are copied once, straight into the library's memory, as other threads may change the array while the
+// library works. Raise relievo.Error for another shape or kind, naming the row of the first number that is
+// not finite.
 std::vector<Vec3> points_of(const NamedArray& given);
 std::vector<Vec2> plane_points_of(const NamedArray& given);
 
-// Returns a unit vector for each of `size` rows. Raises as points_of() does, and for rows of zeros.
+// Returns the unit vectors of `size` rows. Raises for the same arrays as points_of(), and for rows of zeros.
 std::vector<Vec3f> normals_of(const NamedArray& given, std::size_t size);
 
-// Returns a colour for each of `size` rows, which have three or, with an opacity that is ignored, four values: 0 to 255
-// as whole numbers of 8 bits, or else fractions of 1.
+// Returns the colours of `size` rows of three values or, with an opacity that is ignored, four. Integers of 8
+// bits are from 0 to 255, floats from 0 to 1.
 std::vector<Colour> colours_of(const NamedArray& given, std::size_t size);
 
-// Returns the numbers of points, each below `size`; triangles as rows of three. Raises for kinds other than whole numbers.
+// Return indices of points, each below `size`; those of triangles come in rows of three. Raise for numbers
+// other than integers.
 std::vector<Triangle> triangles_of(const NamedArray& given, std::size_t size);
 std::vector<Index> indices_of(const NamedArray& given, std::size_t size);
 
 // Returns one number per point. Raises if there are not `size` of them, or if one is not in (0, 1].
 std::vector<float> weights_of(const NamedArray& given, std::size_t size);
 
-// Returns a depth image of the rows of a 2-D array; what is not finite is missing.
+// Returns a depth image of the rows of a 2-D array; numbers that are not finite mean missing depths.
 DepthImage depth_image_of(const NamedArray& given);
 
-// Returns an array that shows the numbers of `owner` without a copy, cannot be written to, and keeps the owner alive.
+// Returns a read-only array of the numbers of `owner`, without a copy. The array keeps the owner alive.
 template <typename Number>
 py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, std::shared_ptr<const void> owner) {
   auto kept = std::make_unique<std::shared_ptr<const void>>(std::move(owner));
@@ -65,7 +67,7 @@ py::array array_of(std::vector<Number> numbers, std::vector<py::ssize_t> shape) 
   return py::array(py::dtype::of<Number>(), std::move(shape), data, base);
 }
 
-// Returns an image of several channels as an array of rows, columns and channels; of one as rows and columns.
+// Returns an image as an array of rows, columns and channels; with one channel, of rows and columns.
 template <typename Number>
 py::array array_of(Image<Number> image) {
   std::vector<py::ssize_t> shape{image.height, image.width};

@@ -16,10 +16,10 @@
 namespace relievo::python {
 namespace {
 
-// The time between two looks for Ctrl-C. People perceive an answer within a tenth of a second as immediate.
+// The time between two checks for Ctrl-C. People perceive a response within a tenth of a second as immediate.
 constexpr std::chrono::milliseconds signal_interval(50);
 
-// The number of watched calls that the thread waits for: more than one if a callback makes another.
+// The number of watched calls for which this thread waits: more than one if a callback makes another.
 thread_local int calls_of_this_thread = 0;
 
 struct Event {
@@ -42,7 +42,7 @@ class Messages {
     changed_.notify_all();
   }
 
-  // Waits for messages, but not longer than a signal may wait. Returns false once all is said.
+  // Waits for messages, but at most signal_interval. Returns false after the last message.
   bool wait(std::vector<Event>& events) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, signal_interval, [&] { return has_ended_ || !events_.empty(); });
@@ -58,7 +58,7 @@ class Messages {
   bool has_ended_ = false;
 };
 
-// Looks for signals and calls the callback for each event.
+// Handles pending signals, and calls the callback for each event.
 void report(const py::object& callback, const std::vector<Event>& events) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   if (callback.is_none()) return;
@@ -70,11 +70,11 @@ struct CountedCall {
   ~CountedCall() { --calls_of_this_thread; }
 };
 
-// Starts and ends the library's threads. They do not survive a fork, which is made while there are none.
+// Ends the library's threads before a fork, which they would not survive, and starts them again afterwards.
 class Fork {
  public:
-  // Waits until the library does not work. From within a callback that would be forever: the new process may then
-  // use this module only after exec().
+  // Waits until no call of the library is running. A fork within a callback would wait for ever, so it does
+  // not wait; its new process may use this module only after exec().
   void begin() {
     is_prepared_ = calls_of_this_thread == 0;
     if (!is_prepared_) return;
@@ -90,7 +90,7 @@ class Fork {
     working().unlock();
   }
 
-  // The lock belongs to a thread of the parent. It is made anew, as no other thread exists here.
+  // A thread of the parent has the lock, so the child makes a new one. No other thread exists here.
   void end_in_child() {
     if (!std::exchange(is_prepared_, false)) return;
     std::construct_at(&working());

@@ -1,4 +1,4 @@
-// Calls of the library: without Python's lock, so that other threads go on meanwhile.
+// Calls the library without Python's lock (GIL), so that other threads go on meanwhile.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,10 +13,10 @@
 
 namespace relievo::python {
 
-// Locked shared while the library works, and alone while its threads are started or ended.
+// Has a shared lock while the library works, and an exclusive one while its threads are ended or started.
 std::shared_mutex& working();
 
-// Calls f without Python's lock. For short work.
+// Calls f without Python's lock. Only for short work, as signals are not handled meanwhile.
 template <typename F>
 auto unlocked(F&& f) {
   const py::gil_scoped_release release;
@@ -24,12 +24,12 @@ auto unlocked(F&& f) {
   return f();
 }
 
-// Calls `work` on a thread of its own and waits for its end. Meanwhile the calling thread calls `callback`, if it is not
-// None, with the name of each stage and the fraction done, and looks for signals: an exception of either cancels the
-// work and is raised when it has ended.
+// Calls `work` on a thread of its own and waits for its end. Meanwhile the calling thread calls `callback`,
+// if it is not None, with the name of each stage and the fraction done, and handles signals. An exception of
+// either cancels the work, and is raised when the work has ended.
 void watched(const py::object& callback, const std::function<void(Progress&)>& work);
 
-// Returns the value of what `work` returns, or raises its error.
+// Returns the value of the result of `work`, or raises its error.
 template <typename F>
 auto watched_value(const py::object& callback, F&& work) {
   std::optional<std::invoke_result_t<F, Progress&>> result;

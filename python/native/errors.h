@@ -13,18 +13,19 @@ namespace relievo::python {
 
 namespace py = pybind11;
 
-// Convert paths and texts about them: bytes that are not UTF-8 become surrogates in Python, as in its os
-// module.
+// Convert paths, and texts that contain paths. Bytes that are not UTF-8 become surrogates in Python, as in
+// its os module.
 std::string path_of(py::handle path);
 py::str text_of(std::string_view text);
 
-// Raises relievo.Error, or OutOfMemory for the kind memory. Where the error names an option, the exception names its keyword.
+// Raises relievo.Error, or OutOfMemory for the kind memory. If the error names an option, the exception names
+// its keyword.
 [[noreturn]] void raise(const Error& error);
 
-// Raises relievo.Error of kind input: about an array called `name`, at that place in it.
+// Raises relievo.Error of kind input for the array called `name`, at that place in it.
 [[noreturn]] void raise_input(std::string name, std::string place, std::string expected);
 
-// Makes memory that runs out an error of the library wherever Python calls it.
+// Makes all calls from Python raise OutOfMemory for std::bad_alloc, and keeps memory in reserve for that.
 void add_errors();
 
 // Returns the value of a result, or raises its error.

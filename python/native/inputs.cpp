@@ -19,24 +19,24 @@
 namespace relievo::python {
 namespace {
 
-// The content of a file, called `name`; Python's object, which does not change, keeps the bytes.
+// The content of a file called `name`. Python's object, which is immutable, owns the bytes.
 struct FileBytes {
   py::bytes object;
   std::string name;
   std::span<const std::byte> bytes;
 };
 
-// A model from arrays: of points and triangles, or of depths.
+// A model from arrays of points and triangles, or from a depth image.
 struct ArrayModel {
   std::string name;
   std::shared_ptr<const CloudFile> file;  // null for depths
   std::shared_ptr<const DepthImage> depths;
 };
 
-// One model, or a scene or a project by its path.
+// One model, or the path of a model, a scene or a project.
 using Source = std::variant<std::string, FileBytes, ArrayModel>;
 
-// Returns the model of points, with normals, colours and triangles where these are not None.
+// Returns the model of points, with normals, colours and triangles if they are not None.
 ArrayModel array_model(const py::array& points, const std::optional<py::array>& normals,
                        const std::optional<py::array>& colours, const std::optional<py::array>& faces) {
   auto file = std::make_shared<CloudFile>();
@@ -136,7 +136,7 @@ std::vector<Source> sources_of(const py::list& list) {
 }  // namespace
 
 void take_sources(const py::list& list, app::MakeOrder& order) {
-  // Shared, as copies would count Python's references from a thread that may not.
+  // Shared, because copies would change Python's reference counts in a thread without Python's lock.
   const auto sources = std::make_shared<const std::vector<Source>>(sources_of(list));
   std::vector<std::string> names;
   for (const Source& source : *sources) {

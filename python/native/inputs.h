@@ -1,4 +1,4 @@
-// Reads what Python makes a relief of: paths, bytes of files, arrays.
+// Reads the inputs of a relief from Python: paths, bytes of files, arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -7,8 +7,8 @@
 
 namespace relievo::python {
 
-// Gives the order the inputs of a list: paths, (bytes, name) tuples and models from arrays. The last copy of the order
-// must be destroyed by a thread that holds Python's lock.
+// Sets the order's inputs from a list: paths, (bytes, name) tuples and models from arrays. A thread with
+// Python's lock must destroy the last copy of the order.
 void take_sources(const pybind11::list& list, app::MakeOrder& order);
 
 void add_inputs(pybind11::module_& module);

@@ -1,4 +1,4 @@
-// Options as Python's keywords.
+// Converts Python's keywords to options.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -19,8 +19,8 @@ std::string keyword_of(std::string_view name);
 // type.
 OptionValues values_of(const pybind11::dict& given);
 
-// Returns how a depth image is read, and from which size files are read piece by piece. Raises as values_of() does, and
-// relievo.Error.
+// Returns the options for reading depth images, and the size above which files are read in blocks. Raises the
+// same errors as values_of(), and relievo.Error.
 app::InputArguments input_arguments(const pybind11::dict& given);
 
 void add_options(pybind11::module_& module);

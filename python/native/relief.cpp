@@ -122,7 +122,7 @@ py::object colours(const SharedRelief& relief) {
   return view_of(solid.colours.data()->data(), {std::ssize(solid.colours), 3}, relief);
 }
 
-// Returns the path of the scan of a project; empty if it is not given.
+// Returns the path given for the scan of a project; empty if there is none.
 std::string scan_path_of(const py::dict& keywords) {
   const py::object scan = keywords.attr("get")("scan");
   if (scan.is_none()) return {};

@@ -9,8 +9,8 @@
 
 namespace relievo::python {
 
-// Reads the arguments: what to make a relief of, and a dict of keywords. Raises TypeError or relievo.Error for those of a
-// wrong type.
+// Reads the arguments: the inputs of a relief, and a dict of keywords. Raises TypeError or relievo.Error for
+// values of a wrong type.
 app::MakeOrder order_of(const pybind11::list& sources, const pybind11::dict& keywords);
 
 using SharedRelief = std::shared_ptr<app::FinishedRelief>;

@@ -98,7 +98,7 @@ py::array triangulate(const py::array& points) {
   return triangle_array(value_or_raise(unlocked([&] { return triangulated(at); })).triangles);
 }
 
-// Equation (9) over points of the plane.
+// The system of equation (9) over points of the plane.
 struct PlaneSystem {
   Triangulation triangulation;
   Boundary boundary;
@@ -129,8 +129,8 @@ SharedSystem height_system(const py::array& points, std::optional<double> rho, c
   return value_or_raise(unlocked([&] { return build_system(at, rho, weight); }));
 }
 
-// Returns the slopes without a copy if their layout is the library's. It only reads numbers from them, so
-// other threads may write there meanwhile.
+// Returns the slopes without a copy if their layout is the library's. The library only reads their numbers,
+// so other threads may write there meanwhile.
 std::optional<std::span<const Vec2>> slopes_in_place(const py::array& slopes) {
   const bool is_plain = slopes.dtype().is(py::dtype::of<double>()) && slopes.ndim() == 2 &&
                         slopes.shape(1) == 2 && (slopes.flags() & py::array::c_style) != 0;

@@ -1,4 +1,4 @@
-"""The exception of everything that the library refuses."""
+"""The exceptions of the library."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from __future__ import annotations
 class Error(Exception):
     """An input, an option or a file that the library cannot use.
 
-    kind is "input", "option", "geometry", "output", "cancelled" or "memory"; input is the name of the file, the array or the
-    keyword; place is where in it, as "line 12" or "row 7", or empty; expected says what was expected there, and what was
-    found instead.
+    kind is "input", "option", "geometry", "output", "cancelled" or "memory"; input is the name of the file, the array
+    or the keyword; place is the place in it, such as "line 12" or "row 7", or empty; expected says what was expected
+    there, and what was found instead.
     """
 
     kind: str
@@ -25,12 +25,12 @@ class Error(Exception):
         self.expected = expected
 
     def __reduce__(self) -> tuple[type[Error], tuple[str, str, str, str]]:
-        """Errors travel between processes."""
+        """Lets pickle send errors to other processes."""
         return type(self), (self.kind, self.input, self.place, self.expected)
 
 
 class OutOfMemory(Error, MemoryError):
-    """The error of kind "memory": there is too little of it for so many points or so fine a resolution.
+    """The error of kind "memory": the memory is too small for this number of points or this resolution.
 
-    What was made before is still there and can be used.
+    Objects that were made before stay valid.
     """

@@ -13,7 +13,7 @@ from ._errors import Error
 
 
 def sources_of(source: Any, normals: Any, colours: Any, faces: Any) -> list[Any]:
-    """Returns what the native module takes: texts, (bytes, name) tuples and models."""
+    """Returns the inputs for the native module: texts, (bytes, name) tuples and models."""
     extras = (normals, colours, faces)
     if isinstance(source, (list, tuple)) and not _is_rows(source):
         if any(extra is not None for extra in extras):
@@ -25,7 +25,7 @@ def sources_of(source: Any, normals: Any, colours: Any, faces: Any) -> list[Any]
 
 
 def _is_rows(source: Sequence[Any]) -> bool:
-    """Returns whether a sequence is rows of numbers, which are points, rather than a list of inputs."""
+    """Returns whether a sequence has rows of numbers, which are points, and is not a list of inputs."""
     return len(source) > 0 and all(
         isinstance(row, (list, tuple)) and row and all(isinstance(x, (int, float)) for x in row) for row in source
     )
@@ -58,7 +58,7 @@ def _array(source: Any, normals: Any, colours: Any, faces: Any) -> Any:
 
 
 def numbers(name: str, given: Any) -> Any:
-    """Returns the array, with NaN where it is masked; None for None."""
+    """Returns the array, with NaN for masked values; None for None."""
     if given is None:
         return None
     if isinstance(given, np.ma.MaskedArray):
@@ -92,12 +92,12 @@ def _array_model(points: Any, normals: Any, colours: Any, faces: Any) -> Any:
 
 
 def _first(source: Any, *names: str) -> Any:
-    """Returns the first attribute that is there and not empty."""
+    """Returns the first attribute of these names that exists and is not empty."""
     for name in names:
         value = getattr(source, name, None)
         if value is not None and not callable(value) and len(value) > 0:
             return value
-    # An empty cloud is an error that the check of its points explains.
+    # An empty attribute is returned, too, as the check of points has an error message for it.
     return next((getattr(source, n) for n in names if n in ("points", "vertices") and hasattr(source, n)), None)
 
 

@@ -1,4 +1,4 @@
 from typing import Any
 
-# The native module is for the sources of this package alone.
+# Only the sources of this package use the native module.
 def __getattr__(name: str) -> Any: ...

@@ -1,4 +1,4 @@
-"""Keywords from the library's table of options, which the command line has, too."""
+"""Keywords from the library's table of options, which is also that of the command line."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TABLE: list[dict[str, Any]] = _native.option_table()
 
 
 def of_stage(*stages: str) -> list[str]:
-    """Returns the keywords of the options whose change costs the work of one of those stages."""
+    """Returns the keywords of the options that belong to those stages."""
     return [row["keyword"] for row in TABLE if row["stage"] in stages]
 
 
@@ -42,7 +42,7 @@ _EXTRA_HELP = {
 
 
 def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
-    """Raises TypeError for a keyword that is not known, naming the nearest that is."""
+    """Raises TypeError for an unknown keyword, and names the nearest known one."""
     for name in given:
         if name in known:
             continue
@@ -54,7 +54,7 @@ def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
 
 
 def texts(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Returns the options with paths, numbers and sequences as the texts that the table wants: X,Y,Z and X,Y;X,Y."""
+    """Returns the options with paths, numbers and sequences as texts in the table's format: X,Y,Z and X,Y;X,Y."""
     made = dict(options)
     for name, value in options.items():
         if isinstance(value, os.PathLike):
@@ -67,7 +67,7 @@ def texts(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def text_of(value: Any) -> Any:
-    """Returns numbers as a text: those of a row with commas, rows with semicolons; anything else as it is."""
+    """Returns numbers as text, a row with commas, several rows with semicolons; returns other values unchanged."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -111,7 +111,7 @@ def _help(known: Sequence[str]) -> str:
 
 
 def with_keywords(known: Sequence[str]) -> Callable[[Function], Function]:
-    """Gives a function that takes **options the signature and the docstring that name each of them."""
+    """Gives a function that takes **options a signature and a docstring that name each option."""
 
     def decorate(function: Function) -> Function:
         signature = inspect.signature(function)

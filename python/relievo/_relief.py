@@ -47,12 +47,12 @@ class Relief:
 
     @property
     def report(self) -> dict[str, Any]:
-        """What was made and how: the dict of the file that `relievo make --report` writes."""
+        """The report on the relief: the dict of the file that `relievo make --report` writes."""
         return self._native.report()
 
     @property
     def remarks(self) -> list[str]:
-        """What a user should know of the scan and the relief, a line for each."""
+        """Remarks for the user on the scan and the relief, one line each."""
         return self._native.remarks()
 
     def height_map(self, size: int = 1024) -> NDArray[np.float32]:

@@ -1,4 +1,4 @@
-"""Sweeps: one scan, prepared once, and as many reliefs of it as wanted."""
+"""Prepares a scan once, for many reliefs of it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ._relief import Progress, Relief
 
 
 class Frame:
-    """One relief of a session, as heights of its points: made in milliseconds, in single precision."""
+    """One relief of a session, as heights of the session's points in single precision, made in milliseconds."""
 
     def __init__(self, native: Any) -> None:
         self._native = native
@@ -34,7 +34,7 @@ class Frame:
 
     @property
     def is_height_met(self) -> bool:
-        """False if a height was asked for that is out of reach: then the relief is as high as can be."""
+        """False if the requested height cannot be reached: the relief then has the largest possible height."""
         return self._native.is_height_met()
 
     @property
@@ -44,7 +44,7 @@ class Frame:
 
     @property
     def mm_per_unit(self) -> float:
-        """Millimetres per unit of the session's points, at the width asked for."""
+        """Millimetres per unit of the session's points, at the requested width."""
         return self._native.mm_per_unit()
 
 
@@ -66,7 +66,8 @@ class Session:
         progress: Progress = None,
         **options: Any,
     ) -> None:
-        """Prepares the scan, whose forms are those of make(). The options are the defaults of frame() and make()."""
+        """Prepares the scan, which may have any form that make() takes. The options are the defaults of frame() and
+        make()."""
         _options.check("Session", options, _options.OF_MAKE)
         sources = _inputs.sources_of(source, normals, colours, faces)
         self._options = _options.texts(options)

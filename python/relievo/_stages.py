@@ -18,7 +18,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def _documented(name: str) -> Callable[[Function], Function]:
-    """Puts the comment of the library's header before the docstring, which says what is different in Python."""
+    """Puts the comment of the library's header before the docstring, which describes the differences in Python."""
 
     def decorate(function: Function) -> Function:
         function.__doc__ = f"{_native.header_docs[name]}\n\nIn Python: {function.__doc__}"

@@ -5,13 +5,13 @@
 
 or, on a command line, `python3 -m relievo.batch scans -o reliefs --scheduler tcp://head:8786 --height 4`. Without a
 scheduler it starts workers on this machine. All machines need the program `relievo` and the same file system. The
-program lists the scans, does each of them and writes the pages (`relievo batch --list`, `--job` and `--pages`), so the
-results are those of `relievo batch`, and either can go on with what the other began. Dask hands the scans out, does
-those of a worker that dies again elsewhere, and shows the run in its dashboard.
+program lists the scans, makes each relief and writes the pages (`relievo batch --list`, `--job` and `--pages`), so the
+results are those of `relievo batch`, and either can continue a run of the other. Dask distributes the scans, repeats
+those of a worker that dies on another worker, and shows the run in its dashboard.
 """
 
-# Dask's functions have no types, and it need not be installed where types are checked.
-# mypy: disable-error-code="no-untyped-call, import"
+# Dask's functions have no types, and type checks must also work without Dask. mypy:
+# disable-error-code="no-untyped-call, import"
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ import uuid
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-Record = dict[str, typing.Any]  # of one scan, as scans.jsonl has it
+Record = dict[str, typing.Any]  # the record of one scan, as in scans.jsonl
 Watch = typing.Callable[[Record, int, int], None]
 
-# A scan is tried this often in all if the system ended its program, or a disk was full.
+# The largest number of tries of a scan, if the system ended its program or a disk was full.
 TRIES = 3
 # Dask gets up to this many scans as one task, because each task, and each start of the program, costs several
 # milliseconds.
 MOST_IN_TASK = 8
 # The name under which a worker states its memory in megabytes: dask worker --resources "relievo_mb=16000".
 RESOURCE = "relievo_mb"
-# By default Dask looks at its workers fifty to a hundred times a second, which takes several percent of the processors.
+# By default Dask checks its workers 50 to 100 times per second, which takes several percent of the processors.
 QUIET = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "500ms"}
 
 
@@ -69,11 +69,11 @@ def run(
 ) -> Run:
     """Makes reliefs of all scans of a folder or a table (CSV), and returns the outcome as a `Run`.
 
-    `scheduler` is the address of a Dask scheduler, or a `distributed.Client`; without it `workers` processes are started
-    here, by default one per processor. Options are those of `relievo batch` with underscores: `height=4`,
-    `base_image="wave.png"`, `files="stl,report"`; `flags` are further ones as they are typed. `watch(record, done,
-    count)` is called after each scan. Scans that were made before from the same contents and options are kept. A scan
-    that fails does not end the run. Raises ValueError with the program's message if options are wrong or there is no scan.
+    `scheduler` is the address of a Dask scheduler, or a `distributed.Client`; without it `workers` processes are
+    started here, by default one per processor. Options are those of `relievo batch` with underscores: `height=4`,
+    `base_image="wave.png"`, `files="stl,report"`; `flags` are further flags as typed. `watch(record, done, count)` is
+    called after each scan. Scans that were made before from the same contents and options are kept. A scan that fails
+    does not end the run. Raises ValueError with the program's message if options are wrong or there is no scan.
     """
     program = shutil.which(program) or program
     output = os.path.abspath(output)
@@ -81,7 +81,7 @@ def run(
     lines = _call([program, "batch", source, "-o", output, "--list", *flags]).splitlines()
     with _client(scheduler, workers) as client:
         records = list(_work(client, program, ["-o", output, *_output_flags(flags)], lines, watch))
-    # Its exit code is 1 if a scan failed, as the records say, too.
+    # The exit code, which is 1 if a scan failed, is ignored, as the records have the failures.
     subprocess.run([program, "batch", source, "-o", output, "--pages", "--quiet", *flags], stderr=subprocess.DEVNULL,
                    check=False)
     return Run(records, os.path.join(output, "index.html"))
@@ -95,7 +95,7 @@ def _call(command: list[str]) -> str:
 
 
 def _output_flags(flags: typing.Sequence[str]) -> list[str]:
-    """Returns the flags that decide what is made of a scan; its options are in the line that lists it."""
+    """Returns the flags that choose the kinds of output files; the options of a scan are in the line that lists it."""
     kept = []
     for flag, value in zip(flags, [*flags[1:], ""]):
         if flag.startswith("--files="):
@@ -107,12 +107,12 @@ def _output_flags(flags: typing.Sequence[str]) -> list[str]:
 
 @contextmanager
 def _client(scheduler: typing.Any, workers: int | None) -> typing.Iterator[typing.Any]:
-    """Yields a client of Dask; of the caller's own, nothing is closed."""
+    """Yields a client of Dask, and closes it afterwards, unless it is the caller's."""
     import cloudpickle
     import dask
     from distributed import Client, LocalCluster
 
-    # Workers on other machines need the program alone, not this module.
+    # Workers on other machines need only the program, not this module.
     cloudpickle.register_pickle_by_value(sys.modules[__name__])
     if isinstance(scheduler, Client):
         yield scheduler
@@ -144,10 +144,11 @@ def _available_mb() -> float:
 def _work(
     client: typing.Any, program: str, flags: list[str], lines: list[str], watch: Watch | None
 ) -> typing.Iterator[Record]:
-    """Has all lines done, and yields their records as they come."""
+    """Runs the jobs of all lines, and yields their records as they arrive."""
     from distributed import as_completed
 
-    # Where workers state their memory, no more runs on one than fits. A scan that is too large for all runs alone.
+    # If all workers state their memory, a worker only gets jobs that fit into it together. A scan that is too large for
+    # every worker runs alone.
     workers = client.scheduler_info()["workers"].values()
     stated = [worker.get("resources", {}).get(RESOURCE) for worker in workers]
     most_mb = min(stated) if stated and all(stated) else None
@@ -168,7 +169,7 @@ def _work(
             job = json.loads(line)
             record = records.get(job["name"])
             tries[line] += 1
-            # The scan is then tried alone: if it ends its worker, it takes no other scan with it.
+            # The scan is then tried in a task of its own, so that it affects no other scan if it ends its worker.
             if tries[line] < TRIES and (record is None or (record.get("may_succeed") and record["hash"])):
                 again = submit([line])
                 tasks[again] = [line]
@@ -183,7 +184,7 @@ def _work(
 
 
 def _tasks(lines: list[str], threads: int) -> typing.Iterator[list[str]]:
-    """Divides lines into tasks, which become smaller so that all workers end at about the same time."""
+    """Divides lines into tasks that become smaller, so that all workers end at about the same time."""
     start = 0
     while start < len(lines):
         size = max(1, min(MOST_IN_TASK, (len(lines) - start) // (4 * max(1, threads))))
@@ -192,7 +193,7 @@ def _tasks(lines: list[str], threads: int) -> typing.Iterator[list[str]]:
 
 
 def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
-    """Does the scans of those lines in turn, on a worker, and returns the records of those that the program has reached."""
+    """Runs on a worker: does the jobs of those lines in turn, and returns the records of the jobs that were reached."""
     jobs = [word for line in lines for word in ("--job", line)]
     ended = subprocess.run([program, "batch", *flags, *jobs], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                            check=False)
@@ -202,7 +203,7 @@ def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
 
 
 def _outcome(future: typing.Any) -> tuple[dict[str, Record], str]:
-    """Returns the records of a task by the names of their scans, and why others of it have none."""
+    """Returns the records of a task by name of the scan, and the reason why other scans of the task have none."""
     error = future.exception()
     if error is not None:
         return {}, f"{type(error).__name__}: {error}"
