@@ -1,4 +1,4 @@
-// The solver on Laplacians of Delaunay graphs of random points, by number of points.
+// Times the solver on Laplacians of Delaunay graphs of random points, by number of points.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct System {
   Eigen::VectorXd b;
 };
 
-// Points in a disc with two holes, the same on every platform.
+// Returns random points in a disc with two holes, the same on every platform.
 std::vector<Vec2> scattered(std::size_t n) {
   std::vector<Vec2> points;
   std::uint64_t state = 1;
@@ -41,7 +41,8 @@ double half_cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
   return .5 * u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
 }
 
-// Cotangent weights within the limits of HeightSystem; points of the hull are tied to the ground.
+// Returns a system with cotangent weights, clamped like those of HeightSystem, and with points of the hull
+// tied to 0.
 System make_system(std::size_t n) {
   System system;
   system.positions = scattered(n);

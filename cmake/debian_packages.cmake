@@ -1,5 +1,5 @@
 # Debian packages by CPack: relievo (the program), librelievo0.1 (the shared library), librelievo-dev (headers, static
-# library, CMake and pkg-config files) and, where Python's module is built, python3-relievo.
+# library, CMake and pkg-config files) and, if Python's module is built, python3-relievo.
 # `cpack --config build/release/CPackConfig.cmake -B FOLDER` makes them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME relievo)
@@ -51,7 +51,7 @@ package C++ programs are built that call it, by CMake or pkg-config.")
 
 if(TARGET relievo_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  # The module fits one version of Python 3 alone.
+  # The module fits only one version of Python 3.
   get_target_property(suffix relievo_python SUFFIX)
   string(REGEX MATCH "cpython-3([0-9]+)" suffix ${suffix})
   math(EXPR next "${CMAKE_MATCH_1} + 1")

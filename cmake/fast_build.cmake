@@ -1,15 +1,16 @@
-# A newcomer waits for the compiler more than for anything else. Headers that most sources need are precompiled, and the
-# sources of a folder are compiled a few at a time, as one (CMake's unity build). Without RELIEVO_UNITY each source is
-# compiled by itself: that is quicker after a small change, and shows every warning.
+# Makes full builds faster: headers that most sources need are precompiled, and the sources of a folder are compiled
+# several at a time, as one (CMake's unity build). Without RELIEVO_UNITY each source is compiled by itself. That is
+# faster after a small change, and shows every warning.
 option(RELIEVO_UNITY "Compile the sources of a folder together" ON)
 
-# False alarms of g++ 12, which sees through <string> where that is precompiled; programs and tests are built with these.
+# Turns off warnings of g++ 12 that are false alarms in code with a precompiled <string>. Programs and tests use these
+# flags.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
 # relievo_precompile(TARGET HEADER...) precompiles cmake/precompiled.h and the given headers for the target;
-# relievo_precompile(TARGET REUSE_FROM OTHER) takes what was precompiled for another target with the same options.
+# relievo_precompile(TARGET REUSE_FROM OTHER) uses the precompiled headers of another target with the same options.
 function(relievo_precompile target)
   if(ARGV1 STREQUAL REUSE_FROM)
     target_precompile_headers(${target} REUSE_FROM ${ARGV2})
@@ -24,7 +25,7 @@ function(relievo_unite target size)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # These two warnings mistake names in the anonymous namespaces of two sources for one; builds without unity have them.
+  # These two warnings confuse names in the anonymous namespaces of two sources. Builds without unity have them on.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(group 0)
@@ -43,7 +44,7 @@ function(relievo_unite target size)
   endforeach()
 endfunction()
 
-# What the library and the programs are built with. The arguments after the target are those of relievo_precompile().
+# Applies both to a target. The arguments after the target are those of relievo_precompile().
 function(relievo_fast_build target)
   relievo_precompile(${target} ${ARGN})
   relievo_unite(${target} 8)

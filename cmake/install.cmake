@@ -1,7 +1,8 @@
-# Installs the library with its headers, and the program. Everything finds its parts by paths relative to its own place,
-# so an installed tree may be moved.
+# Installs the library with its headers, and the program. All installed files find each other by relative paths, so an
+# installed tree may be moved.
 
-# As Meson does, libraries go where Debian has them, which its linker, CMake and pkg-config search under any prefix.
+# As with Meson, libraries go into Debian's folder for them, which its linker, CMake and pkg-config search under any
+# prefix.
 if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED CMAKE_INSTALL_LIBDIR)
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE} CACHE PATH "Folder of libraries below the prefix")
 endif()
@@ -9,7 +10,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(RELIEVO_CMAKE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/relievo)
 
-# relievo_install_library(TARGET static|shared) installs it with the CMake file that describes it.
+# relievo_install_library(TARGET static|shared) installs a library with the CMake file that exports it.
 function(relievo_install_library target kind)
   set_property(TARGET ${target} APPEND PROPERTY
     INTERFACE_INCLUDE_DIRECTORIES $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -20,7 +21,8 @@ function(relievo_install_library target kind)
     COMPONENT development)
 endfunction()
 
-# A static library leaves the libraries it calls to those who link it; a shared one does not.
+# Programs that link the static library must also link the libraries that it calls; those that link the shared one need
+# not.
 set(private_libraries "spng libtiff-4 liblzf libzip")
 if(BUILD_SHARED_LIBS)
   relievo_install_library(relievo shared)
@@ -38,7 +40,7 @@ else()
   set(RELIEVO_PC_LIBS "-lrelievo -pthread")
 endif()
 
-# The samples are for the program and the tests: their library is not installed.
+# Only the program and the tests use the samples, so their library is not installed.
 install(DIRECTORY include/relievo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN samples EXCLUDE)
 

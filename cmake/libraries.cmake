@@ -1,5 +1,5 @@
-# The libraries that the project is built with: those of the system or, for WebAssembly, of scripts/build-web-libraries.
-# RELIEVO_LINKED are those that the library links.
+# Finds the libraries that the project needs: those of the system or, for WebAssembly, those of
+# scripts/build-web-libraries. RELIEVO_LINKED lists the libraries to link.
 if(NOT RELIEVO_WEB)
   find_package(Threads REQUIRED)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
@@ -9,12 +9,13 @@ if(NOT RELIEVO_WEB)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
   pkg_check_modules(LIBLZF REQUIRED IMPORTED_TARGET liblzf)
-  pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # Debian's CMake file of it wants its programs, too
+  pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its CMake file in Debian needs its programs, too
   set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF PkgConfig::LIBLZF PkgConfig::LIBZIP Threads::Threads)
   return()
 endif()
 
-# Libraries of headers alone are the same everywhere. Their functions for streams are left out, which are half of a program.
+# Header-only libraries are those of the system. Their functions for streams are left out, which would be half of a
+# program.
 function(relievo_headers target folder)
   add_library(${target} INTERFACE IMPORTED)
   target_include_directories(${target} SYSTEM INTERFACE ${folder})

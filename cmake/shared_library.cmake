@@ -1,7 +1,7 @@
 # The shared library exports the functions of the public headers alone: those that packaging/symbols.txt lists.
 # scripts/update-symbols writes that list, and a test fails if the library exports anything else.
 
-# Before version 1 every minor version may break those who link, so it is part of the name: librelievo.so.0.1.
+# Before version 1 every minor version may break linked programs, so it is part of the name: librelievo.so.0.1.
 if(PROJECT_VERSION_MAJOR EQUAL 0)
   set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 else()

@@ -13,7 +13,7 @@ set(CMAKE_C_FLAGS_INIT "-msimd128")
 set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fignore-exceptions -fno-rtti")
 set(RELIEVO_WEB ON)
 
-# Nothing of the machine that builds may be found, but for what scripts/build-web-libraries puts there.
+# CMake must not find files of the build machine, except those of scripts/build-web-libraries.
 set(RELIEVO_WEB_LIBRARIES ${CMAKE_CURRENT_LIST_DIR}/../build/web-libraries CACHE PATH "Folder of scripts/build-web-libraries")
 set(CMAKE_FIND_ROOT_PATH ${RELIEVO_WEB_LIBRARIES})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

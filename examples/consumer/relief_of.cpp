@@ -1,4 +1,4 @@
-// From the bytes of a scan to the bytes of an STL file, as README shows it.
+// README's example: makes the bytes of an STL file from the bytes of a scan.
 #include "relievo/io/write.h"
 #include "relievo/job.h"
 
