@@ -10,7 +10,7 @@ namespace relievo::app::batch {
 double memory_need_mb(const Job& job);
 
 // Returns the memory that this process may still take, in megabytes: the machine's available memory or, if
-// that is less, what control groups leave, such as those of a container or of Slurm.
+// that is less, the rest of the limit of a control group, such as that of a container or of Slurm.
 double available_memory_mb();
 
 }  // namespace relievo::app::batch

@@ -30,7 +30,8 @@ std::vector<OutputKind> all_kinds() {
   return kinds;
 }
 
-// Returns the hash of all that the outputs depend on. Errors: those of read_file() for the job's own file.
+// Returns the hash of the files, the options and the version, on which the outputs depend. Errors: those of
+// read_file() for the job's own file.
 Result<std::string> hash_of_work(const Job& job, const std::vector<OutputKind>& kinds) {
   std::string text = cat("relievo ", version);
   for (const std::string& file : files_of(job)) {

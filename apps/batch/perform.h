@@ -1,4 +1,4 @@
-// One job from its inputs to its outputs. Tested by tests/cli/batch_test.cpp.
+// Performs one job, from its inputs to its outputs. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <functional>

@@ -11,9 +11,9 @@
 
 namespace relievo::app::batch {
 
-// The processes of the jobs that run. They are copies of this one (fork), without a program to load, so a job costs less
-// than a command of a shell. They end with this process, however it ends. This process must not have started a thread,
-// and must have no other children.
+// The processes of the jobs that run. They are forks of this process and load no program, so a job costs less
+// than a shell command. They end with this process, also after a crash. This process must not have started a
+// thread, and must have no other children.
 class Processes {
  public:
   explicit Processes(const Workshop& workshop) : workshop_(workshop) {}

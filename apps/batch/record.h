@@ -1,5 +1,5 @@
-// The record of a job's outcome, and the journal of all records, from which an interrupted run goes on. Tested by
-// tests/cli/batch_test.cpp.
+// The record of a job's outcome, and the journal of all records, from which an interrupted run continues.
+// Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct Record {
   bool is_made = false;
   std::string error = {};    // one line, if the relief is not made
   bool may_succeed = false;  // whether a failed job may succeed another time, as memory and disks change
-  std::string hash = {};     // of all that the outputs depend on; empty if the file is unreadable
+  std::string hash = {};     // of files, options and version; empty if the file is unreadable
   double seconds = 0, cpu_seconds = 0, peak_mb = 0;
-  std::map<std::string, std::uintmax_t> outputs = {};  // sizes in bytes by file name
+  std::map<std::string, std::uintmax_t> outputs = {};  // maps file names, relative to the folder, to bytes
   std::string host = {}, finished = {};                // finished: the time in UTC
 };
 
@@ -30,7 +30,7 @@ nlohmann::json to_json(const Record& record);
 // Returns the record of a line; nothing for other text, such as a line that was written only in part.
 std::optional<Record> record_from_line(std::string_view line);
 
-using Records = std::map<std::string, Record>;  // by name of the job: its last record
+using Records = std::map<std::string, Record>;  // by name of the job, the last record of each
 
 // Returns the records of all journals in the folder of the outputs.
 Records read_journals(const std::string& outputs);

@@ -14,7 +14,7 @@ namespace {
 // Estimates may be wrong, and the system needs memory for the files it caches.
 constexpr double share_of_available = .8;
 
-// Returns the number of processors that this process may use: all, or what a workload manager left it.
+// Returns the number of processors that this process may use; a workload manager may have limited it.
 int usable_processors() {
   cpu_set_t set;
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;

@@ -1,4 +1,4 @@
-// Tables as spreadsheets save them: CSV. Tested by tests/cli/batch_jobs_test.cpp.
+// Reads tables in CSV, as spreadsheets save them. Tested by tests/cli/batch_jobs_test.cpp.
 #pragma once
 
 #include <string>

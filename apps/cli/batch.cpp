@@ -165,7 +165,7 @@ Result<void> finish_run(const BatchOrder& order, bool is_quiet) {
                    (fs::path(order.workshop.outputs) / "index.html").string());
 }
 
-// Prints a line for each job, with all that --job needs to do it elsewhere.
+// Prints a line for each job, which --job can read on another machine.
 Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   for (const batch::Work& work : works_of(order.jobs, arguments, order.workshop)) {
     nlohmann::json json = to_json(work.job);
@@ -202,13 +202,14 @@ Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& w
   nlohmann::json line = to_json(end.record);
   line["is_kept"] = end.is_kept;
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  // Each line is flushed, so that the program ends after the job at work if nobody reads its records any more.
+  // Each line is flushed, so that the program ends after the present job if nobody reads its records any
+  // more.
   if (std::fflush(stdout) != 0)
     return system_error(ErrorKind::output, work.job.name, "expected a reader of records");
   return end.record;
 }
 
-// Does the jobs in turn. A job that fails does not keep the others from being done.
+// Does the jobs in turn. A failed job does not stop the others.
 Result<void> do_jobs(const BatchArguments& arguments) {
   RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
   RELIEVO_CHECK(batch::make_output_folder(arguments.outputs));

@@ -10,7 +10,7 @@
 namespace relievo::app::cli {
 
 // On a terminal shows a bar with the remaining time; elsewhere prints a line for each twentieth of the jobs.
-// In both cases each failure has a line.
+// In both cases prints a line for each failure.
 class BatchProgress {
  public:
   BatchProgress(std::size_t jobs, bool is_quiet);

@@ -12,8 +12,8 @@ struct FlagInfo {
   std::string name;                // "--height"; "input" for an argument that stands by itself
   std::string short_name;          // "-o"; may be empty
   std::string value;               // "MM"; empty if it takes none
-  std::string help;                // with range and default
-  std::vector<std::string> words;  // possible values, or their beginnings; empty if there is no such list
+  std::string help;                // includes range and default
+  std::vector<std::string> words;  // possible values, or their beginnings; empty if any value is possible
   bool is_argument = false, is_path = false, can_repeat = false, is_required = false;
 };
 
@@ -29,7 +29,7 @@ std::vector<CommandInfo> command_table(const CLI::App& program);
 std::string program_man_page(const std::vector<CommandInfo>& commands);
 std::string command_man_page(const CommandInfo& command);
 
-// Returns the completion script for a shell; empty for others than bash, zsh and fish.
+// Returns the completion script for a shell; empty for shells other than bash, zsh and fish.
 std::string completion_script(const std::vector<CommandInfo>& commands, const std::string& shell);
 
 }  // namespace relievo::app::cli

@@ -59,7 +59,8 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Draws the model without shadows and dark hollows, with which its full depth would cover the ground.
+  // Draws the model without shadows and dark hollows, as they would cover the ground because of its full
+  // depth.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {

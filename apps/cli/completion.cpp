@@ -1,4 +1,4 @@
-// Completion scripts for shells, from the table of commands.
+// Makes completion scripts for shells from the table of commands.
 #include <string_view>
 
 #include "cli/command_table.h"

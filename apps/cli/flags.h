@@ -9,7 +9,7 @@
 
 namespace relievo::app::cli {
 
-// Returns the help of an option with its range and its default, but for a default that CLI11 shows by itself.
+// Returns the help of an option with its range and its default, except for defaults that CLI11 shows itself.
 std::string flag_help(const OptionRow& option);
 
 // Adds one flag for each row that is wanted. Given values go to `values`, which must outlive the command.

@@ -1,4 +1,4 @@
-// Has the system give this program its memory in pages of 2 MB instead of 4 KB.
+// Makes the system give this program memory in pages of 2 MB instead of 4 KB.
 #pragma once
 
 namespace relievo::app::cli {

@@ -69,7 +69,7 @@ Box box_of(const CloudFile& file, const PlacedModel& place) {
   return box;
 }
 
-// Returns the number of points that are used, and of those that are not.
+// Returns the numbers of used and of unused points as text.
 std::string points_text(const CloudFile& file) {
   const bool is_mesh = !file.mesh.empty();
   std::string text = cat(is_mesh ? file.mesh.points.size() - file.dropped_points : file.cloud.size(),
@@ -81,7 +81,7 @@ std::string points_text(const CloudFile& file) {
   return text;
 }
 
-// Prints where each model of a scene stands, seen from the front.
+// Prints the place of each model of a scene, seen from the front.
 Result<void> scene_info(const std::vector<std::string>& inputs) {
   RELIEVO_TRY(const Scene scene, read_scene(inputs, {}, {}, nullptr));
   RELIEVO_TRY(const std::vector<PlacedModel> places, place_models(scene, View{}));

@@ -33,7 +33,7 @@ Result<CheckedOrder> order_of(MakeArguments& arguments) {
   return known;
 }
 
-// Prints one line about what was made, in the unit asked for.
+// Returns one line about the outputs, in the requested unit.
 std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
   const auto in_units = [&](double mm) { return std::round(mm / mm_per(outputs.unit) * 1e4) / 1e4; };
   const ReliefReport& report = made.report;

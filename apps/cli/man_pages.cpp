@@ -1,4 +1,4 @@
-// Man pages from the table of commands.
+// Makes man pages from the table of commands.
 #include <algorithm>
 
 #include "cli/command_table.h"

@@ -24,7 +24,7 @@ std::string line_of(Error error, const CLI::App& program) {
   return error.message();
 }
 
-// Returns how many letters must be inserted, left out or changed to make one text of the other.
+// Returns how many letters must be inserted, removed or changed to turn one text into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
@@ -55,7 +55,7 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   return nearest;
 }
 
-// Returns the part of a message that states the name that the user typed and the known name nearest to it.
+// Returns the part of a message with the name that the user typed and the nearest known name.
 std::string found_name(const CLI::App& app, const std::string& typed) {
   const std::string nearest = nearest_name(app, typed);
   return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));
@@ -92,7 +92,7 @@ void add_commands(CLI::App& program, Result<void>& result) {
   program.set_version_flag("--version", std::string("relievo ") + version);
   program.require_subcommand(1);
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
-    const auto commands = app->get_subcommands();  // those that the user named
+    const auto commands = app->get_subcommands();  // the commands that the user named
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
     return words_of(error, commands.empty() ? *app : *commands.front()) + "; see relievo " + command +
            "--help";

@@ -15,7 +15,7 @@
 namespace relievo::app::cli {
 namespace {
 
-constexpr double step_deg = 4;  // from one view to the next
+constexpr double step_deg = 4;  // the turn from one view to the next
 
 // Returns the milliseconds that `work` takes. Errors: those of `work`.
 template <typename F>

@@ -1,4 +1,4 @@
-// Files in a ZIP archive.
+// Reads files of a ZIP archive.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ namespace relievo::app {
 
 class Archive {
  public:
-  // Opens the archive in `bytes`, which must outlive the object, called `name` in errors. Errors: kind input.
+  // Opens the archive in `bytes`, which must outlive the object. Errors call it `name`. Errors: kind input.
   static Result<Archive> open(std::span<const std::byte> bytes, std::string_view name);
 
   // Returns the names of all files, with their folders, in the order of the archive.
   std::vector<std::string> names() const;
 
-  // Returns a file's content. Errors: kind input for a file that is not there, is longer than 4 GiB, or damaged.
+  // Returns a file's content. Errors: kind input for a file that is missing, longer than 4 GiB, or damaged.
   Result<std::vector<std::byte>> content(const std::string& name) const;
 
  private:

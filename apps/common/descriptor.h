@@ -12,7 +12,7 @@
 
 namespace relievo::app {
 
-// Returns an error with the system's own words for errno after what was expected.
+// Returns an error with the text `expected` and the system's message for errno.
 std::unexpected<Error> system_error(ErrorKind kind, const std::string& path, const std::string& expected);
 
 // Writes all bytes, also if signals interrupt the writing. Returns whether it succeeded; otherwise errno has

@@ -18,7 +18,7 @@ struct FileFormat {
   std::string_view name;        // the studio's name of the format
   std::string_view ending;      // appended to a file's name: ".stl", "-heights.png"
   std::string_view type;        // the MIME type
-  std::string_view label, use;  // for people
+  std::string_view label, use;  // texts for users
   std::vector<std::byte> (*write_solid)(const Solid&) = nullptr;  // null for pictures
 };
 
@@ -43,7 +43,7 @@ struct ExportedFile {
 
 struct ExportOrder {
   int heightmap_px = 2048;                // the longer side of a height map
-  Material material = Material::plaster;  // of the picture
+  Material material = Material::plaster;  // material of the picture
 };
 
 // Returns the relief as a file of that format, the bytes that `relievo make` writes if the material is plaster.

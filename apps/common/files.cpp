@@ -57,7 +57,7 @@ Result<std::vector<std::byte>> read_all(const Descriptor& file, std::size_t size
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_fine) {
-  // Without O_NONBLOCK the opening of a pipe that nobody writes to would never return.
+  // Without O_NONBLOCK, opening a pipe without a writer would wait for ever.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | (is_pipe_fine ? 0 : O_NONBLOCK)));
   if (!file.is_open()) return system_error(ErrorKind::input, path, "expected a file that can be read");
   struct stat status {};

@@ -1,4 +1,4 @@
-// Files that are read, and names of files.
+// Reads files, and parses their names.
 #pragma once
 
 #include <cstddef>

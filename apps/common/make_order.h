@@ -46,7 +46,7 @@ struct CheckedOrder : MakeOrder {
 // Errors: those of find_project() and options_of().
 Result<CheckedOrder> check_order(MakeOrder order);
 
-// An order whose inputs were read, and whose view is chosen.
+// An order with its inputs read and its view chosen.
 struct LoadedOrder : CheckedOrder {
   Scene scene;
   std::optional<ViewGuess> side;  // the chosen side, if the order left the choice
@@ -58,7 +58,7 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 // The facts that a relief's report states about its inputs, without the scans themselves.
 struct InputFacts {
   std::string name;
-  std::vector<std::string> paths, remarks;  // paths: of files that must not be overwritten
+  std::vector<std::string> paths, remarks;  // paths: files that must not be overwritten
   nlohmann::json models;
 };
 
@@ -80,7 +80,7 @@ struct FinishedRelief {
   // Returns the remarks on the inputs and on the relief.
   std::vector<std::string> remarks() const;
 
-  // Returns the report, with numbers in millimetres, on a file in that unit.
+  // Returns the report, which has millimetres, on a relief with files in that unit.
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 

@@ -32,7 +32,7 @@ Json default_of(const OptionRow& option) {
   return std::visit([](const auto& value) { return Json(value); }, option.initial);
 }
 
-// Returns the defaults that differ with a form, by its name, or with a diameter.
+// Returns the defaults that differ for some form or with a diameter, by the form's name or "diameter".
 Json other_defaults(const OptionRow& option) {
   Json others = Json::object();
   const ReliefOptions plain;

@@ -8,8 +8,7 @@
 
 namespace relievo::app {
 
-// Returns, in words for users, what applies if the option is not given: "5", "0.04 with method layered, 0.02
-// with method paper".
+// Returns the default as a text for users: "5", "0.04 with method layered, 0.02 with method paper".
 std::string default_text(const OptionRow& option);
 
 // Returns the help, with the range of a number or the words that may stand there.

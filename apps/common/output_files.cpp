@@ -15,7 +15,8 @@
 namespace relievo::app {
 namespace {
 
-// Returns the file that a symbolic link leads to, so that the link stays; the path itself if it is no such link.
+// Returns the file to which a symbolic link leads, so that the link stays; the path itself if it is not a
+// link.
 std::string without_link(const std::string& path) {
   std::error_code failed;
   if (!std::filesystem::is_symlink(path, failed)) return path;

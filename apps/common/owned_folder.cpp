@@ -40,7 +40,7 @@ Ownership read_mark(const std::string& folder, std::string_view owner) {
   return bytes && text_in(*bytes) == mark_of(owner) ? Ownership::owned : Ownership::of_others;
 }
 
-// Returns whether the folder has nothing but a mark that another process is about to write.
+// Returns whether the folder is empty, except for an unfinished mark of another process.
 bool is_empty(const std::string& folder, std::error_code& failed) {
   const std::string unfinished = cat(mark_name, ".");
   fs::directory_iterator entry(folder, failed);
@@ -49,7 +49,7 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
   });
 }
 
-// Marks a folder, whatever files it has. Returns owned or unusable.
+// Marks a folder, which may have any files. Returns owned or unusable.
 Ownership mark_folder(const std::string& folder, std::string_view owner) {
   const std::string path = mark_in(folder).string(), text = mark_of(owner);
   TemporaryFile mark(path);

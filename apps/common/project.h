@@ -19,7 +19,7 @@ namespace relievo::app {
 struct ScanSource {
   std::string sample;
   std::string path;
-  std::string name;  // for people
+  std::string name;  // shown to users
   std::string hash;  // hash of the file's bytes, see hash_of(); empty if not known yet
 };
 
@@ -57,7 +57,7 @@ Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_
 // Returns the path "base-image" of an object with options; empty if it has none.
 std::string base_image_path_in(const nlohmann::json& options);
 
-// Returns whether both name the same sample or file, whatever its content is.
+// Returns whether both name the same sample or file, even if its content has changed.
 bool is_same(const ScanSource& a, const ScanSource& b);
 
 nlohmann::json to_json(const ScanSource& input);
@@ -83,8 +83,8 @@ Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, con
                         const std::function<bool()>& is_unwanted = {});
 
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
-// path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;
-// kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
+// path starts at `folder`. Errors: kind input, also if the file does not have that hash; kind option for an
+// unknown sample; kind cancelled as soon as `is_unwanted` returns true.
 Result<Scene> load_input(ScanSource& input, const std::string& folder,
                          const std::function<bool()>& is_unwanted = {});
 

@@ -36,7 +36,7 @@ std::vector<std::string> remarks_on(const CloudFile& file, const std::string& pa
   if (file.unmeasured_points > 0)
     lines.push_back(cat(path, ": left out ", file.unmeasured_points,
                         " points at 0, 0, 0, as devices write what they have not measured"));
-  // A mesh keeps its points, whatever their normals.
+  // A mesh keeps its points, even with unusable normals.
   if (file.dropped_normals > 0 && file.mesh.empty())
     lines.push_back(cat(path, ": left out ", file.dropped_normals,
                         file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));

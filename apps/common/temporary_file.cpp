@@ -18,7 +18,7 @@
 
 namespace relievo::app {
 
-// A temporary file's name where a signal handler may read it at any time.
+// The name of a temporary file, which a signal handler may read at any time.
 struct TemporaryName {
   // Makes a name of `stem` that no other file of this process has. Returns whether it is short enough.
   bool renew(const std::string& stem) {
@@ -75,7 +75,7 @@ class FileChange {
 
 extern "C" void remove_temporaries(int signal) {
   remove_temporary_files();
-  ::raise(signal);  // now with its usual effect
+  ::raise(signal);  // ends the process
 }
 
 // Reserves a name that is free, or a new one.

@@ -12,8 +12,8 @@ namespace relievo::app {
 struct TemporaryName;
 
 // A file in the folder of `path` that keep() moves to its final path, and that is removed otherwise. It has
-// no name until it is kept, so that nothing is left of it, however the process ends. Where the file system
-// has no files without names, and while it replaces another file, it has a unique temporary name, and
+// no name until it is kept, so that nothing is left of it even after a crash. Where the file system has no
+// files without names, and while it replaces another file, it has a unique temporary name, and
 // remove_temporary_files() removes it. If a killed process left such a file, the next one for the same path
 // removes it. An attribute identifies it, never its name alone.
 class TemporaryFile {

@@ -1,4 +1,4 @@
-// Sentences for people, made of the facts that the library returns: for the command line and the studio alike.
+// Turns the facts that the library returns into sentences for users of the command line and the studio.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +25,8 @@ std::vector<std::string> remarks_on(const ReliefReport& report);
 // Returns the line with a capital and a full stop.
 std::string as_sentence(std::string line);
 
-// Returns ", found " and the value that a JSON file has in place of the expected one, as it is written in JSON, at most 32
-// bytes of it; ", found none" for null.
+// Returns ", found " and the value that a JSON file has instead of the expected one, in JSON, cut after 32
+// bytes; ", found none" for null.
 std::string found(const nlohmann::json& value);
 
 }  // namespace relievo::app

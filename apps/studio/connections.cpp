@@ -33,7 +33,7 @@ constexpr std::size_t fewest_answering = 4, most_answering = 96;
 constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
 constexpr auto longest_head = 5s;             // from the first byte of a head to its last
 constexpr auto longest_rest = 30s;            // from one request of a connection to the next
-constexpr auto longest_farewell = 2s;         // for a refused sender to read the answer
+constexpr auto longest_farewell = 2s;         // time for a refused sender to read the answer
 constexpr auto shortest_wait = 1s;            // after which a connection may have to make room
 
 // A connection that no thread works on.
@@ -185,8 +185,8 @@ struct Connections::State {
     }
   }
 
-  // Receives what has arrived, and hands the connection over once its head is whole. Returns false if it is
-  // over or too late, or if there is no memory for it. The caller holds `mutex`.
+  // Receives what has arrived, and makes the connection ready for a thread once its head is complete. Returns
+  // false if the connection is over or too late, or if there is no memory for it. The caller holds `mutex`.
   bool take_in(std::list<Connection>::iterator at, Clock::time_point now) {
     try {
       const Arrival arrival = receive(*at);

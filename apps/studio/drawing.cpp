@@ -190,7 +190,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.most_width_mm = live_.most_width_mm();
   if (request.is_original) {
     options.has_shadows = false;           // the model's full depth would cover the ground with them
-    options.material = Material::plaster;  // whatever the material of the piece
+    options.material = Material::plaster;  // not the material of the piece
     live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;

@@ -22,7 +22,7 @@ struct ModelFacts {
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<Remark> remarks;         // their texts are sentences
-  std::vector<std::size_t> histogram;  // of sqrt(|k|), from 0 to 1
+  std::vector<std::size_t> histogram;  // histogram of sqrt(|k|) from 0 to 1
 };
 
 // The share of a slope that a relief keeps, over curvature, both in [0, 1]: at sqrt(|k|) = i / (size - 1). The page draws them
@@ -40,7 +40,7 @@ struct PictureRequest {
       draft_limit_mm;  // largest height under the draft angle; empty without a draft angle, or while unknown
   std::optional<View>
       turned;                // the view to show while the user turns the model, instead of the prepared view
-  std::optional<double> u;   // of the compression, given instead of a height; the height then follows from it
+  std::optional<double> u;   // strength of the compression, if it is given instead of a height
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
   RenderOptions render;      // its lengths are set from the options
@@ -67,7 +67,7 @@ struct PictureAnswer {
 
   // The members below describe how the relief was made. A picture of the model itself leaves them at their
   // defaults.
-  Compression compression;      // the one that was found
+  Compression compression;      // found by the engine
   double height_mm = 0;         // the height to make the file with
   double relief_height_mm = 0;  // of the relief in the file; lower if a tool leaves material
   bool is_height_met = true;
@@ -100,7 +100,7 @@ class Drawing {
 
   const ModelFacts& facts() const { return facts_; }
 
-  // Keeps showing the last frame, whatever is asked for, until another model is drawn.
+  // While frozen, pictures show the last frame instead of the requested one, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
   // Draws a frame, whose height is met within 3 % unless the picture is to be fine. If the options ask for more than a

@@ -82,7 +82,7 @@ struct Engine::State {
 
   Session session;  // the last member: its thread uses those above
 
-  // Returns the preparation of a view of the scan that was asked for last.
+  // Returns the preparation of a view of the scan that was requested last.
   Preparation preparation_of(const ReliefOptions& options) {
     Preparation preparation;
     const auto chosen = std::make_shared<View>(options.view);
@@ -148,8 +148,8 @@ struct Engine::State {
   }
 
   // Draws the model in a view that is not prepared yet. The coarse relief is made once per view, and is used
-  // until that view is prepared, whatever options change. Other pictures do not wait for it, and the next
-  // view cancels it.
+  // until that view is prepared, even if options change. Other pictures do not wait for it, and the next view
+  // cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
     std::uint64_t model = 0;  // the model that was drawn when the coarse relief was begun
     for (std::optional<TurnedRelief> relief;;) {

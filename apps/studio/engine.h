@@ -21,7 +21,7 @@ struct EngineStatus {
   std::string stage;
   double fraction = 0;
   std::optional<Error> error;  // error of the last opening or change of view
-  ScanSource input;            // of the scan that is shown
+  ScanSource input;            // the shown scan
   OptionValues view;           // last requested: the options by which a scan is prepared
   std::string making_stage;    // stage of the file that is being made; empty if there is none
   double making_fraction = 0;
@@ -44,8 +44,8 @@ class Engine {
   // shown already.
   void show(const ScanSource& input, const OptionValues& view);
 
-  // Prepares another view of the scan that was opened last or, if that failed, of the one that is shown.
-  // Errors: those of parse_options(); kind geometry if there is no scan.
+  // Prepares another view of the scan that was opened last or, if that failed, of the shown scan. Errors:
+  // those of parse_options(); kind geometry if there is no scan.
   Result<void> choose_view(const OptionValues& view);
 
   void cancel();
@@ -53,7 +53,7 @@ class Engine {
   // Returns whether nothing runs, not even work that was cancelled.
   bool is_idle();
 
-  // Without threads, this does the work that open(), show() and choose_view() asked for.
+  // Without threads, this does the work that open(), show() and choose_view() have requested.
   void work();
 
   EngineStatus status() const;

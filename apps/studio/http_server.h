@@ -8,7 +8,7 @@
 namespace relievo::app::studio {
 
 // A httplib::Server with its connections managed by Connections. No other program can share its port. A
-// connection is closed after a request whose body was not read to its end.
+// connection is closed after a request if its body was not read to the end.
 class HttpServer : public httplib::Server {
  public:
   HttpServer();

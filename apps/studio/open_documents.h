@@ -46,7 +46,7 @@ class OpenDocuments {
   // Call this when a tab is closed.
   void leave(const std::string& tab);
 
-  // Without threads, this does the work that the engines were asked for, see Engine::work().
+  // Without threads, this does the requested work of the engines, see Engine::work().
   void work();
 
   // Returns all open documents, the one used last first.

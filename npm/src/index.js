@@ -99,7 +99,7 @@ export async function make(source, options = {}) {
   return new Relief(engine, watchedCall(engine, "make", request, options).json);
 }
 
-// A frame of a session. It holds memory of the engine until release() is called or nothing refers to it.
+// A frame of a session. It uses memory of the engine until release() is called or nothing refers to the frame.
 export class Frame {
   #engine;
   #number;

@@ -90,7 +90,7 @@ class Fork {
     working().unlock();
   }
 
-  // A thread of the parent has the lock, so the child makes a new one. No other thread exists here.
+  // A thread of the parent has the lock, so the child makes a new lock. No other thread exists here.
   void end_in_child() {
     if (!std::exchange(is_prepared_, false)) return;
     std::construct_at(&working());

@@ -49,7 +49,7 @@ class Frame:
 
 
 class Session:
-    """A scan whose visible surface is prepared, so that a change of the options takes milliseconds.
+    """A scan with its visible surface prepared, so that a change of the options takes milliseconds.
 
     Frames show the relief alone; make() gives the solid. Several threads may use one session: their frames wait for each
     other.

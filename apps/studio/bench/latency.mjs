@@ -92,7 +92,7 @@ async function drag(page, {slider, tool, from, to}) {
   await target.scrollIntoViewIfNeeded();
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   const box = await target.boundingBox();
-  const grip = tool ? from : await target.evaluate((range) => range.value / range.max); // where the thumb is
+  const grip = tool ? from : await target.evaluate((range) => range.value / range.max); // place of the thumb
   const place = (share) => [box.x + box.width * share, box.y + box.height / 2];
   await page.mouse.move(...place(grip));
   await page.mouse.down();
@@ -101,7 +101,7 @@ async function drag(page, {slider, tool, from, to}) {
   for (let i = 0; i < SECONDS * EVENTS_PER_SECOND; ++i) {
     const wait = begin + 1000 * i / EVENTS_PER_SECOND - performance.now();
     if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
-    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // there and back in 2 s
+    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // to `to` and back in 2 s
     await page.mouse.move(...place(share));
   }
   const heard = await page.evaluate(() => window.heard);

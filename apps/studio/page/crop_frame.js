@@ -1,5 +1,5 @@
 // The crop on the picture: the whole scan as the view shows it, and a frame that can be drawn, moved and resized. The
-// relief leaves out all that lies outside.
+// relief leaves out everything outside the frame.
 
 import {$, clamp, make, paint} from "./controls.js";
 import {directionsOf} from "./directions.js";
@@ -56,7 +56,7 @@ export class CropFrame {
     if (isShown) this.refresh();
   }
 
-  // Returns the document's crop, or the one that is being dragged.
+  // Returns the document's crop or, during a drag, the present crop of the drag.
   get numbers() {
     return this.drag?.numbers ?? numbersOf(this.doc.now.options.crop);
   }
@@ -175,7 +175,7 @@ export class CropFrame {
     return [...low, ...low.map((x, k) => Math.max(a[k], b[k], x + LEAST)), ...depths];
   }
 
-  // The cursor tells whether a drag would move, resize or draw the frame.
+  // The cursor shows whether a drag would move, resize or draw the frame.
   hover(x, y) {
     if (!this.box) return;
     const sides = this.sidesAt(x, y).sort(), isRising = ["0,1", "2,3"].includes(String(sides));

@@ -126,7 +126,7 @@ export class Document {
     const before = this.now;
     this.cancelled = this.stroke;
     this.stroke = null;
-    Object.assign(this, this.beforeStroke); // with the steps that can be redone
+    Object.assign(this, this.beforeStroke); // restores the steps for redo, too
     this.stamp();
     this.onChange(before);
     return true;

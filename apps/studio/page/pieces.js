@@ -67,9 +67,9 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// Controls whose labels do not name their options.
+// Names of options for controls with other labels.
 const OTHERS = {tone: "Tone curve", view: "View"};
-// The page's words for what the engine expects of an option.
+// The page's texts for the expected values of an option.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
 // The engine's advice about coloured pictures applies only to the command line, so the page replaces it.
 const ADVICE = /; the option channel takes one .*$/;

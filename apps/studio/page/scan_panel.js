@@ -89,7 +89,7 @@ export class ScanPanel {
     const isFar = WHOLE[at] === 1;
     numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
     this.doc.change({options: {crop: cropText(numbers)}});
-    this.shown = null; // so that a refused cut, one that would remove everything, is shown as it was
+    this.shown = null; // so that show() also undoes a refused cut, which would remove everything
     this.show();
   }
 

@@ -1,4 +1,4 @@
-// The view whose model is shown, and the wait for another one. When no request is left, the views of the document, the
+// The view of the shown model, and the wait for another view. When no request is left, the views of the document, the
 // engine and the picture are the same, also after requests of other pages and after cancelled or refused requests.
 
 import {isSameView, viewOf} from "./opening.js";

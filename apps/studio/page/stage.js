@@ -115,7 +115,7 @@ export class Stage {
       const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
       if (!isCancelled) this.shown = this.fine = this.finished = number;
       if (!isCancelled && isNewest) this.on.failed(error); // ignore errors of older states
-      if (isCancelled && isNewest) this.changedAt = performance.now(); // as above
+      if (isCancelled && isNewest) this.changedAt = performance.now(); // try again after a pause
     }
     this.isBusy = false;
     this.unwanted = null;
