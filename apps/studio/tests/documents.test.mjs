@@ -1,4 +1,4 @@
-// Documents: kept by scan, by the engine and by the page, through crashes; and projects that hold their scans.
+// Engine and page keep a document for each scan, through crashes; projects can contain their scans.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, statSync,
@@ -53,7 +53,7 @@ test("neither replaces a document that it cannot read, nor removes a scan then",
   assert.match(String(told.body), /expected a folder of the studio that can be read: /);
   assert.deepEqual([told.status, kept.status], [500, 500]);
   await other.stop();
-  other = await studioIn("unread"); // which looks for scans that no document needs
+  other = await studioIn("unread"); // the new studio looks for scans that no document needs
   await other.stop();
   assert.ok(existsSync(input.path));
 });
@@ -65,7 +65,7 @@ test("is found at the same address after it was killed", async () => {
   assert.equal(second.address, first.address);
   await second.stop();
   for (const name of ["", "address.json", "documents"].filter((each) => existsSync(path.join(place, each))))
-    assert.equal(statSync(path.join(place, name)).mode & 0o077, 0, name); // each by itself keeps others from the token
+    assert.equal(statSync(path.join(place, name)).mode & 0o077, 0, name); // other users must not reach the token
   const other = await studioIn("elsewhere");
   assert.notEqual(other.url.pathname, first.url.pathname);
   await other.stop();
@@ -131,9 +131,9 @@ async function killAtRandom(place, times) {
     await dragging;
     const kept = JSON.parse(readFileSync(file, "utf8")); // whole, whenever the engine was killed
     assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
-    while (page.keeper.isSending) await sleep(5); // then the newest has been sent, or stays in the browser
+    while (page.keeper.isSending) await sleep(5); // then the newest change has been sent, or stays in the browser
     const copy = JSON.parse(storage.getItem(document) ?? "{}");
-    assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // with the page nothing is lost
+    assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // engine and page together lose nothing
   }
   page.engine = await new EngineProcess(place).ready();
   page.keeper.retry();
@@ -148,8 +148,8 @@ test("loses nothing that it has confirmed when it is killed, at 50 moments, and 
   await Promise.all(places.map((place) => killAtRandom(place, 10)));
 });
 
-// Returns the longest time in ms, by a clock that is set by hand, for which a change of a drag was not sent, and how
-// often the page sent, when an answer takes `answerMs`.
+// Simulates a drag by a clock that is set by hand, with answers that take `answerMs`. Returns the longest time in ms
+// for which a change was not sent, and how often the page sent changes.
 async function paceOfDrag(durationMs, answerMs) {
   const own = globalThis.setTimeout, storage = new MapStorage(), waiting = [];
   const due = () => waiting.filter(({at}) => at <= clock);
@@ -179,12 +179,12 @@ async function paceOfDrag(durationMs, answerMs) {
   return {longest, times};
 }
 
-// What the engine has not confirmed when it is killed was changed in the last 100 ms, or while its answer took longer.
+// A killed engine has confirmed all changes but those of the last 100 ms, or of its last answer if that took longer.
 test("sends what a drag changes every 60 ms, so that 100 ms are lost at most", async () => {
   for (const answerMs of [0, 10, 30]) {
     const {longest, times} = await paceOfDrag(3000, answerMs);
     assert.ok(longest + answerMs <= 100, `${longest} ms, with answers of ${answerMs}`);
-    assert.ok(times <= 51, `${times} times`); // it leaves time for pictures
+    assert.ok(times <= 51, `${times} times`); // more requests would leave the engine no time for pictures
   }
 });
 
@@ -252,7 +252,7 @@ test("packs the height map of a base, and keeps it with the document", async () 
   const {input, options: {"base-image": unpacked}} = await other.upload("p.relievo", readFileSync(packed), "project");
   assert.ok(readFileSync(unpacked).equals(readFileSync(map)));
   const {document} = await other.json("document", {input});
-  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // an undone step has it, too
+  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // the undone step uses the image
   await keep(other, document, {version: 1, changed: 5, at: 1, steps});
   await other.stop();
   const next = await studioIn("based");
@@ -269,7 +269,7 @@ test("keeps every document with its scan until it is removed, and says how much 
     await keep(other, ids[i], stateOf(inputs[i], 3, 5));
   }
   const models = [{file: inputs[0].path}, {file: inputs[1].path}];
-  const lost = await dropped(other, "lost.xyz", "0 0 1\n"); // its document is not kept
+  const lost = await dropped(other, "lost.xyz", "0 0 1\n"); // no document of this scan is kept
   const scene = await dropped(other, "scene.json", JSON.stringify({models}));
   const ofScene = (await other.json("document", {input: scene})).document;
   await keep(other, ofScene, stateOf(scene, 3, 5));
@@ -296,7 +296,8 @@ test("keeps every document with its scan until it is removed, and says how much 
   assert.equal(await remove(ids[3]), 200);
   await other.post("open", {input: inputs[4], tab: "crashed"});
   assert.equal(await remove(ids[4]), 409);
-  for (let i = 0; i < 64; ++i) await other.post("open", {input: inputs[5], tab: `${i}`}); // as many as are known
+  // The engine knows only the newest 64 tabs, so it forgets the crashed one.
+  for (let i = 0; i < 64; ++i) await other.post("open", {input: inputs[5], tab: `${i}`});
   assert.equal(await remove(ids[4]), 200);
   assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);
   for (const id of ["../address", "", "0123"]) assert.equal(await remove(id), 400);
@@ -318,7 +319,7 @@ test("lists a document while its scan is being opened, before anything of it is 
   await other.stop();
 });
 
-// The library takes the place of fsync(), which waits then until the file GO is there.
+// The library replaces fsync() by a function that waits until the file GO exists.
 test("follows the engine while the disk takes its time", async (t) => {
   const source = path.join(folder, "fsync.c"), library = path.join(folder, "fsync.so"), go = path.join(folder, "go");
   writeFileSync(source, `#include <stdlib.h>\n#include <unistd.h>\n#include <sys/syscall.h>
@@ -332,7 +333,7 @@ int fsync(int file) { while (access(getenv("GO"), F_OK)) usleep(5000); return sy
   const {document} = await other.json("document", {input: {path: scan}});
   rmSync(go);
   const answers = [], kept = keep(other, document, stateOf({path: scan}, 1, 1)).then(() => answers.push("kept"));
-  await sleep(200); // so that it waits for the disk
+  await sleep(200); // until the engine waits for the disk
   const events = http.get(`${other.address}api/events`), heard = new Promise((resolve) =>
     events.on("response", (stream) => stream.on("data", (data) => String(data).includes(document) && resolve())));
   const late = sleep(30000).then(() => answers.push("late"));
@@ -360,13 +361,13 @@ test("shows several documents at once, each with its own scan, settings and file
   for (const document of ids) assert.equal((await frame(document)).status, 200);
   await engine.post("leave", {tab: "tab0"});
   for (const sample of ["still_life"]) await engine.post("open", {input: {sample}, tab: "tab1"});
-  assert.equal((await frame(ids[1])).status, 200); // the newest that no tab shows any more
+  assert.equal((await frame(ids[1])).status, 200); // the newest document that no tab shows stays open
   const closed = await frame(ids[0]);
   assert.equal(closed.status, 409);
   assert.equal(JSON.parse(closed.body).error.kind, "closed");
 });
 
-// Fills the disk of a folder, and returns the file that does it.
+// Fills the disk of a folder with one file, and returns its path.
 function fill(disk) {
   const file = path.join(disk, "full"), to = openSync(file, "w");
   assert.throws(() => {

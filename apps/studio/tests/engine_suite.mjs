@@ -1,4 +1,4 @@
-// The engine of a suite, and the requests and files that suites share.
+// Starts the engine of a suite, and makes requests and files that suites share.
 import assert from "node:assert/strict";
 import net from "node:net";
 import path from "node:path";
@@ -22,7 +22,7 @@ export function withEngine(sample, points, begin = () => engine.open({path: scan
   after(() => engine?.stop());
 }
 
-// Starts another studio, in a folder of that name.
+// Starts another studio whose state folder has that name.
 export const studioIn = (name, ...args) => new EngineProcess(path.join(folder, name), ...args).ready();
 
 export function connect() {

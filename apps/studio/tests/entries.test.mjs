@@ -1,4 +1,4 @@
-// Entries are taken in the order in which they are typed and chosen; files and projects wait for them.
+// Entries are taken in the order in which they are typed and chosen; exports and projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
@@ -6,7 +6,7 @@ import {button, choose, engine, exportDialog as dialog, exportFiles as files, fo
 import {enter, eventually, openPanels, readStl, savedFiles, type, untilReady, writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
-let tried; // the requests of entries that are being tried, until they are let go
+let tried; // requests that try entries, held back until release()
 
 withPage("green_man", 4000, () => chooseResolution());
 
@@ -18,7 +18,7 @@ async function chooseResolution() {
 const value = (name) => option(name).inputValue();
 const waits = (text) => page.locator("#trying").getByText(text).waitFor();
 
-// Entries wait until release().
+// Holds back all requests that try entries until release().
 async function hold() {
   tried = [];
   await page.route("**/api/profile", (route) => (tried ? tried.push(route) : route.continue()));
@@ -62,7 +62,7 @@ for (const [how, press] of Object.entries({
     await press();
     const [{bytes}] = await files();
     assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
-    await type(option("height"), "1.25"); // a slider's number
+    await type(option("height"), "1.25"); // the number beside a slider
     await press();
     await page.locator("#export-size").getByText(/triangles$/).waitFor();
     await soon.match(() => page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
@@ -108,7 +108,7 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   const plateWidthAndRim = () => Promise.all(["plate", "width", "rim"].map(value));
   await soon.deepEqual(plateWidthAndRim, ["abc", "90.0", "2"]);
   await release();
-  await page.getByText(/^Plate size: expected/).waitFor(); // the next one is taken all the same
+  await page.getByText(/^Plate size: expected/).waitFor(); // the rim, typed after it, is taken all the same
   await soon.deepEqual(plateWidthAndRim, ["200x150", "90.0", "2"]);
   await undo();
   await soon.equal(() => value("rim"), "");
@@ -131,7 +131,7 @@ test("takes a kind, and what is typed for it, after the entries before", async (
   await soon.ok(() => kind("Coin").isChecked());
   await kind("Plaque").click();
   await soon.equal(() => value("plate"), "140x110");
-  await kind("Lithophane").click(); // whose plate begins with that size
+  await kind("Lithophane").click(); // a lithophane's plate begins with that size
   await soon.equal(() => value("plate"), "140x110");
   await free();
 });
@@ -164,7 +164,7 @@ test("goes on with what is being typed while the panel of another kind comes", a
   await page.keyboard.type("75");
   await page.keyboard.press("Enter");
   await soon.equal(() => value("thickness"), "2.75");
-  await page.locator("#kind-rows").getByLabel("Rim width").waitFor(); // the panel follows
+  await page.locator("#kind-rows").getByLabel("Rim width").waitFor(); // the panel shows the coin's fields
   await free();
 });
 
@@ -172,7 +172,7 @@ test("makes the piece of an export that is opened right after another one was gi
   await page.locator("#export").click();
   await page.locator("#export-size").getByText(/triangles$/).waitFor();
   await page.evaluate(() => {
-    document.querySelector("#export-cancel").click(); // of which the page is told later
+    document.querySelector("#export-cancel").click(); // the page receives this event later
     document.querySelector("#export").click();
   });
   await files();
@@ -210,7 +210,7 @@ test("waits with an export for a view that is being prepared", async () => {
   await untilReady(page);
 });
 
-const SEED = 7, SEQUENCES = 15; // random_entries.mjs runs hundreds of them
+const SEED = 7, SEQUENCES = 15; // random_entries.mjs can run hundreds of sequences
 
 test("takes random sequences of entries, and exports what it shows", async () => {
   const shown = await showSmallScan();

@@ -1,11 +1,11 @@
-// How far an export has come, and that nothing of it goes on once it is cancelled, in Chromium or Firefox.
+// Exports show their progress, and a cancelled one leaves no work and no file behind, in Chromium or Firefox.
 import assert from "node:assert/strict";
 import {button, engine, exportDialog as dialog, page, set, soon, test, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 withPage("still_life", 8000, async () => {
-  await button("Light table").click(); // which shows no finished piece: only exports make one
-  await enter(page.locator("#resolution"), "0.07"); // takes seconds
+  await button("Light table").click(); // it shows no finished piece: only exports make one
+  await enter(page.locator("#resolution"), "0.07"); // such a fine piece takes seconds
   await untilReady(page);
   await page.evaluate(() => {
     window.seen = [];
@@ -29,7 +29,7 @@ async function cancel() {
 
 test("shows how far a piece has come", async () => {
   let seen = [];
-  for (let i = 0; i < 3 && seen.length === 0; ++i) { // a browser that is held up meanwhile sees none
+  for (let i = 0; i < 3 && seen.length === 0; ++i) { // a busy browser may miss all values
     await enter(page.locator("#resolution"), String(0.07 - 0.005 * i));
     await untilReady(page);
     await open();
@@ -41,16 +41,16 @@ test("shows how far a piece has come", async () => {
 });
 
 test("ends the engine's work when it is cancelled, and saves no file of it", async () => {
-  await set("Height in mm", 4); // another piece, which is not made yet
+  await set("Height in mm", 4); // the piece of this height has not been made yet
   await untilReady(page);
   await open();
   await eventually(async () => assert.notEqual(await making(), ""));
   await cancel();
   await open();
   await dialog().getByText(/triangles/).waitFor();
-  await dialog().getByRole("button", {name: "Export"}).click(); // which writes the file
+  await dialog().getByRole("button", {name: "Export"}).click(); // begins to write the file
   await cancel();
-  await enter(page.locator("#resolution"), "2"); // another file, which comes after the one that was cancelled
+  await enter(page.locator("#resolution"), "2"); // another file, exported after the cancelled one
   await untilReady(page);
   await open();
   await dialog().getByText(/triangles/).waitFor();

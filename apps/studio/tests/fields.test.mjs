@@ -1,4 +1,4 @@
-// Numbers, keys and the reach of heights on the page, in Chromium or Firefox.
+// Numbers, keys and reachable heights on the page, in Chromium or Firefox.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, chooseView, drag, engine, exportDialog, field, folder, found, labelled, middleOf, openExport,
@@ -9,7 +9,7 @@ import {enter, eventually, ignoreTimers, savedFiles, type, untilReady, untilTime
 
 withPage("still_life", 8000);
 
-// Waits until the piece is as large as a text says.
+// Waits until the status line states that size of the piece.
 const untilPiece = (size) => untilTold(`piece ${size}`);
 const reach = () => page.locator("#reach");
 
@@ -110,7 +110,7 @@ test("keeps the figure's size on another plate, as long as it fits", async () =>
   await undo(2);
   await untilPiece("200.00 × 151.00");
   await enter(shift, "60,0");
-  await enter(plate, "100x80"); // whose edge is nearer than that
+  await enter(plate, "100x80"); // half of it is less than 60 mm
   await page.getByText("The plate has no room for the figure there: it is in the middle again.").waitFor();
   await soon.deepEqual(async () => [await shift.inputValue(), await longer()], ["", 64]);
   await undoAll(page, async () => (await plate.inputValue()) === "");
@@ -144,7 +144,7 @@ test("takes back what no piece can be made of", async () => {
 test("says why an entry is refused until the next one is taken, even one that changes nothing", async () => {
   const option = labelled, refused = (text) => toast().getByText(text).waitFor();
   const untilGone = () => toast().waitFor({state: "hidden"});
-  await page.evaluate(ignoreTimers, 8000); // after which a line goes by itself
+  await page.evaluate(ignoreTimers, 8000); // messages would disappear by themselves after 8 s
   await set("Height in mm", 5);
   await set("Height in mm", "high");
   await refused("Height: expected a number");
@@ -156,14 +156,14 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await soon.ok(() => toast().isVisible());
   await enter(option("Margin in mm"), "6");
   await untilGone();
-  await enter(page.locator("#crop"), "0,0,0.001,0.001"); // which keeps nothing
+  await enter(page.locator("#crop"), "0,0,0.001,0.001"); // this crop keeps no points
   await refused("expected");
   await untilText(page.locator("#crop"), "");
   await soon.ok(() => toast().isVisible());
   await enter(option("Margin in mm"), "5");
   await untilGone();
   await option("Outline").selectOption("hexagon");
-  await untilTaken(); // no figure is moved before
+  await untilTaken(); // figures can be moved only then
   await radio("Place").click();
   await page.locator("#stage").click();
   await refused("Give the plate a size first: then the figure can be moved on it.");
@@ -242,7 +242,7 @@ test("steps numbers of the plate by arrow keys", async () => {
   await soon.equal(() => rim.inputValue(), "3.1");
   await rim.press("Shift+ArrowDown");
   await soon.equal(() => rim.inputValue(), "3.09");
-  await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // in one step, when the keys rest
+  await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // one step for all keys, once they rest
   await undo();
   await soon.equal(() => rim.inputValue(), "3");
   await undo();
@@ -303,7 +303,7 @@ test("exports when Enter is pressed", async () => {
 test("says what was saved of an export that is cancelled", async () => {
   const dialog = exportDialog();
   let asked = 0;
-  await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // no file but the first comes
+  await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // only the first file arrives
   for (const [written, saved] of [["2 of 2", "Saved: scan.stl."], ["1 of 2", "Nothing was saved."]]) {
     await openExport();
     await dialog.getByRole("checkbox", {name: /^3MF/}).check();
@@ -319,7 +319,7 @@ test("says what was saved of an export that is cancelled", async () => {
 const marked = async () => (await page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/)
   .getAttribute("title")).match(/[\d.]+ mm/)[0];
 
-// Returns the height and the thickness that the status line and the export tell.
+// Returns the height and the thickness that the status line and the export dialog show.
 async function toldSizes() {
   await untilReady(page);
   const shown = (await page.locator("#numbers").innerText()).match(/height ([\d.]+).*× ([\d.]+) mm/).slice(1);
@@ -333,7 +333,7 @@ test("tells the same height and thickness everywhere", async () => {
   await set("Height in mm", 3.175);
   await soon.equal(() => text("Height in mm"), "3.175");
   await untilTold(/height 3\.175 mm/);
-  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // below the relief
+  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // the plate alone, below the relief
   await soon.deepEqual(() => toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
   await radio("Measure").click();
   await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
@@ -354,12 +354,12 @@ test("marks the height that can be reached, and loosens what limits it", async (
   await set("Steepest wall in degrees", 30);
   let limited;
   await eventually(async () => assert.ok((limited = await reachable()) < most, `${limited} of ${most}`));
-  await set("Height in mm", 300); // more than steps at depth jumps can make up for
+  await set("Height in mm", 300); // out of reach even with steps at depth jumps
   await reach().getByText(/The steepest wall keeps the height at [\d.]+ mm/).waitFor();
   await soon.equal(() => field("Height in mm").getAttribute("aria-invalid"), "true");
   const reached = (await reach().innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
-  await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
+  await page.keyboard.press("Control+e"); // the file's height is not the one that was asked for
   await exportDialog().getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
   await button("Cancel", exportDialog()).click();
   await button("Allow steeper walls").click();

@@ -20,7 +20,7 @@ withBrowser(async () => {
 });
 
 const kind = radio;
-const offered = (name) => page.getByRole("group", {name: "Found on the scan"}).getByRole("button", {name}); // by the picture
+const offered = (name) => page.getByRole("group", {name: "Found on the scan"}).getByRole("button", {name});
 const note = (text) => page.locator("#notes").getByText(text);
 
 // Opens a scan in a page, and waits until its relief is there.
@@ -30,7 +30,7 @@ async function openScan(file, points, of = page) {
   await untilReady(of);
 }
 
-// Returns the pictures of the kinds, as numbers of pixels that show something and the sum of their colours.
+// Returns, for the picture of each kind, the number of pixels that are not empty and the sum of their colours.
 const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.map((canvas) => {
   const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
   let shown = 0, sum = 0;
@@ -90,7 +90,7 @@ test("takes no click before its program has begun, and none is lost", async () =
   const isHit = () => other.evaluate(({x, y, width, height}) =>
     document.querySelector("#help").contains(document.elementFromPoint(x + width / 2, y + height / 2)), box);
   await soon.equal(() => isHit(), false);
-  const clicked = button("Help", other).click(); // waits until the button takes clicks
+  const clicked = button("Help", other).click(); // Playwright waits until the button takes clicks
   begin();
   await clicked;
   await button("Take the tour", other).waitFor();
@@ -117,7 +117,7 @@ test("shows nothing of the document on the start page, and changes nothing there
 
 test("offers the tour no longer to whoever begins to work", async () => {
   const other = await (await browser.newContext()).newPage();
-  await other.addInitScript(ignoreTimers, 30000); // after which the offer goes by itself
+  await other.addInitScript(ignoreTimers, 30000); // the offer would disappear by itself after 30 s
   await other.goto(engine.address);
   const offered = button("Show me", other);
   await offered.waitFor();
@@ -129,7 +129,7 @@ test("offers the tour no longer to whoever begins to work", async () => {
   await other.close();
 });
 
-// The page is told of the exact relief only when it has asked for its facts.
+// The page learns of the exact relief by a request for facts, which is held back here.
 test("shows the kinds of work before the exact relief is there", async () => {
   const other = await page.context().newPage(), letGo = await holdRequests(other, "**/api/facts");
   const large = path.join(folder, "large.ply");
@@ -174,7 +174,7 @@ test("sets size and material with a kind, and takes all of it back at once", asy
   await kind("Coin").click();
   await untilTold(/height 1\.60 mm.*piece 40\.00 × 40\.00/);
   await soon.ok(() => radio("Struck silver").isChecked());
-  await kind("Seal").click(); // of the same diameter
+  await kind("Seal").click(); // a seal has the same diameter
   await untilTold(/height 1\.20 mm/);
   await soon.ok(() => radio("Bronze").isChecked());
   await kind("Lithophane").click();
@@ -203,7 +203,7 @@ test("brings a kind back as it was left", async () => {
   await untilTold(/height 2\.40 mm/);
   await kind("Coin").click();
   await untilTold(/piece 30\.00 × 30\.00/);
-  await option("outline").selectOption("ellipse"); // which no diameter fits
+  await option("outline").selectOption("ellipse"); // an ellipse has no diameter
   for (const name of ["Seal", "Coin"]) await choose(name);
   await soon.ok(async () => !await toast().isVisible(), "the piece can be made");
   await soon.equal(() => option("outline").inputValue(), "ellipse");
@@ -241,16 +241,16 @@ test("shows first, with each kind, the controls that matter for it", async () =>
   }
   await kind("Coin").click();
   const answered = page.waitForResponse("**/api/check");
-  await outline.selectOption("hexagon"); // a medal of another outline is one still
+  await outline.selectOption("hexagon"); // a medal with another outline stays a medal
   await answered;
-  await page.locator('#kind-rows [aria-busy="true"]').waitFor({state: "detached"}); // the page has taken it
+  await page.locator('#kind-rows [aria-busy="true"]').waitFor({state: "detached"}); // the page has taken the outline
   await soon.equal(() => outline.inputValue(), "hexagon");
   await soon.ok(() => kind("Coin").isChecked());
   const untilKind = (name) => page.getByRole("radio", {name, exact: true, checked: true}).waitFor();
   await outline.selectOption({label: "Round corners"});
   await untilKind("Plaque");
   await outline.focus();
-  await outline.selectOption("circle"); // whose control moves into another panel
+  await outline.selectOption("circle"); // this choice moves the control into another panel
   await untilKind("Coin");
   await soon.equal(() => page.evaluate(() => document.activeElement.id), "outline");
   assert.deepEqual(await shown(), PANELS.Coin);
@@ -333,7 +333,7 @@ test("colours on the piece what a tool leaves standing", async () => {
   await page.getByText(/^The tool reaches [\d.]+ % of the front, and leaves up to [\d.]+ mm/).waitFor();
   let marked;
   await eventually(async () => assert.ok((marked = await orange()) > before + 5000, `${marked} after ${before}`));
-  await radio("Orbit").click(); // which it stays in every view
+  await radio("Orbit").click(); // the marked parts stay orange in every view
   await page.locator("#stage").focus();
   for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
   await untilReady(page);
@@ -361,7 +361,7 @@ test("moves, scales and turns the figure on its plate by hand", async () => {
   assert.ok(right > 2 && up > 1, `${right},${up}`);
   await soon.deepEqual(() => pieceSize(), before, "the plate stays as large as it was");
   await soon.equal(() => page.locator("#toast").getByText(/expected/).count(), 0);
-  const kept = await longer(); // too far for it: it stays on the plate, as large as it is
+  const kept = await longer(); // the next drag goes too far: the figure stays on the plate and keeps its size
   await drag([x + 30, y - 20], ...[100, 200, 300, 400].map((across) => [x + across, y - 20]));
   await untilReady(page);
   await soon.equal(() => longer(), kept);
@@ -396,7 +396,7 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await page.getByText("ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
   await soon.equal(() => page.locator("#scene li").count(), 1);
-  await engine.stop(); // the scans of a scene stay as long as it does
+  await engine.stop(); // the engine keeps a scene's scans as long as the scene
   await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);
@@ -422,7 +422,7 @@ test("takes what is changed while a scan is still opening", async () => {
   await openPanels(other);
   await enter(other.locator("#crop"), "0,0.4,1,1");
   await enter(field("Height in mm", other), "2.5");
-  await untilTimersRan(other, 300); // what the page would ask too early, it has asked by then
+  await untilTimersRan(other, 300); // a request that the page sends too early has been sent by then
   await other.evaluate(() => window.letOpen());
   await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
   await untilReady(other);
@@ -451,10 +451,10 @@ test("keeps the view that was asked for last when the one before it arrives late
   await crop.evaluate(async (field) => {
     for (field.value of ["0,0.4,1,1", "0,0.1,1,1"]) {
       field.dispatchEvent(new Event("change"));
-      await new Promise((resolve) => setTimeout(resolve)); // the engine is asked
+      await new Promise((resolve) => setTimeout(resolve)); // the page sends its request
     }
   });
-  await eventually(async () => assert.ok((await points(other)) < whole)); // the first has arrived
+  await eventually(async () => assert.ok((await points(other)) < whole)); // the points of the first crop have arrived
   const part = await points(other);
   await soon.equal(() => crop.inputValue(), "0,0.1,1,1");
   await soon.ok(() => other.locator('[role="application"][aria-busy="true"]').isVisible());
@@ -465,7 +465,7 @@ test("keeps the view that was asked for last when the one before it arrives late
   await other.close();
 });
 
-// Returns a normal of a ball at random.
+// Returns the normal at a random point of a ball.
 function anyNormal(random) {
   const z = 2 * random() - 1, angle = 2 * Math.PI * random(), r = Math.sqrt(1 - z * z);
   return [r * Math.cos(angle), r * Math.sin(angle), z];
@@ -491,7 +491,7 @@ function writeBallOnTable(file) {
   writePoints(file, points);
 }
 
-// Writes a ball with a small one beside it, of .4 % of its area.
+// Writes a ball and beside it a small one with .4 % of its area.
 function writeBallWithCrumb(file) {
   const random = randomNumbers(1), ball = (count, radius, x) => Array.from({length: count}, () => {
     const normal = anyNormal(random), [a, b, c] = normal.map((y) => y * radius);
@@ -502,7 +502,7 @@ function writeBallWithCrumb(file) {
 
 test("leaves out a small piece, and keeps it or not at the press of a button", async () => {
   const file = path.join(folder, "crumb.ply"), crumbs = page.locator("#crumbs");
-  const untilWide = (least, most) => eventually(async () => { // the piece, in its heights
+  const untilWide = (least, most) => eventually(async () => { // limits for the piece's width over its height
     const wide = (await pieceSize()).reduce((x, y) => x / y);
     assert.ok(wide > least && wide < most, `${wide}`);
   });
@@ -512,7 +512,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
-  await untilWide(1.15, 1.25); // from -1 to 1.465 radii, of a margin of a tenth
+  await untilWide(1.15, 1.25); // width 2.465 and height 2 radii, with margins added
   await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();
@@ -520,7 +520,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await soon.ok(async () => !await crumbs.isChecked());
 });
 
-// Writes a picture of depths, which has 16 bits in grey, as a TIFF.
+// Writes a depth image as a TIFF with 16 bits of grey.
 function writeDepths(file, width, height, depthAt) {
   const depths = Uint16Array.from({length: width * height}, (_, i) => depthAt(i % width, Math.floor(i / width)));
   const FIRST = 8, end = FIRST + depths.byteLength, SHORT = 3;
@@ -573,7 +573,7 @@ test("finds a table, and leaves it out at the press of a button", async () => {
   await soon.equal(() => note(/fills its whole frame/).count(), 0);
 });
 
-// Writes the points of a waving surface as a glTF file with its buffer beside it, and returns both files.
+// Writes the points of a wavy surface as a glTF file with its buffer in another file, and returns both paths.
 function writeGltf() {
   const n = 60, places = [];
   for (let i = 0; i < n * n; ++i) {

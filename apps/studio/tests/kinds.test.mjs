@@ -1,11 +1,11 @@
-// Kinds of work: their numbers are those of their files, and what each takes along.
+// Kinds of work: numbers on the page are those of the files, and each kind has settings of its own.
 import assert from "node:assert/strict";
 import {choose, chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, soon,
   test, undo, undoAll, untilTaken, untilText, withPage} from "./page_suite.mjs";
 import {enter, eventually, readStl, untilReady} from "./support.mjs";
 
 withPage("green_man", 5000, async () => {
-  await chooseView("Back"); // from behind parts lie below the ground
+  await chooseView("Back"); // seen from behind, parts of the model lie below the ground
   await enter(option("resolution"), "0.3");
   await untilReady(page);
 });
@@ -17,10 +17,10 @@ async function set(values) {
   await untilTaken();
 }
 
-// Returns the document's options as they are kept.
+// Returns the document's options that the engine has kept.
 const kept = async () => (await engine.newestStep(scan)).options;
 
-// Exports the piece that is shown. Returns its name, its size and what the dialog says of it.
+// Exports the piece that is shown. Returns the file's name and size, and the size that the dialog states.
 async function exported() {
   await openExport();
   const told = sizeIn(await page.locator("#export-size").innerText()), [{name, bytes}] = await exportFiles();
@@ -88,7 +88,7 @@ test("says in its hint what a seal is, and begins one of its own beside the die 
 });
 
 test("uses no tool for a lithophane, and has it again for a coin", async () => {
-  await set({resolution: "1"}); // a tool's reach takes long
+  await set({resolution: "1"}); // the reach of a tool takes long to compute
   await option("tool").selectOption("Ball end");
   await page.getByText(/^The tool reaches/).waitFor();
   await option("finish").selectOption("Reachable");
@@ -132,7 +132,7 @@ test("names the files of each kind", async () => {
 
 test("says why a figure that fills its plate does not move", async () => {
   await set({plate: "90x120"});
-  const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly as large as fits
+  const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly the largest that fits
   await set({width: longer});
   await choose("Place");
   const [x, y] = await middleOf(page.locator("#stage"));

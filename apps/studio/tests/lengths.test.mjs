@@ -1,4 +1,4 @@
-// Numbers as the page reads them, by the cases that the library is tested by, too.
+// The page reads numbers as the library does: both are tested by the same cases.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {test} from "node:test";

@@ -142,13 +142,13 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// Each of these keeps a thread of the server for as long as it may: 7 MB are more than a connection holds by itself.
+// Each of these occupies a thread of the server as long as it may: a connection buffers less than an answer's 7 MB.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {
     const first = Array.from({length: 10}, () => new Promise((resolve) => {
       const socket = connect();
-      socket.once("readable", () => resolve(socket.read(1)?.toString())); // and nothing more
+      socket.once("readable", () => resolve(socket.read(1)?.toString())); // reads one byte and nothing more
       socket.write(`${head("api/frame")}Content-Length: ${body.length}\r\n\r\n${body}`);
       deaf.push(socket);
     }));

@@ -10,10 +10,10 @@ let options;
 
 withBrowser(async () => {
   writeSample("still_life", 5000, scan);
-  // What the engine is asked is looked at, not its pictures: they get a quarter of the pixels.
-  const fewer = found.name === "chromium" ? {deviceScaleFactor: 0.5} : {}; // Firefox's driver may not know it
+  // These tests compare requests, not pictures, so pictures get a quarter of the pixels.
+  const fewer = found.name === "chromium" ? {deviceScaleFactor: 0.5} : {}; // Firefox's driver may not support this
   const first = await (await browser.newContext({viewport: DESK, ...fewer})).newPage();
-  await first.addInitScript(() => { // Firefox's driver does not tell what a request sends
+  await first.addInitScript(() => { // Firefox's driver does not report the bodies of requests
     const {fetch} = window;
     window.fetch = (url, options) => {
       if (url === "api/frame") window.frame = JSON.parse(options.body);
@@ -27,8 +27,8 @@ withBrowser(async () => {
   return first;
 });
 
-// A value of each option that is not its default, what must be set before so that its control is shown, and what the
-// engine gets where that is not the value.
+// For each option a value that is not its default, and the options or the kind that must be set first so that its
+// control is shown.
 const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
   alpha: {value: 3, first: {saturation: 0.5}},
@@ -60,7 +60,7 @@ async function setShape(option, text) {
   for (const [parameter, value] of values) await enter(row.getByLabel(labels[parameter]), value);
 }
 
-// Sets an option by its control, as a hand would.
+// Sets an option by its control, as a user does.
 async function set(name, value) {
   const it = control(name);
   if (["base", "wrap", "tool"].includes(name)) return setShape(name, value);
@@ -93,7 +93,7 @@ test("has a control for each option of the table", async () => {
   assert.deepEqual(beyond, [], "fields stick out of their rows");
 });
 
-// What differs between browsers is how a control is set: Firefox sets one of each kind.
+// Browsers differ only in how controls are set, so Firefox sets one control of each kind.
 const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "plane", "denoise", "plate", "rim"];
 const cases = Object.entries(CASES).filter(([name]) => found.name !== "firefox" || KINDS.includes(name));
 
@@ -141,7 +141,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await soon.equal(() => field("Tool: Angle").inputValue(), "60");
   await enter(field("Tool: Tip"), "0.5");
   await reaches(({options}) => options.tool === "v:60:0.5");
-  await enter(field("Tool: Angle"), ""); // which a bit cannot do without
+  await enter(field("Tool: Angle"), ""); // a V bit must have an angle
   await untilText(field("Tool: Angle"), "60");
   await control("tool").selectOption({label: "Ball end"});
   await enter(field("Tool: Diameter"), "1/8in");
@@ -157,14 +157,14 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await page.locator("#unit").selectOption("mm");
   await page.locator('[data-kind="shell"]').click();
   await soon.equal(() => field("Bent around: Around by").inputValue(), "180");
-  await enter(field("Bent around: Diameter"), "200"); // in place of the angle
+  await enter(field("Bent around: Diameter"), "200"); // replaces the angle
   await reaches(({options}) => options.wrap === "cylinder:diameter=200");
   await page.getByLabel("Bent around: On the inside").check();
   await reaches(({options}) => options.wrap === "cylinder:diameter=200,inside");
   await page.locator('[data-kind="relief"]').click();
   await control("base").selectOption({label: "Wave"});
   await reaches(({options}) => options.base === "wave");
-  await page.locator(".shape").filter({has: control("base")}).evaluate((row) => { // both at once
+  await page.locator(".shape").filter({has: control("base")}).evaluate((row) => { // sets both parameters at once
     for (const [i, value] of ["3", "40"].entries()) {
       const [, input] = [...row.querySelectorAll(".parameter")][i].children;
       input.value = value;
@@ -176,7 +176,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await reaches(({options}) => options.base === "dome");
   await enter(field("Base: Diameter"), "300");
   await reaches(({options}) => options.base === "dome:diameter=300");
-  await enter(field("Base: Height"), "4"); // in place of the diameter
+  await enter(field("Base: Height"), "4"); // replaces the diameter
   await reaches(({options}) => options.base === "dome:height=4");
   await undoAll();
   await untilReady(page);
@@ -212,7 +212,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   await reaches(({options}) => !("base" in options) && !("base-image" in options));
   await undo();
   await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
-  await set("base", "dome:height=5"); // which has no image
+  await set("base", "dome:height=5"); // a dome has no image
   await reaches(({options}) => options.base === "dome:height=5" && !("base-image" in options));
 });
 
@@ -262,7 +262,7 @@ test("shows a relief without its base image when that is gone, says so, and take
   await reaches(({options}) => !("base" in options) && !("base-image" in options));
   await untilReady(page);
   await page.getByText("image.png is gone", {exact: true}).waitFor({state: "attached"});
-  await page.waitForFunction(areKindsDrawn); // whose requests the page sends, too
+  await page.waitForFunction(areKindsDrawn); // drawing the kinds sends requests, too
   await baseImage().locator("input").setInputFiles(image);
   await reaches(({options}) => options.base === "image" && options["base-image"]?.endsWith("/image.png"));
 });

@@ -1,4 +1,4 @@
-// What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
+// Texts and lines over and beside the piece, on a desk and a phone: messages, labels of measures, numbers.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
   plateLength, press, radio, scan, soon, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
@@ -24,12 +24,12 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await offer();
   await button("Locate it").click();
   await toast().getByText("Located.").waitFor();
-  await page.evaluate(() => window.takeBack()); // no other line goes with the offer
+  await page.evaluate(() => window.takeBack()); // no other message disappears with the offer
   await soon.ok(() => toast().isVisible());
   await button("Dismiss").click();
 });
 
-// The line ends so that its label would lie on that of the relief's height, or of its width.
+// The measured line ends where its label would cover the label of the relief's height or width.
 test("keeps the labels of measures apart", async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
@@ -38,7 +38,7 @@ test("keeps the labels of measures apart", async () => {
       all.map((rect) => rect.getBoundingClientRect().toJSON()));
     await eventually(async () => assert.equal((await labels()).length, 5));
     const stage = await page.locator("#stage").boundingBox(), figure = await page.locator("#overlay .bounds").boundingBox();
-    if (screen === SCREENS[0]) // elsewhere there is no room beside the plate: corners have the labels then
+    if (screen === SCREENS[0]) // other screens have no room beside the plate: labels are in the corners
       for (const label of await labels()) assert.ok(!overlap(label, figure), `${JSON.stringify(label)} on the figure`);
     for (const {x, y, width, height} of (await labels()).slice(0, 2)) {
       const [left, top] = [Math.max(stage.x + 5, x + width / 2 - 20), y + height / 2 + 8];
@@ -105,7 +105,7 @@ test("draws no more pixels on a large screen than the engine makes", async () =>
   await large.close();
 });
 
-// Returns for each quarter of the figure by how many pixels the edges of the model are off those of the relief.
+// Returns, for each quarter of the figure, the offset in pixels between the edges of the model and of the relief.
 const edgesOff = () => page.evaluate(async () => {
   const {width, height} = document.querySelector("#picture");
   const edges = (id) => {
@@ -137,7 +137,7 @@ const edgesOff = () => page.evaluate(async () => {
 });
 
 // Returns how opaque the model's picture is just within the piece on the left, right, above and below, and at the corners
-// of its box, which a round one does not fill.
+// of its box, which a round piece does not fill.
 const plateOpacity = () => page.evaluate(() => {
   const canvas = document.querySelector("#before"), [wide, high] = window.piece, context = canvas.getContext("2d");
   const near = [[-0.48, 0], [0.48, 0], [0, -0.48], [0, 0.48]], corners = [-0.45, 0.45].flatMap((x) => [[x, -0.45], [x, 0.45]]);
@@ -157,11 +157,11 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
   const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
   for (const [kind, fields] of Object.entries(kinds)) {
     await page.locator(`[data-kind="${kind}"]`).click();
-    await page.locator("[data-material=plaster]").click(); // as the model is drawn: metal has edges of its own
+    await page.locator("[data-material=plaster]").click(); // the model's material: metal shows other edges
     for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
     await eventually(async () => {
       await untilReady(page);
-      const off = (await edgesOff()).sort((a, b) => a - b); // a quarter with sloping walls or the rim may have others
+      const off = (await edgesOff()).sort((a, b) => a - b); // sloping walls or the rim may move one quarter's edges
       assert.ok(off[2] <= 2, `${kind}: ${off}`);
       if (kind === "coin") assert.deepEqual(await plateOpacity(), [255, 255, 255, 255, 0, 0, 0, 0]);
     });
@@ -230,7 +230,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
     await send("touchStart", fingers(100));
     for (let i = 1; i <= 8; ++i) await send("touchMove", fingers(100 - 5 * i, i * degrees / 8));
   };
-  await pinch(4); // as fingers that scale turn a little
+  await pinch(4); // fingers that scale also turn a little
   await send("touchEnd", []);
   const untilScaled = () => eventually(async () => {
     const {width} = await step();
@@ -250,7 +250,8 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await send("touchEnd", []);
   await eventually(async () => assert.notEqual((await step()).up, ""));
   const turned = await step(), [upX, upY] = turned.up.split(",").map(Number);
-  assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up); // the viewer to the right
+  // The model turns to the left, so `up` turns to the right.
+  assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up);
   assert.equal(turned.at, before.at + 1);
   await untilScaled();
   await undo(1, phone);

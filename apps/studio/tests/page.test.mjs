@@ -1,4 +1,4 @@
-// The studio as its users work in it, in Chromium or Firefox: found by role and label.
+// Works with the studio as its users do, in Chromium or Firefox: finds elements by role and label.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -17,7 +17,7 @@ withBrowser(async (isAnew) => {
   first.on("console", (message) => message.type() === "error" &&
     complaints.push(`${message.text()} ${message.location().url}`));
   await first.goto((await startEngine()).address);
-  await untilListening(first); // and keeps panels open
+  await untilListening(first); // from then on panels stay open
   await openPanels(first);
   if (isAnew) await showFile(scan, first);
   return first;
@@ -42,7 +42,8 @@ async function picture() {
   return Buffer.from(await read(), "base64");
 }
 
-// Returns the mean difference of two pictures' reds, up to 255. A locked height is met to a thousandth, not to the bit.
+// Returns the mean difference of two pictures' reds, up to 255. Pictures of a locked height may differ a little, as
+// frames meet it only to a thousandth.
 function difference(a, b) {
   if (a.length !== b.length) return 255;
   let sum = 0;
@@ -57,7 +58,7 @@ const becomes = (other, isSame) => eventually(async () => {
 });
 const becomesSame = (other) => becomes(other, true), becomesOther = (other) => becomes(other, false);
 
-// Returns the height of the newest frame, which need not be the one asked for.
+// Returns the height of the newest frame, which may differ from the height that was asked for.
 async function heightShown() {
   const title = await numbers().getAttribute("title");
   return Number(title.match(/reached ([\d.]+)/)[1]);
@@ -68,7 +69,7 @@ const untilHeight = (wanted, tolerance) => eventually(async () => {
   assert.ok(Math.abs(shown - wanted) <= tolerance, `the height stays at ${shown} instead of ${wanted}`);
 });
 
-// Shows the relief of a side.
+// Shows the relief in the view of that name.
 async function show(side) {
   await chooseView(side);
   await untilReady(page);
@@ -122,7 +123,7 @@ test("moves a slider that has the focus by wheel, and any by double click", asyn
   await slider("Steepest wall").hover();
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
-  await eventually(async () => { // again if the machine is so slow that these were two clicks
+  await eventually(async () => { // repeated, as a slow machine may make two clicks of a double click
     await doubleClick(slider("Steepest wall"));
     assert.equal(await value("Steepest wall in degrees"), 76);
   });
@@ -180,7 +181,7 @@ test("undoes and redoes, step by step", async () => {
   await untilHeight(3, 0.01);
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
-  let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
+  let steps = 0; // more than one on a slow machine, which presses the keys with pauses
   do await undo(); while (++steps < 30 && (await value("Edge emphasis value")) > 0);
   await soon.equal(() => value("Edge emphasis value"), 0);
   while (steps-- > 0) await button("Redo").click();
@@ -218,7 +219,7 @@ test("has sliders, defaults and units of the engine's options", async () => {
     const range = [await number.getAttribute("aria-valuemin"), await number.getAttribute("aria-valuemax")];
     assert.deepEqual(range, [`${min}`, `${max}`], name);
   }
-  const {"base-image": image, ...ofTable} = first; // a file, which the table has no row for
+  const {"base-image": image, ...ofTable} = first; // the image is a file, and the table has no row for files
   assert.equal(image, "");
   for (const name of Object.keys(ofTable)) option(name);
   for (const name of Object.keys(fields)) {
@@ -251,7 +252,7 @@ test("names what it reads and offers each outline, form and format of the engine
   await added.close();
 });
 
-// The curve that is on the page, as shares from 0 to 1.
+// Returns the values of the curve that the page draws, as shares from 0 to 1.
 const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAttribute("d")).split(/[ML]/).slice(1)
   .map((place) => 1 - Number(place.split(" ")[1]) / 150);
 
@@ -309,7 +310,7 @@ test("turns, lights, cuts and compares", async () => {
   const ends = async () => overlay.locator("circle.end").evaluateAll((all) =>
     all.map((circle) => ["cx", "cy"].map((name) => Number(circle.getAttribute(name)))));
   const [[x1, y1], [x2, y2]] = await ends();
-  await drag([box.x + x2, box.y + y2], middle); // takes that end, and leaves the other where it is
+  await drag([box.x + x2, box.y + y2], middle); // moves that end, and leaves the other where it is
   await eventually(async () => {
     const [[x, y], [x3]] = await ends();
     assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // pictures have a whole number of pixels
@@ -319,7 +320,7 @@ test("turns, lights, cuts and compares", async () => {
   await soon.ok(async () => (await page.locator("#section-chart text").count()) > 6);
   await page.locator("#section-chart").hover();
   await page.getByText(/^2\d\.\d+ mm along, height -?[\d.]+ mm$/).waitFor();
-  await drag(middle, [box.x + box.width - 4, middle[1]]); // beyond the plate, which has no heights there
+  await drag(middle, [box.x + box.width - 4, middle[1]]); // ends beyond the plate, where there are no heights
   await page.getByText(/Section, 110\.0 mm long/).waitFor();
   await radio("Measure").click();
   await overlay.getByText("110.00 mm", {exact: true}).waitFor();
@@ -327,10 +328,10 @@ test("turns, lights, cuts and compares", async () => {
   await page.mouse.move(...middle);
   await overlay.getByText(/^Height [\d.]+ mm$/).waitFor();
   let y = middle[1];
-  await eventually(async () => { // again if the picture had the size that it has beside a section
+  await eventually(async () => { // repeated, as the picture may still have its size beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
     const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
-    const plate = await plateLength(); // pixels of 110 mm
+    const plate = await plateLength(); // 110 mm in pixels
     assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
     const line = await overlay.locator("line.cut").boundingBox();
     const label = await overlay.getByText(told, {exact: true}).boundingBox();
@@ -351,7 +352,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   const middle = await middleOf(stage()), turned = [middle[0] + 80, middle[1] + 30];
   await press(middle, turned);
   await becomesOther(first);
-  await viewIs("Front"); // until the view rests
+  await viewIs("Front"); // the name stays until the view rests
   await page.keyboard.press("Escape");
   await page.mouse.move(middle[0] + 90, middle[1], {steps: 3});
   await page.mouse.up();
@@ -375,7 +376,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await viewIs("Front");
   await stage().press("ArrowRight");
   await viewIs("Turned by hand");
-  await stage().press("ArrowLeft"); // snaps to the side that it left
+  await stage().press("ArrowLeft"); // the view snaps to the side that it left
   await viewIs("Front");
   await becomesSame(first);
   await radio("Light").click();
@@ -421,7 +422,7 @@ test("saves a project, opens it again, and makes the same bytes of it", async ()
   assert.ok(count > 10000);
 });
 
-// Checks what was told of a file's size, such as "about 1.2 MB", against the file.
+// Compares a stated size of a file, such as "about 1.2 MB", with the file.
 function hasSizeTold(told, {length}) {
   const [, word, number, unit] = told.match(/^(about|at most)? ?([\d.]+) (kB|MB)$/);
   const share = Number(number) * (unit === "MB" ? 1e6 : 1e3) / length;
@@ -456,7 +457,7 @@ test("can be used by the keyboard alone", async () => {
     .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0 &&
       element.dataset.reached !== "yes").map((element) => element.outerHTML.slice(0, 90)));
   const all = (await missed()).length;
-  // Behind the last element, Tab would leave the page for the bars of the browser.
+  // After the last element, Tab would leave the page for the bars of the browser.
   for (let i = 0; i < all + 30 && (await missed()).length > 0; ++i) {
     await page.evaluate(() => (document.activeElement.dataset.reached = "yes"));
     if ((await missed()).length > 0) await page.keyboard.press("Tab");
@@ -464,7 +465,7 @@ test("can be used by the keyboard alone", async () => {
   await soon.deepEqual(() => missed(), [], `of ${all}`);
   const material = () => page.locator("#materials [aria-checked=true]").getAttribute("data-material");
   const before = await material();
-  await page.locator("#materials [aria-checked=true]").focus(); // in a group by arrows
+  await page.locator("#materials [aria-checked=true]").focus(); // within a group, arrow keys choose
   await page.keyboard.press("ArrowRight");
   await soon.notEqual(() => material(), before);
   await button("Undo").focus();
@@ -505,7 +506,7 @@ test("cancels", async () => {
   await page.getByRole("button", {name: /still life/i}).first().click();
   await button("Cancel").click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
-  await page.getByText("scan.ply", {exact: true}).first().waitFor();  // the scan before it
+  await page.getByText("scan.ply", {exact: true}).first().waitFor();  // the scan that was open before
   await soon.equal(() => value("Height in mm"), 2.5);
 });
 
@@ -513,7 +514,7 @@ test("shows whole names, the top of the help and the whole first picture on a ph
   await page.setViewportSize(PHONE);
   await untilReady(page);
   await button("Relievo, start page").click();
-  // In one step: a locator would find the names first, and the page may replace its cards before they are looked at.
+  // Reads all styles in one step, as the page may replace its cards between two steps of a locator.
   await eventually(async () => assert.deepEqual(await page.evaluate(() => {
     const styles = [...document.querySelectorAll("#recent span")].map((name) => getComputedStyle(name));
     return [...new Set(styles.map(({display, textOverflow}) => `${display} ${textOverflow}`))];
@@ -524,7 +525,7 @@ test("shows whole names, the top of the help and the whole first picture on a ph
   await page.keyboard.press("Escape");
   const covered = await page.locator("#progress").evaluate((box) => {
     box.hidden = false;
-    box.classList.remove("alone"); // a relief is there
+    box.classList.remove("alone"); // as if a relief were shown
     const stage = document.querySelector("#stage").getBoundingClientRect();
     const {top, right, bottom} = box.getBoundingClientRect();
     box.hidden = true;

@@ -1,4 +1,4 @@
-// The page of a suite in a browser, and the actions of its user, who finds elements by role and label.
+// Opens the page of a suite in a browser, and acts as its user, who finds elements by role and label.
 import assert from "node:assert/strict";
 import {rmSync} from "node:fs";
 import path from "node:path";
@@ -11,10 +11,10 @@ export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), s
 export const DESK = {width: 1280, height: 800}, TABLET = {width: 820, height: 1180}, PHONE = {width: 390, height: 844};
 export let browser, engine, page;
 
-let beginSuite; // starts the browser and what else a suite needs
+let beginSuite; // starts the browser and everything else that a suite needs
 
-// Gives the suite a browser. `begin` does what else comes before the tests, and may return the page that they share. It
-// is told whether the suite begins anew after a test that has failed.
+// Gives the suite a browser. begin(isAnew) prepares everything else for the tests, and may return the page that they
+// share; `isAnew` is true if the suite begins again after a failed test.
 export function withBrowser(begin) {
   beginSuite = async (isAnew) => {
     browser = await found.launch();
@@ -29,7 +29,7 @@ async function endSuite() {
   await engine?.stop();
 }
 
-// A test of the page. After one that fails, the suite begins anew, so that the next one finds what it expects.
+// A test of the page. If it fails, the suite begins anew, so that the next test finds the state that it expects.
 export const test = (name, act) => plainTest(name, {skip}, async (context) => {
   try {
     await act(context);
@@ -41,7 +41,7 @@ export const test = (name, act) => plainTest(name, {skip}, async (context) => {
   }
 });
 
-// Gives the suite a page that shows a scan, a sample with that many points, with all panels open.
+// Gives the suite a page with all panels open, which shows a sample with that many points.
 export function withPage(sample, points, begin = () => {}) {
   withBrowser(async () => {
     writeSample(sample, points, scan);
@@ -59,8 +59,8 @@ export async function startEngine(...args) {
   return engine;
 }
 
-// Assertions of node:assert on what a function reads of the page, which are repeated until they hold: a click or key may
-// have reached the browser, and not yet the page.
+// Assertions of node:assert on values that a function reads from the page. They are repeated until they hold, as a
+// click or key may have reached the browser, and not yet the page.
 export const soon = Object.fromEntries(["equal", "notEqual", "ok", "deepEqual", "match", "doesNotMatch"].map((name) =>
   [name, (read, ...wanted) => eventually(async () => assert[name](await read(), ...wanted))]));
 
@@ -123,7 +123,7 @@ export async function middleOf(locator) {
   return [x + width / 2, y + height / 2];
 }
 
-// Drags from a place through others, without letting go.
+// Drags from a place through others, without releasing the button.
 export async function press(from, ...through) {
   await page.mouse.move(...from);
   await page.mouse.down();
@@ -135,8 +135,8 @@ export async function drag(from, ...through) {
   await page.mouse.up();
 }
 
-// Shows the relief on a screen that is touched. Returns its page, send(type, points), fingers(apart, degrees) with the
-// places of two fingers about the middle of the picture, and close().
+// Shows the relief on a touch screen. Returns its page `touched`, its DevTools session `cdp`, send(type, points),
+// close(), and fingers(apart, degrees), which returns the places of two fingers about the middle of the picture.
 export async function touchScreen(viewport, isMobile = false) {
   const context = await browser.newContext({viewport, hasTouch: true, isMobile}), touched = await context.newPage();
   const cdp = await context.newCDPSession(touched);
@@ -150,20 +150,20 @@ export async function touchScreen(viewport, isMobile = false) {
   return {touched, cdp, send, fingers, close: () => context.close()};
 }
 
-// --------------------------------------------------------------------------------------------------- what is told
+// -------------------------------------------------------------------------------------------- texts on the page
 
 export const numbers = (of = page) => of.locator("#numbers");
 export const untilTold = (pattern, of = page) => of.locator("footer").getByText(pattern).waitFor();
 
-// Returns how many points of the scan are seen.
+// Returns the number of visible points of the scan.
 export const visiblePoints = async (of = page) =>
   Number((await numbers(of).innerText()).match(/^[\d,]+/)[0].replaceAll(",", ""));
 
-// Returns the sides of the piece.
+// Returns the width and height of the piece in mm.
 export const pieceSize = async () =>
   (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
 
-// Returns how many pixels the dimension of the plate is long.
+// Returns the length in pixels of the plate's dimension line.
 export const plateLength = (of = page) => of.locator("#overlay line.dimension").evaluateAll((lines) =>
   Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
 

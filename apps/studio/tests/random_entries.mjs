@@ -1,6 +1,6 @@
 // Types, chooses, undoes and exports at random moments and speeds, and compares fields, status line, dialog and file:
 //   node apps/studio/tests/random_entries.mjs SEQUENCES SEED
-// Sequence i of a seed S is the only one of seed S + i.
+// Sequence i of seed S is the first sequence of seed S + i.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {fileURLToPath} from "node:url";
@@ -50,7 +50,7 @@ export class RandomEntries {
     const last = await this.snapshot(), steps = await this.pressAll("Undo");
     await untilReady(page);
     assert.deepEqual(await this.snapshot(), first, "the first state, after all was undone");
-    await this.pressAll("Redo", steps); // what was undone before is behind that
+    await this.pressAll("Redo", steps); // `steps` does not count entries that were undone earlier
     await untilReady(page);
     assert.deepEqual(await this.snapshot(), last, "the last state, after all was redone");
     await this.pressAll("Undo");
@@ -69,12 +69,12 @@ export class RandomEntries {
     return String(number(RANGES[name]));
   }
 
-  // Types into a field that is there, and mostly confirms it.
+  // Types into a field if it is shown, and mostly confirms the entry.
   async type() {
     const name = this.oneOf(NUMBERS), text = this.valueFor(name);
     if (!(await this.enter(name, text))) return;
     for (const other of BESIDES[name] ?? []) delete this.typed[other];
-    const isMeant = name !== "shift" || this.typed.plate || this.typed.diameter; // no other plate has room to move on
+    const isMeant = name !== "shift" || this.typed.plate || this.typed.diameter; // only plates with a size have room
     if (isMeant) this.typed[name] = text;
   }
 
@@ -110,13 +110,13 @@ export class RandomEntries {
     await this.press("Redo");
   }
 
-  // A button takes what is typed before, which may enable it, or disable it.
+  // Pressing a button first takes what was typed, which may enable or disable the button.
   async press(name) {
     const pressed = button(name, this.page);
     this.done.push(name);
     await this.page.evaluate(() => document.activeElement.blur());
     if (await pressed.isDisabled()) return;
-    await pressed.click({timeout: 1000}).catch(() => {}); // it has nothing to do any more
+    await pressed.click({timeout: 1000}).catch(() => {}); // the button may be disabled by then
     this.typed = {};
   }
 
@@ -181,7 +181,7 @@ export class RandomEntries {
     this.near(numbers(found), numbers(wanted), `what was typed as ${name}`);
   }
 
-  // Returns the texts of the fields that count, and the kind.
+  // Returns the kind, and the texts of the fields of NUMBERS that are shown.
   snapshot() {
     return this.page.evaluate((names) => {
       const seen = {kind: document.querySelector('#kinds [aria-checked="true"]').textContent};

@@ -1,5 +1,5 @@
-// The page for whoever has a low screen, large type, forced colours or a finger: what is on it can be seen and reached,
-// and moves by nothing else than what is meant to move it.
+// The page on low screens, with large type, with forced colours and under a finger: all parts can be seen and reached,
+// and only the intended gestures move them.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, slider, soon, test, touchScreen, undo,
   undoAll, withPage} from "./page_suite.mjs";
@@ -7,7 +7,7 @@ import {eventually, openPanels, untilReady} from "./support.mjs";
 
 const ZOOMED = {width: 640, height: 400};
 
-withPage("shell", 6000, () => button("Dismiss").click()); // the offer of the tour
+withPage("shell", 6000, () => button("Dismiss").click()); // dismisses the offer of the tour
 
 test("moves the divider of the comparison by its line, and nothing else", async () => {
   const compare = button("Compare");
@@ -23,14 +23,14 @@ test("moves the divider of the comparison by its line, and nothing else", async 
     await soon.ok(async () => Math.abs(await page.locator("#split").inputValue() / 1000 - to) < 0.01);
   }
   await soon.ok(() => button("Undo").isDisabled(), "the light stays where it is");
-  await drag([x + 0.8 * width, y + 0.5 * high]); // beside the line a drag moves the light
+  await drag([x + 0.8 * width, y + 0.5 * high]); // a drag beside the line moves the light
   await soon.ok(() => button("Undo").isEnabled());
   await soon.ok(async () => Math.abs(await line() - 0.5) < 0.01);
   await undo();
   await compare.click();
 });
 
-// Returns the colour of a place of an element, in shares of its box.
+// Returns the colour of an element at a place, which is given in shares of its box.
 const colour = async (locator, right, down) => {
   const bytes = await locator.screenshot();
   return page.evaluate(async ([text, right, down]) => {
@@ -81,7 +81,8 @@ test("leaves the picture room at a zoom of 200 %", async () => {
     assert.ok(stage.width >= 300 && stage.height >= 180, `${tool}: ${stage.width} x ${stage.height}`);
     await soon.ok(() => page.locator(part).isVisible());
   }
-  await page.getByRole("button", {name: /notes? on the scan/}).click(); // which has what a higher screen offers, too
+  // The notes contain the offers that a higher screen shows, too.
+  await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.locator("#notes").getByRole("button", {name: "Keep them"}).waitFor();
   await radio("Light").click();
   await page.setViewportSize(DESK);
@@ -135,7 +136,7 @@ test("puts names, numbers and sliders in one order, curves within their box, and
     const [name, value, range] = await Promise.all([page.getByText("Denoise", {exact: true}),
       page.locator("#denoise-value"), page.locator("#denoise")].map((it) => it.boundingBox()));
     assert.ok(name.x + name.width < value.x && range.y >= name.y + name.height - 3 && range.width > 200);
-    await preset().selectOption("Even"); // along the upper end
+    await preset().selectOption("Even"); // this curve runs along the upper end
     const box = await page.locator("#curve svg").boundingBox();
     for (const part of ["path.drawn", "circle"])
       for (const it of await page.locator(`#curve ${part}`).all()) {
@@ -153,10 +154,10 @@ test("puts names, numbers and sliders in one order, curves within their box, and
     await page.setViewportSize(DESK);
   });
 
-// Runs in the page: the controls and other parts that a line for people lies on.
+// Runs in the page: returns the controls and other parts that a message covers.
 function covered() {
   const toast = document.querySelector("#toast").getBoundingClientRect();
-  const visible = (it) => { // the part of it that no scrolled part cuts away
+  const visible = (it) => { // the part of an element that no scrolled part cuts away
     const box = it.getBoundingClientRect();
     let [left, top, right, bottom] = [box.left, box.top, box.right, box.bottom];
     for (let parent = it.parentElement; parent; parent = parent.parentElement) {

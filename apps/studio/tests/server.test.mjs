@@ -1,4 +1,4 @@
-// Sends the server requests: those of its page, and those that do not come from it, are broken, or are too many.
+// Sends requests to the server: those of its page, foreign and broken ones, and too many.
 import assert from "node:assert/strict";
 import {spawn} from "node:child_process";
 import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
@@ -15,13 +15,13 @@ withEngine("shell", 20000);
 const status = async (answer) => (await answer).status;
 const facts = () => engine.json("facts");
 
-// Returns what is sent along with a picture's pixels; `part` replaces parts of the usual request.
+// Returns the facts that are sent with a picture's pixels; `part` replaces parts of the usual request.
 async function frame(part = {}) {
   const answer = await engine.post("frame", {...FRAME, ...part});
   assert.equal(answer.status, 200, String(answer.body));
   return JSON.parse(answer.headers["x-relievo"]);
 }
-// Returns the shorter side of the relief's box by the longer one.
+// Returns the shorter side of the relief's box divided by the longer one.
 async function shape() {
   const {size} = await facts();
   return size[1] / size[0];
@@ -66,7 +66,7 @@ test("refuses other hosts and origins", async () => {
     assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin}})), 403, Origin);
   assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
   assert.equal(await status(engine.request(pathname, {headers: {Host: `localhost:${port}`}})), 200);
-  const tunnel = {Host: "localhost:9000", Origin: "http://localhost:9000"}; // whose port is another one
+  const tunnel = {Host: "localhost:9000", Origin: "http://localhost:9000"}; // a tunnel has another port
   assert.equal(await status(engine.post("frame", FRAME, {headers: tunnel})), 200);
   assert.equal(await status(engine.post("frame", FRAME, {headers: {...tunnel, Origin: "http://localhost:9001"}})), 403);
   const foreign = await engine.request(pathname, {headers: {Host: "evil.example"}});
@@ -251,9 +251,9 @@ test("gives up a fine picture when another is asked for", async () => {
   const large = {...FRAME, width: 1600, height: 1500, fine: true};
   assert.equal((await engine.post("frame", large)).status, 200);
   const fine = engine.post("frame", {...large, light: [1, 0, 1]});
-  await sleep(50); // its drawing takes several times as long
+  await sleep(50); // drawing takes several times as long
   assert.equal((await engine.post("frame", FRAME)).status, 200);
-  const {status, body} = await fine; // a status of success: browsers write those of failure to their console
+  const {status, body} = await fine; // its status is one of success, as browsers write failures to their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);
   assert.equal((await engine.post("frame", large)).status, 200);
 });
@@ -326,7 +326,7 @@ test("finds the face of a scan, and sets it upright, whichever way the scanner h
   assert.equal(found[0].view, "front");
   assert.equal(found[1].view, "bottom");
   assert.deepEqual(found[1].rotation.map(Math.abs), [1, 0, 0, 0, 0, 1, 0, 1, 0]);
-  assert.equal(found[1].rotation[5], 1); // what was upwards in the scan is so on the relief
+  assert.equal(found[1].rotation[5], 1); // the scan's upward axis points up on the relief
   for (const i of [0, 1]) assert.ok(Math.abs(found[1].size[i] / found[0].size[i] - 1) < 0.01, `${found[1].size}`);
   await engine.open({path: scan});
 });
@@ -498,14 +498,14 @@ function cut(action, body, ms, promised = body.length) {
   });
 }
 
-// The first turn of a mesh in another view measures points of all its sides, which takes longer than a picture of what is shown.
+// The first turn of a mesh in another view measures points on all its sides, which takes longer than a picture.
 test("draws while the model is turned, and gives up a turn when another comes", async () => {
   const mesh = path.join(folder, "mesh.ply");
   run("make", scan, "-o", mesh, "--height", 4, "--width", 60, "--quiet");
   const input = {path: mesh}, {document} = await engine.json("open", {input, tab: "turning", points: 20000});
   const untilIdle = () => engine.until(({model, busy}) => model > 0 && !busy, document);
   await untilIdle();
-  await engine.post("view", {document, view: "left", points: 20000}); // whose points have not been measured from all sides
+  await engine.post("view", {document, view: "left", points: 20000}); // its points have not been measured on all sides
   await untilIdle();
   const order = [], ask = async (name, part) => {
     const answer = await engine.post("frame", {...FRAME, document, ...part});
@@ -513,10 +513,10 @@ test("draws while the model is turned, and gives up a turn when another comes", 
     return answer.status;
   };
   const turned = (x) => ({turned: {towards: [x, 0.1, 1], up: [0, 1, 0]}});
-  assert.equal(await ask("shown", {}), 200); // the next one is quick
+  assert.equal(await ask("shown", {}), 200); // makes the next picture quick
   order.length = 0;
   const first = ask("first turn", turned(0.3));
-  await sleep(150); // so that it has begun
+  await sleep(150); // until the turn has begun
   const shown = ask("shown", {}), second = ask("second turn", turned(0.4));
   assert.deepEqual([await first, await shown, await second], [202, 200, 200]);
   assert.ok(order.indexOf("shown") < order.indexOf("second turn"), `${order}`);

@@ -1,4 +1,4 @@
-// The sizes that pictures, the finished piece and its file tell, which are those of one piece.
+// Pictures, the finished piece and its file state the same sizes.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {engine, scan, withEngine} from "./engine_suite.mjs";
@@ -49,7 +49,7 @@ async function compare(name, options, extra = {}) {
   const quick = await frame({options, ...extra}), fine = await frame({options, fine: true, ...extra});
   const last = await frame({options, fine: true, finished: true, ...extra});
   assert.ok(last.is_finished && last.is_size_exact);
-  const wanted = {...options, height: last.height_mm}; // as the page asks for the file
+  const wanted = {...options, height: last.height_mm}; // the page asks for the file in this way
   const piece = await engine.json("piece", {options: wanted});
   const stl = readStl((await engine.post("export", {options: wanted, format: "stl"})).body);
   near(piece.size_mm, stl.size, 2e-5, "piece and file");

@@ -1,5 +1,5 @@
-// The states of the studio's page, for tests and pictures of each. A state is entered from the plain relief, which
-// shows one scan of a file with all panels open, and left for it again.
+// The states of the studio's page, for tests and pictures. Each state begins and ends at the plain relief, which shows
+// one scan of a file with all panels open.
 import {button, choose, field, undo} from "./page_suite.mjs";
 import {enter, untilReady} from "./support.mjs";
 
@@ -9,7 +9,7 @@ const nothing = () => {};
 
 const tool = (name) => ({enter: (page) => choose(name, page), leave: (page) => choose("Light", page)});
 
-// The changes of a state are taken back at once.
+// Takes the changes of a state back.
 const undone = (times) => async (page) => {
   await undo(times, page);
   await untilReady(page);
@@ -61,7 +61,7 @@ export const STATES = {
   "the start page": {enter: press("Relievo, start page"), leave: press("Back to the relief")},
 };
 
-// Opens several scans as a scene, which is its own document.
+// Opens several scans as a scene, which is a document of its own.
 export async function showScene(page, scans) {
   await page.locator("#file").setInputFiles(scans);
   await page.locator("#scene").waitFor();

@@ -20,8 +20,8 @@ withBrowser(async () => {
   return first;
 });
 
-// Runs in the page: the parts that scroll though they must not, which is upwards those around the picture and on a desk
-// dialogs and the start page, and sideways all.
+// Runs in the page: returns the parts that scroll though they must not. No part may scroll sideways; the parts around
+// the picture, and on a desk dialogs and the start page, may not scroll upwards.
 function scrolling() {
   const name = (it) => it.id || it.className || it.localName, all = [...document.querySelectorAll("*")];
   const around = "html, body, main, .studio, .work, #stage, #table, .status";
@@ -33,7 +33,7 @@ function scrolling() {
   return [...upwards, ...sideways].map(name);
 }
 
-// Runs in the page: what lies beyond the screen on the left or the right.
+// Runs in the page: returns the elements that reach beyond the screen on the left or the right.
 function beyond() {
   return [...document.querySelectorAll("body *")].filter((it) => it.checkVisibility() && !it.closest("defs"))
     .filter((it) => {
@@ -42,7 +42,7 @@ function beyond() {
     }).map((it) => it.outerHTML.slice(0, 90));
 }
 
-// Runs in the page: the controls of a part that a hand does not reach. Only what scrolls is scrolled for that.
+// Runs in the page: returns the controls of a part that a user cannot reach, even by scrolling.
 function unreached(part) {
   const problem = (it) => {
     it.scrollIntoView({block: "nearest", inline: "nearest"});
@@ -61,7 +61,7 @@ function unreached(part) {
     .filter(([what]) => what);
 }
 
-// Runs in the page: texts that are cut. The title of a scan may be, where it stands beside the buttons.
+// Runs in the page: returns the texts that are cut. The title of a scan may be cut if it stands beside the buttons.
 function cut() {
   const title = innerWidth < 800 && innerHeight > 560 ? "#title, " : "";
   return [...document.querySelectorAll(`${title}button, legend, h2, #numbers, .labels span, .pair > span`)]
@@ -70,8 +70,8 @@ function cut() {
     .map((it) => it.outerHTML.slice(0, 90));
 }
 
-// Runs in the page: texts of less than 12.5 pixels, or what that is where all type is larger. Drawings with texts
-// are as many units wide as they have pixels, once they are drawn anew after a change of their size.
+// Runs in the page: returns the texts of less than 12.5 pixels, or of more if all type is larger. The units of drawings
+// are pixels, once they are drawn anew after a change of their size.
 function small() {
   const least = 12.5 / 14.5 * parseFloat(getComputedStyle(document.documentElement).fontSize);
   const hasText = (it) => it.matches("input, select") || [...it.childNodes].some((node) =>
@@ -81,8 +81,8 @@ function small() {
     .filter((it) => !it.matches(".mark") && size(it) < least).map((it) => [size(it), it.outerHTML.slice(0, 90)]);
 }
 
-// Runs in the page: the rows of tools where there are more than one on a desk and two on a phone. A low screen has them
-// in a column.
+// Runs in the page: returns the rows of tools if there are more than one on a desk, or more than two on a phone. Low
+// screens show the tools in a column.
 function wrapped() {
   if (innerHeight <= 560) return [];
   const boxes = [...document.querySelectorAll(".tools button")].map((it) => it.getBoundingClientRect());
@@ -100,7 +100,7 @@ async function misfits(screen, part) {
   return all.filter(({found}) => found.length > 0);
 }
 
-// Axe looks at the page in these media, in Firefox in the last alone, as it reads styles and not pixels.
+// Axe checks the page in these media. In Firefox the last one suffices, as axe reads styles and not pixels.
 const ALL_MEDIA = [{screen: PHONE}, {screen: PHONE, colorScheme: "dark"}, {colorScheme: "dark"},
   {forcedColors: "active"}, {}];
 const MEDIA = found.name === "firefox" ? ALL_MEDIA.slice(-1) : ALL_MEDIA;
@@ -111,14 +111,14 @@ async function assertFits(part = "body") {
   assert.deepEqual(all, []);
 }
 
-// Returns what axe finds on the page as it is, as its rules and the elements that break them.
+// Returns the rules of axe that elements of the page break, each with its element.
 async function findings() {
   if (!await page.evaluate(() => "axe" in window)) await page.evaluate(axe);
   return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
     .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
 }
 
-// A test within the state's, so that its skipping is told where axe is missing; in CI that is a failure.
+// A test of its own within the state's test: it is reported as skipped if axe is missing, or fails then in CI.
 const hasNoFindings = (state) => state.test("has no findings of axe", {skip: !process.env.CI && missing}, async () => {
   assert.ok(!missing, missing);
   for (const {screen = DESK, colorScheme = "light", forcedColors = "none"} of MEDIA) {
@@ -134,7 +134,7 @@ test("fits every screen before the first scan", async (state) => {
   await page.locator("#file").setInputFiles(scans[0]);
   await untilReady(page);
   await openPanels(page);
-  await page.locator("#toast").waitFor(); // the offer of the tour
+  await page.locator("#toast").waitFor(); // dismisses the offer of the tour
   await button("Dismiss").click();
 });
 
@@ -160,7 +160,7 @@ for (const [name, {enter, leave, part}] of Object.entries(STATES))
 
 test("fits every screen: a scene", async (state) => {
   await showScene(page, scans);
-  // A line says for eight seconds that work is kept.
+  // Closes the message that work is kept, which would stay for eight seconds.
   await page.locator("#toast").evaluate((toast) => toast.hidden || toast.querySelector(".close").click());
   await assertFits();
   await hasNoFindings(state);

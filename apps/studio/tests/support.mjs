@@ -12,14 +12,14 @@ const FIREFOX = [process.env.FIREFOX, "/usr/bin/firefox-esr", "/usr/bin/firefox"
 const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
   "--disable-background-networking", "--disable-component-update"];
 
-// All waits end when what they wait for comes. This is how long it may take on a machine that is busy with other work.
+// The longest time that a test waits for anything, on a machine that is busy with other work.
 export const PATIENCE_MS = Number(process.env.RELIEVO_PATIENCE_MS ?? 240000);
 
 const folders = [];
 const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true, maxRetries: 5});
 process.on("exit", () => folders.forEach(removeFolder));
 
-// Returns a folder that goes with this process.
+// Returns a new folder, which is removed when this process ends.
 export function temporaryFolder() {
   folders.push(mkdtempSync(path.join(tmpdir(), "relievo-studio-")));
   return folders.at(-1);
@@ -33,7 +33,7 @@ export const pageModule = (name) => {
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-// `relievo studio` with its own state folder.
+// Runs `relievo studio` with a state folder of its own.
 export class EngineProcess {
   constructor(state, ...args) {
     const page = process.env.RELIEVO_PAGE ? ["--page", process.env.RELIEVO_PAGE] : []; // for work on the page
@@ -73,7 +73,7 @@ export class EngineProcess {
     });
   }
 
-  // Concerns the document that was opened last, unless the body names another or is a text.
+  // Sends a request about the document that was opened last, unless the body names another or is a text.
   post(action, json, options = {}) {
     const isText = typeof json === "string" || Buffer.isBuffer(json);
     const body = isText ? json : JSON.stringify({document: this.document, ...json});
@@ -108,8 +108,8 @@ export class EngineProcess {
     });
   }
 
-  // Waits until the status of a document is as `isMeant` says, which is asked again after each pause. By itself it
-  // waits until nothing is prepared.
+  // Asks for the status of a document, with pauses, until isMeant(status) is true; by default, until nothing is being
+  // prepared.
   async until(isMeant = ({busy}) => !busy, document = this.document, pauseMs = 20) {
     for (const end = Date.now() + PATIENCE_MS; Date.now() < end; await sleep(pauseMs)) {
       const status = await this.json("status", {document});
@@ -129,12 +129,12 @@ export class EngineProcess {
     return {status: answer.status, ...JSON.parse(answer.body)};
   }
 
-  // Returns the document of an input as it is kept.
+  // Returns the kept document of an input.
   async kept(input) {
     return (await this.json("document", {input})).kept;
   }
 
-  // Returns what was changed last of a scan that is kept.
+  // Returns the newest step of a kept scan.
   async newestStep(scan) {
     const {steps, at} = await this.kept({path: scan});
     return steps[at];
@@ -155,7 +155,7 @@ export function run(...args) {
 // Writes a sample with that many points into a file.
 export const writeSample = (sample, points, file) => run("sample", sample, "-o", file, "--points", points);
 
-// Writes two scans into a folder under names that are not those of samples. Returns their places.
+// Writes two scans into a folder under names that are not those of samples. Returns their paths.
 export function writeScans(folder, points) {
   const scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
   for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], points, scan);
@@ -171,10 +171,10 @@ export async function untilReady(page) {
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
 }
 
-// Waits until the page's program has begun: before, the page takes no clicks, but a script could change its fields.
+// Waits until the page's program has begun: before that, the page takes no clicks, but scripts could change its fields.
 export const untilListening = (page) => page.locator("body:not([inert])").waitFor();
 
-// Holds the requests of a page to an address back. Returns a function that lets them go, and all that follow.
+// Holds the requests of a page to an address back. Returns a function that lets these and all later ones go.
 export async function holdRequests(page, address) {
   let letGo;
   const held = new Promise((resolve) => (letGo = resolve));
@@ -185,8 +185,7 @@ export async function holdRequests(page, address) {
   return letGo;
 }
 
-// Waits by the clock of the page itself, so that all that it has put off for less than that has happened, however busy
-// the machine is.
+// Waits by the page's own clock, so that all its timers of less than that time have run, however busy the machine is.
 export const untilTimersRan = (page, ms) =>
   page.evaluate((ms) => new Promise((resolve) => setTimeout(resolve, ms)), ms);
 
@@ -206,7 +205,7 @@ export async function showScan(browser, {state, scan, screen = {width: 1280, hei
   return {engine, page};
 }
 
-// Runs in the page: whether each kind of work has its picture, of the exact relief.
+// Runs in the page: returns whether each kind of work shows a picture of the exact relief.
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button")].every((card) =>
   card.dataset.drawn === "exact");
 
@@ -256,8 +255,8 @@ function without(missing) {
   return {skip};
 }
 
-// Gives all pages of a browser the tests' patience, and an engine that is as slow as the environment asks for: with it,
-// a test that does not wait for what it checks fails, as it would on a busy machine.
+// Sets PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS, so that a test that does
+// not wait for the values that it checks fails, as it would on a busy machine.
 function patient(browser) {
   const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
   const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed
@@ -279,8 +278,8 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
     return without(`${name} is not installed (apt-get install ${isFirefox ? "firefox-esr" : "chromium"})`);
   try {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
-    const folder = isFirefox ? temporaryFolder() : null; // of downloads
-    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // which takes the focus from the page
+    const folder = isFirefox ? temporaryFolder() : null; // for downloads
+    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // it would take the focus from the page
     const settings = {executablePath, timeout: PATIENCE_MS}, start = () => (isFirefox
       ? firefox.launch({...settings, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
       : chromium.launch({...settings, args: CHROMIUM_FLAGS}));
@@ -319,7 +318,7 @@ export async function savedFiles({folder}, page, count, trigger) {
   return (await Promise.all(files)).sort((a, b) => (a.name < b.name ? -1 : 1));
 }
 
-// Returns the number of triangles of a binary STL, the size of their box, and whether every edge has two of them.
+// Returns the number of triangles of a binary STL, the size of their box, and whether every edge has two triangles.
 export function readStl(bytes) {
   const count = bytes.readUInt32LE(80), box = {min: Array(3).fill(Infinity), max: Array(3).fill(-Infinity)};
   const edges = new Map(), at = (offset) => [0, 4, 8].map((i) => bytes.readFloatLE(offset + i));

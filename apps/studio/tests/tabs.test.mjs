@@ -1,4 +1,4 @@
-// Several tabs of one browser on one studio.
+// Several tabs of one browser use one studio.
 import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -14,7 +14,7 @@ withBrowser(async () => {
   for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]])
     writeSample(sample, points, fileOf(sample));
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
-  await context.addInitScript(() => { // a tab that is deaf hears nothing of what the engine tells by itself
+  await context.addInitScript(() => { // a deaf tab ignores the events that the engine sends
     Object.assign(window, {told: [], missed: []});
     new BroadcastChannel(location.pathname).onmessage = ({data}) => window.told.push(data);
     window.EventSource = class extends EventSource {
@@ -36,7 +36,7 @@ async function newTab() {
 test("works in nine tabs at once, whichever has the stream of events", async () => {
   const tabs = [];
   for (let i = 0; i < 9; ++i) tabs.push(await newTab());
-  for (const closed of [0, 4]) await tabs[closed].close(); // the first has the stream
+  for (const closed of [0, 4]) await tabs[closed].close(); // the first tab receives the stream of events
   const left = tabs.filter((tab) => !tab.isClosed());
   ({document: engine.document} = await engine.json("document", {input: {path: scan}}));
   await engine.prepare({view: "left"});
@@ -62,7 +62,7 @@ const openScan = async (of, sample) => {
   await untilPoints(of, {shell: "6,000", green_man: "5,000"}[sample]);
 };
 
-// Waits until the height that a tab shows is kept, and all tabs know.
+// Waits until the engine has kept the height that a tab shows, and all tabs have received this.
 const untilTold = (of, tabs) => eventually(async () => {
   const document = new URL(of.url()).hash.slice(1), {recent} = await engine.json("recent");
   const kept = await engine.kept(recent.find((entry) => entry.document === document).input);
@@ -142,7 +142,7 @@ test("is one document in two tabs", async () => {
   const crop = (of) => of.locator("#crop"), crops = async () => [await crop(tab).inputValue(),
     await crop(other).inputValue()];
   await tab.locator("#scan").evaluate((panel) => (panel.open = true));
-  for (const [typed, taken] of [["0,0.3,1,1", "0,0.3,1,1"], ["abc", "0,0.3,1,1"], ["", ""]]) { // one is refused
+  for (const [typed, taken] of [["0,0.3,1,1", "0,0.3,1,1"], ["abc", "0,0.3,1,1"], ["", ""]]) { // the second is refused
     await enter(crop(tab), typed);
     if (typed !== taken) await tab.getByText(/expected left, bottom, right and top as shares/).waitFor();
     await eventually(async () => {
@@ -187,7 +187,7 @@ test("shows what another page kept later, and says so where a change of its own 
   await untilHeight(tab, "5.50");
   await soon.ok(async () => !await toast(tab).isVisible());
   await tab.evaluate(() => (window.isDeaf = true));
-  await keep(4.75, 600000); // later than what this page changes now, however busy the machine is
+  await keep(4.75, 600000); // later than this page's next change, however busy the machine is
   await tab.waitForFunction((changed) => window.missed.some((status) => status.kept?.changed === changed),
     kept.changed);
   await soon.equal(() => height(tab).inputValue(), "5.50");
@@ -204,7 +204,7 @@ test("shows the newer work that it finds with the next engine, and says so", asy
   const file = path.join(state, "documents", `${document}.json`), newer = JSON.parse(readFileSync(file));
   assert.equal(newer.changed, kept.changed);
   newer.steps[newer.at].options.height = 6.5;
-  writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 1200000})); // as another page has it kept
+  writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 1200000})); // as if another page had kept this
   await startEngine();
   await untilSaid(tab, "The engine is back. It had newer work on this scan, which is shown here.");
   await untilHeight(tab, "6.50");
@@ -233,7 +233,7 @@ test("opens a project saved with its scan in another studio, where the scan is n
 });
 
 test("asks for a scan that has moved, takes no other for it unasked, and goes on with it", async () => {
-  await engine.stop(); // it may have ended by itself, as no page was there for a while
+  await engine.stop(); // the engine may have ended by itself, as no page was open for a while
   await startEngine(scan);
   const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
   await openScan(tab, "shell");
@@ -292,7 +292,7 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
   await button("Back to the relief", tab).click();
   await untilPoints(tab, "150,000");
   rmSync(path.join(place, "documents"), {recursive: true});
-  writeFileSync(path.join(place, "documents"), ""); // so that nothing can be kept there
+  writeFileSync(path.join(place, "documents"), ""); // a file in place of the folder, so that nothing can be kept
   await choose(tab, fileOf("green_man"));
   const said = toast(tab).getByText(/^Your work is not kept/);
   await said.waitFor();

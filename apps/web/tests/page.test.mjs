@@ -42,7 +42,7 @@ before(async () => {
 after(() => fs.rmSync(scans, {recursive: true, force: true}));
 const scan = (name) => path.join(scans, name);
 
-// The page in a browser, as somebody uses it.
+// The page in a browser, and the actions of its user.
 class Studio {
   constructor(found, page, downloads) {
     Object.assign(this, {found, page, downloads, errors: []});
@@ -191,7 +191,7 @@ test("a base takes an image, which the browser and a project keep", options, asy
   await other.open(project);
   await other.untilReady("20,000");
   const solids = [await studio.exported("kept.stl"), await other.exported("opened.stl")].map(admesh);
-  assert.ok(solids[0].height > 12, `${solids[0].height} mm`); // 8 mm without the image
+  assert.ok(solids[0].height > 12, `${solids[0].height} mm`); // without the image it would be 8 mm
   assert.deepEqual(solids[1], solids[0]);
   if (native && fs.existsSync(native)) {
     const made = path.join(studio.downloads, "native.stl");
