@@ -20,7 +20,7 @@ def scan():
 
 @cache
 def still_life():
-    """Returns one with several bodies."""
+    """Returns a small generated scan of several objects."""
     return relievo.sample("still_life", points=3000)
 
 
@@ -30,7 +30,7 @@ def make(source, **options):
 
 
 class InFolder(unittest.TestCase):
-    """Tests in a folder of their own, in which scan.ply and other.ply are."""
+    """Runs tests in a folder of their own, which contains scan.ply and other.ply."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

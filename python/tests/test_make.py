@@ -1,4 +1,4 @@
-"""Reliefs have the bytes that the command line writes, whatever they are made of."""
+"""Reliefs of all kinds of inputs have the bytes that the command line writes."""
 
 import inspect
 import json

@@ -18,7 +18,7 @@ def resident_mb():
 
 
 def least_growth_mb(parts, run):
-    """Runs it so often and returns by how much the memory grew in the best part: what leaks does so in each."""
+    """Calls run() `parts` times, and returns the least growth of memory in a call. A leak shows in every call."""
     growths = []
     for _ in range(parts):
         before = resident_mb()

@@ -1,4 +1,4 @@
-"""Stages against closed forms and identities."""
+"""Stages agree with closed forms and identities."""
 
 import unittest
 
@@ -7,7 +7,7 @@ import relievo
 
 
 def sphere(radius, points=4000):
-    """Returns points on a sphere, evenly, and their normals."""
+    """Returns evenly spaced points on a sphere, and their normals."""
     i = np.arange(points) + 0.5
     z, turn = 1 - 2 * i / points, np.pi * (1 + 5**0.5) * i
     r = np.sqrt(1 - z * z)
@@ -16,7 +16,7 @@ def sphere(radius, points=4000):
 
 
 def grid(n):
-    """Returns the points of a square of side 2 around the origin, a little off a lattice."""
+    """Returns the points of a jittered lattice over a square of side 2 around the origin."""
     x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n))
     inside = (abs(x) < 1) & (abs(y) < 1)
     noise = np.random.default_rng(1).normal(0, 0.1 / n, x.shape)

@@ -9,7 +9,7 @@ OPTIONS = ["--method", "linear", "--height", "2", "--width", "30", "--resolution
 
 
 def write_scan(path, seed, points=1500):
-    """Writes a cloud with normals: an ellipsoid of its own proportions with its own waves."""
+    """Writes a cloud with normals: an ellipsoid with waves, both chosen by the seed."""
     draw = random.Random(seed)
     a, b, c = (draw.uniform(0.6, 1.4) for _ in range(3))
     waves, depth = draw.randint(2, 6), draw.uniform(0.02, 0.15)

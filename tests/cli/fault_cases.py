@@ -100,12 +100,13 @@ def batch(workshop, kind, chance, number):
         if kind != "folder gone":
             place.check_foreign_files()
             for name, content in files_in(place.out).items():
-                is_of_all = name == "contact-sheet.png"  # of the scans that were made
+                is_of_all = name == "contact-sheet.png"  # shows the scans that were made
                 require(is_of_all or name not in whole or content == whole[name], name, "is not whole")
         place.faults[Faults.CLOCK] = 0
         is_of_others = place.out.is_dir() and any(place.out.iterdir()) and not place.is_marked()
         code, _, errors = finish(place.start(batch_command(place), {}))
-        if kind == "folder gone" and is_of_others:  # the mark went while files came, so that nobody knows whose they are
+        # If files were written after the mark was removed, the folder counts as foreign.
+        if kind == "folder gone" and is_of_others:
             require(code == 2, "a folder of others is taken", code, errors[:2000])
             return has_hit
         require(code == 0, "the next run ends with", code, errors[:2000])

@@ -1,4 +1,4 @@
-"""Where scripts/fault-campaign makes its faults: the numbers that make calls fail, folders, and programs at work in them."""
+"""Helpers of scripts/fault-campaign: the numbers that make calls fail, folders, and programs at work in them."""
 
 import mmap
 import os
@@ -16,7 +16,7 @@ PATIENCE = 300  # seconds after which a program counts as stuck
 
 
 class Find(Exception):
-    """Something that must not be."""
+    """A requirement that is not met."""
 
 
 class Skip(Exception):
@@ -29,7 +29,7 @@ def require(condition, *complaint):
 
 
 class Faults:
-    """What tests/cli/faults.c reads: see its enumeration."""
+    """The numbers that tests/cli/faults.c reads: see its enumeration."""
 
     ALLOCATIONS, WRITES, READS, WRITE_ERROR, CLOCK, LEAST_BYTES = 0, 3, 6, 9, 10, 11
 
@@ -49,12 +49,12 @@ class Faults:
         struct.pack_into("q", self.map, 8 * place, number)
 
     def arm(self, kind, first, count=1, error=BROKEN):
-        """Lets calls fail from the one of that number on, counted from now."""
+        """Lets `count` calls fail; the first of them is call number `first` from now on."""
         self[self.WRITE_ERROR] = error
         self[kind], self[kind + 2], self[kind + 1] = 0, count, first
 
     def disarm(self):
-        """Returns whether a call has failed, or the clock jumped."""
+        """Ends all faults. Returns whether a call has failed, or the clock jumped."""
         kinds = (self.ALLOCATIONS, self.WRITES, self.READS)
         has_hit = any(0 < self[kind + 1] <= self[kind] for kind in kinds) or self[self.CLOCK] != 0
         for kind in kinds:
@@ -63,13 +63,13 @@ class Faults:
 
 
 def failing_allocations(faults, chance):
-    """Returns which allocations fail: one of any size, for which there is a reserve, or large ones to the end of the work."""
+    """Chooses the allocations that fail, as (first, count): one, or all large ones from then on."""
     count, faults[Faults.LEAST_BYTES], most = chance.choice([(1, 0, 4.7), (1, 4096, 3), (10**9, 4096, 3)])
     return int(10 ** chance.uniform(0, most)), count
 
 
 class Workshop:
-    """The program, its inputs, and what it makes when nothing fails."""
+    """The program, its inputs, and the outputs that it writes without faults."""
 
     def __init__(self, program, source, folder, python):
         self.program, self.folder, self.python = program, folder, python
@@ -98,7 +98,7 @@ class Place:
         self.workshop, self.folder = workshop, workshop.folder / str(number)
         self.out, self.state = self.folder / "out", self.folder / "state"
         self.mounted = []
-        # Some file systems have no files without names, others do: both are tried in turn.
+        # Some file systems support files without names, others do not: both kinds are tried in turn.
         self.environment = {"NO_TMPFILE": "1"} if str(number)[-1] in "13579" else {}
 
     def __enter__(self):
@@ -120,7 +120,7 @@ class Place:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def mark_as_batch(self):
-        """Makes the folder of outputs one that a batch has made, and that others have used since."""
+        """Marks the folder of outputs as one that a batch has made."""
         self.out.mkdir(exist_ok=True)
         (self.out / ".relievo_folder").write_text(
             "relievo batch made this folder or found it empty, and may remove what it has put here.\n")
@@ -129,7 +129,7 @@ class Place:
         return (self.out / ".relievo_folder").exists()
 
     def add_foreign_files(self, folder):
-        """Writes files that no program may touch, and returns what they are."""
+        """Writes files that no program may touch, and keeps their state for check_foreign_files()."""
         folder.mkdir(exist_ok=True)
         for name in ("notes.txt", "a.stl.bak", "a.stl.relievo-", "größe\n.ply", "-o", "a.stl~"):
             (folder / name).write_text(name)

@@ -1,4 +1,4 @@
-"""The cases of scripts/fault-campaign in the studio: a page that asks for its work while faults last."""
+"""The cases of scripts/fault-campaign in the studio: a page sends its requests while faults last."""
 
 import http.client
 import json
@@ -54,7 +54,7 @@ class Page:
         return json.loads(content)["document"] if status == 200 else None
 
     def wait(self, document):
-        """Waits until nothing is prepared any more. Returns its error."""
+        """Waits until nothing is being prepared. Returns the error of the last preparation."""
         for _ in range(PATIENCE * 50):
             status = json.loads(self.must("status", {"document": document}))
             if not status["busy"]:
@@ -94,7 +94,7 @@ def frame_of(document):
 
 
 def work(page, document, chance):
-    """Asks for one thing that users do."""
+    """Sends one of the requests that users cause."""
     frame = frame_of(document)
     action = chance.choice(["open", "view", "frame", "turn", "piece", "export", "scan", "keep", "upload", "save", "recent", "remove"])
     if action == "open":
@@ -145,7 +145,7 @@ def send_slowly(page, chance, is_over):
 
 
 def fault_in_studio(page, kind, chance, document):
-    """Works with the studio while a fault lasts. Returns whether it came."""
+    """Works with the studio while a fault lasts. Returns whether the fault came."""
     faults, is_over, others = page.place.faults, threading.Event(), []
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, *failing_allocations(faults, chance))
@@ -185,7 +185,7 @@ def check_studio(page, kind, document, frame):
     page.place.faults[Faults.CLOCK] = 0
     page.must("open", page.opening("shell"))
     error = page.wait(document)
-    if error:  # of the work while the fault lasted
+    if error:  # from work that was done while the fault lasted
         page.must("view", {"document": document, "view": "front"})
         error = page.wait(document)
     require(not error, "studio: cannot prepare the scan again:", error)

@@ -1,9 +1,9 @@
-// Preloaded into programs, makes faults happen in them. tests/cli/faults sets these in the environment: THREADS, of which no
-// more are given; SHRINK, the file that becomes shorter when it is about to be read; CLOCK_BACK, with which the clock is
-// set back by an hour whenever it is read. With NO_TMPFILE, no file can be made without a name. scripts/fault-campaign
-// sets FAULTS, a file of numbers that all processes of a program share, and which say what fails when: see the enumeration
-// below. Allocations are counted from main() on, or from the start if AT_ONCE is set; those of modules whose paths contain
-// a word of EXCEPT are not.
+// Preloaded into programs, makes faults happen in them. tests/cli/faults sets these in the environment: THREADS, the
+// largest number of threads; SHRINK, the file that becomes shorter when it is about to be read; CLOCK_BACK, with which
+// the clock is set back by an hour whenever it is read. With NO_TMPFILE, no file can be made without a name.
+// scripts/fault-campaign sets FAULTS, a file of numbers that all processes of a program share. They say which calls
+// fail: see the enumeration below. Allocations are counted from main() on, or from the start if AT_ONCE is set, except
+// those of modules whose paths contain a word of EXCEPT.
 #define _GNU_SOURCE
 #define open declared_open  // with another number of arguments
 #define open64 declared_open64
@@ -95,13 +95,13 @@ int posix_memalign(void** block, size_t alignment, size_t size) {
 }
 
 void* _ZSt15set_new_handlerPFvvE(void* handler) {  // std::set_new_handler, which main() calls first
-  void* library = dlopen("libstdc++.so.6", RTLD_NOW | RTLD_NOLOAD);  // which Python's modules have loaded for themselves
+  void* library = dlopen("libstdc++.so.6", RTLD_NOW | RTLD_NOLOAD);  // loaded locally if a module of Python needs it
   void* (*original)(void*) = (void* (*)(void*))dlsym(library, "_ZSt15set_new_handlerPFvvE");
   is_started = 1;
   return original(handler);
 }
 
-// Files alone fail: neither connections nor what is printed.
+// Only regular files fail, neither connections nor the terminal.
 static int file_fails(int kind, int file) {
   struct stat about;
   if (shared == none || fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || !fails(kind)) return 0;
