@@ -1,4 +1,4 @@
-// ZIP archives as sites for models hand them out.
+// ZIP archives like those that sites for models offer.
 #include "common/archive.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,8 @@ TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
             "needs no other file");
 }
 
-// Changes both headers of the archive's only file, by the byte's place behind that of the version needed.
+// Changes a field in both headers of the archive's only file; `at` counts bytes from the field of the version
+// needed.
 std::string changed_headers(std::string archive, std::size_t at, std::uint16_t to) {
   archive = patched(archive, archive.find("PK\x03\x04") + 4 + at, to);
   return patched(archive, archive.find("PK\x01\x02") + 6 + at, to);

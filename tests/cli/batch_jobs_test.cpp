@@ -1,4 +1,4 @@
-// Tables, lists of jobs, and the memory that jobs need.
+// Tables and lists of jobs, and the memory that jobs need.
 #include "batch/jobs.h"
 
 #include <nlohmann/json.hpp>

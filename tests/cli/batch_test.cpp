@@ -1,4 +1,4 @@
-// Runs over catalogues: what is made, what is kept, and what happens when jobs or runs end early.
+// Runs over catalogues: outputs that are made or kept, and jobs and runs that end early.
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -219,7 +219,8 @@ TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
-// A program that hands scans to workers saves starts of programs, and a bad scan must not keep the others from being made.
+// One process runs several jobs, for programs that hand scans to workers. A bad scan must not stop the
+// others.
 TEST_F(BatchProgram, DoesSeveralJobsInTurn) {
   const Outcome jobs = run(command_for(listed()));
   EXPECT_EQ(jobs.exit_code, 1);

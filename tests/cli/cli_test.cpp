@@ -34,7 +34,8 @@ int count(const std::string& text, std::string_view part) {
   return found;
 }
 
-// The torus is 2.8 units wide and seen along its axis: 50 mm of relief and twice 5 mm of margin, 3 mm of relief on 3 mm.
+// The torus is 2.8 units wide and seen along its axis. The relief is 50 mm wide with margins of 5 mm, and 3
+// mm high on a plate of 3 mm.
 TEST_F(Cli, MakesEverythingAskedFor) {
   const Outcome outcome =
       run("make torus.ply -o t.stl --preview t.png --heightmap h.png --heightmap-size 100 --report r.json "

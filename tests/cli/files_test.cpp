@@ -1,4 +1,4 @@
-// Files of the programs: what is no file, temporary files, and pipes where they are fine.
+// Files of the programs: paths that are no files, temporary files, and pipes where they are allowed.
 #include "common/files.h"
 
 #include <sys/stat.h>
@@ -73,7 +73,7 @@ TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   EXPECT_EQ(files(), before + 2) << "nothing is left of what could not take its place";
 }
 
-// The numbers in names go on, so that these would be the next ones.
+// Temporary files have consecutive numbers, and files with all the next numbers exist already.
 TEST_F(Files, NothingIsRemovedThatWasThere) {
   write_all(path("a.stl"), "old");
   std::vector<std::string> names{"a.stl.relievo-abcdef", "a.stl.relievo-ABCDEF", "a.stl.relievo-"};
@@ -87,7 +87,7 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// Makes the folder as a process leaves it that is killed at the moment when a file replaces another.
+// Leaves the files of a process that was killed just before a finished file replaced another.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   const auto leave = [&](const char* name) {
@@ -153,7 +153,7 @@ TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
 }  // namespace
 }  // namespace relievo
 
-// Takes the place of the C library's, so that calls can be counted.
+// Replaces umask() of the C library, to count calls.
 extern "C" mode_t umask(mode_t mask) {
   ++relievo::calls_of_umask;
   return static_cast<mode_t>(::syscall(SYS_umask, mask));

@@ -1,4 +1,4 @@
-// Files as they lie on a disk: buffers beside a glTF, meshes read piece by piece, names that a terminal should not see.
+// Inputs on a disk: buffers beside a glTF, meshes that are read in parts, names with control characters.
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 

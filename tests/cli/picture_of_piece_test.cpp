@@ -49,7 +49,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Takes the camera out of a piece: its angles are not among the options.
+// Removes the camera from a piece, as its angles are not among the options, and returns it.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);
@@ -59,7 +59,7 @@ Camera take_camera(nlohmann::json& piece) {
   return camera;
 }
 
-// Takes the base out of a piece. The text of a piece cannot contain the image of a base.
+// Removes the base from a piece and returns it, with its image, which the text of a piece cannot contain.
 BaseOptions take_base(nlohmann::json& piece) {
   BaseOptions base = *parse_base(piece.value("base", "plane"));
   if (base.kind == BaseKind::image) base.image = hill_and_hollow();
@@ -86,8 +86,8 @@ double agreement(const Image8& picture, const Image<double>& cosines) {
   return correlation(drawn, expected, both);
 }
 
-// Expects that without shadows the piece is as bright as the angle between surface and lamp says, by another renderer,
-// which shares no code with the library's.
+// Expects that, without shadows, the piece's brightness follows the angles between surface and lamp, which a
+// renderer computes that shares no code with the library's.
 void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& drawing,
                       app::studio::PictureRequest request) {
   const Camera& camera = request.render.camera;
@@ -102,7 +102,8 @@ void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& dr
     const double right = agreement(shown->picture.image, test::lamp_cosines(file, rays, lamp));
     const Vec3 other = lamp.cwiseProduct(Vec3(-1, 1, 1));
     const double wrong = agreement(shown->picture.image, test::lamp_cosines(file, rays, other));
-    // The sky adds to the lamp, and rounds large triangles and steep walls, which the other renderer does not.
+    // The library's renderer adds the light of the sky, and shades large triangles and steep walls smoothly;
+    // the other renderer does neither.
     EXPECT_GT(right, request.options.form == Form::lithophane ? .55 : .85);
     EXPECT_LT(wrong, right - .2);
   }

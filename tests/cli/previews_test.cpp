@@ -1,4 +1,4 @@
-// The picture of a relief shows the work, whatever its form and its body are.
+// The picture of a relief shows the work on plates of all forms and bends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,8 @@ TEST(PreviewOfRelief, OfABentLithophaneIsTheFlatOneLitFromBehind) {
   EXPECT_EQ(half_of(preview_of(made, {.longer_side_px = side_px}), false), half_of(flat, false));
 }
 
-// The front shows the flat work, and a larger sphere in it shows in the oblique picture, too.
+// The front picture shows the relief before it is bent. The oblique picture shows the relief, too: it changes
+// if the sphere in it is larger.
 TEST(PreviewOfRelief, OfAnInsideWrapShowsTheWork) {
   for (const char* wrap :
        {"cylinder:turn=360,inside", "cylinder:turn=360,inside,direction=0", "cylinder:turn=270,inside",

@@ -1,5 +1,5 @@
 // Checks a solid in an STL file, and a height map against it, without the code that made them: check_solid
-// SOLID.stl [MAP.png|MAP.tif]. Prints what is wrong, and then the exit code is 1.
+// SOLID.stl [MAP.png|MAP.tif]. If it finds a fault, it prints it, and its exit code is 1.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

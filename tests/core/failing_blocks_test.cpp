@@ -1,5 +1,5 @@
-// Parallel calls whose blocks throw, as they do when memory runs out. Where there are no exceptions, as in WebAssembly, none of
-// this can happen.
+// Parallel calls whose blocks throw, as they do when memory runs out. Builds without exceptions, such as
+// WebAssembly, leave these tests out.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -23,7 +23,7 @@ struct Failure {
   std::size_t block;
 };
 
-// Returns the block whose exception came out of a parallel call; `blocks` if none did.
+// Returns the block whose exception a parallel call throws; `blocks` if it throws none.
 template <typename F>
 std::size_t failed_block(std::size_t blocks, F&& f) {
   try {
@@ -45,7 +45,7 @@ TEST_P(FailingBlocks, GiveTheCallerTheirException) {
   EXPECT_THROW(parallel_both([] { throw std::bad_alloc(); }, [] {}), std::bad_alloc);
 }
 
-// The failing blocks take turns in being slow, so that the later one of two often fails first.
+// The first failing block waits for another one to fail, so that a later one often fails first.
 TEST_P(FailingBlocks, GiveTheExceptionOfTheLowestOne) {
   for (std::size_t first = 0; first < 60; ++first) {
     std::atomic<bool> has_other_failed = false;
@@ -71,7 +71,7 @@ TEST_P(FailingBlocks, LeaveOutThoseThatHaveNotBegun) {
   EXPECT_LE(begun, GetParam());
 }
 
-// Each block needs the one before, so that all but those that were done before wait in vain.
+// Each block waits for the one before it, so those after the failing block would wait for ever.
 TEST_P(FailingBlocks, EndTheWaitOfOthers) {
   for (std::size_t failing = 0; failing < 50; ++failing) {
     BlockFlags done(50);

@@ -29,7 +29,7 @@ TEST(Length, MayBeAFraction) {
   EXPECT_DOUBLE_EQ(*parse_length("1.5/3mm"), .5);
 }
 
-// The page's twin of parse_length() is tested by the same cases: [text, millimetres, or null where it is refused].
+// The page's own parse_length() is tested by the same cases: [text, millimetres, or null if it is refused].
 TEST(Length, IsWhatTheSharedCasesSay) {
   std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "lengths.json");
   const auto cases = nlohmann::json::parse(file);

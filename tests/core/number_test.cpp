@@ -65,7 +65,8 @@ TEST(Number, SaysThatANumberIsOutOfRange) {
 }
 
 #if defined(__cpp_lib_to_chars)
-// The standard library's own function is the oracle, for texts with few digits, which take the short way, and with many.
+// The standard library gives the expected values, for texts with few digits, which take the fast path, and
+// with many.
 TEST(Number, DoesWhatTheStandardLibraryDoes) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 50'000; ++i) {

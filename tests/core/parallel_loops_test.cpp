@@ -19,7 +19,7 @@ bool is_set_in_time(const std::atomic<bool>& flag) {
   return flag;
 }
 
-// A loop that waited for the other one would wait until that one gives up: it ends after it.
+// The long loop ends after the short one, or gives up if the short one waits for it.
 TEST(ParallelLoops, DoNotWaitForTheEndOfALongOne) {
   set_thread_count(2);
   std::atomic<bool> has_begun = false, may_end = false, has_given_up = false;

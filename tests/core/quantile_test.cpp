@@ -26,7 +26,7 @@ TEST(Quantile, IsTheValueOfItsRank) {
   }
 }
 
-// The first numbers for the seed 1234567 in the reference implementation by S. Vigna.
+// The expected numbers are the first ones for seed 1234567 in the reference implementation by S. Vigna.
 TEST(SplitMix64, IsTheReferenceGenerator) {
   SplitMix64 random(1234567);
   EXPECT_EQ(random.bits(), 6457827717110365317U);

@@ -33,7 +33,7 @@ TEST(WithinMemory, IsAnErrorOfTheInnermostCall) {
   EXPECT_EQ(message_of(failed), memory_error({.points = 7}).message());
 }
 
-// A vector of more elements than there are addresses, and one of more bytes than there are.
+// The first vector has more elements than there are addresses, the second one more bytes.
 TEST(WithinMemory, AnswersWhatNoMachineHas) {
   for (const std::size_t size : {std::numeric_limits<std::size_t>::max(), std::size_t{1} << 55})
     for (const int threads : {1, 2}) {

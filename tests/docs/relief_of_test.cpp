@@ -8,12 +8,12 @@
 #include "relievo/io/write.h"
 #include "relievo/samples/sample.h"
 
-// examples/consumer/relief_of.cpp defines it.
+// examples/consumer/relief_of.cpp defines this function.
 relievo::Result<std::vector<std::byte>> relief_of(std::span<const std::byte> scan);
 
 namespace {
 
-// The extent along z of a binary STL: 84 bytes of header, then 50 bytes per triangle, its normal first.
+// Returns the extent along z of a binary STL: 84 bytes of header, then 50 bytes per triangle, normals first.
 float z_extent(std::span<const std::byte> stl) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (std::size_t at = 84; at + 50 <= stl.size(); at += 50)

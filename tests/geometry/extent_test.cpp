@@ -69,7 +69,7 @@ TEST(SpaceCurve, DoesNotDependOnTheOrderGiven) {
   EXPECT_NE(points, once);
 }
 
-// Most points of a surface have a neighbour on the curve that is near; at random it would be far away.
+// Most points of a surface have near neighbours on the curve; in a random order, neighbours would be far.
 TEST(SpaceCurve, KeepsNeighboursTogether) {
   const std::vector<Vec3> points = ordered(test::sphere(4000, 1).points);
   double sum = 0;

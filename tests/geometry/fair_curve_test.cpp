@@ -20,7 +20,7 @@ std::vector<CurveNode> circle_nodes(int count, double radius, double noise) {
   return nodes;
 }
 
-// The sides of a square of half side `half`, counter-clockwise from its lower left corner.
+// Returns nodes on the sides of a square of half side `half`, counter-clockwise from its lower left corner.
 std::vector<CurveNode> square_nodes(int per_side, double half, double noise) {
   test::Random random(9);
   const std::array<Vec2, 4> corners{Vec2(-half, -half), Vec2(half, -half), Vec2(half, half),
@@ -90,7 +90,7 @@ TEST(FairCurve, IsEmptyIfTooShort) {
 }
 
 TEST(FairCurve, StaysNearItsNodesWhateverTheyAre) {
-  // Few nodes that turn sharply leave pieces between corners without any.
+  // Few nodes with sharp turns leave sections between corners without any node.
   test::Random random(5);
   const Vec2 start(100, 200);
   for (int trial = 0; trial < 2000; ++trial) {

@@ -35,7 +35,7 @@ struct Scattered {
     return tiles;
   }
 
-  // A point's place in cells, from the first: what at() gives for the nodes' own columns and rows.
+  // Returns a point's place in units of cells: at() of the nodes' columns and rows.
   Vec2 place(std::size_t point) const { return {lattice.at(point, columns), lattice.at(point, rows)}; }
 
   std::vector<Lattice::Tile> columns = refined([&](std::size_t n) { return n % lattice.width(); });
@@ -48,7 +48,8 @@ std::vector<double> some_values(std::size_t n) {
   return values;
 }
 
-// B-splines are exact for linear functions: places in cells are those in the plane, but for scale and origin.
+// B-splines are exact for linear functions: places in cells are those in the plane, except for scale and
+// origin.
 TEST(Lattice, IsLinearBetweenItsNodes) {
   const Scattered s;
   const Vec2 first = s.place(0);
@@ -58,7 +59,8 @@ TEST(Lattice, IsLinearBetweenItsNodes) {
   }
 }
 
-// A parabola stays one, across cells, too: its control points lie beside it, its quarters on or above it.
+// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() lie on it, or at
+// most 1/64 above it, also across cells.
 TEST(Lattice, IsSmoothBetweenItsNodes) {
   const Scattered s;
   const auto squares = s.refined([&](std::size_t n) {
@@ -128,7 +130,7 @@ TEST(Lattice, FindsWhatValuesDoBetweenNodes) {
   }
 }
 
-// Each node is a corner of four cells, and of each another.
+// Each node is a corner of four cells, another corner of each.
 TEST(Lattice, KnowsTheCellsAroundANode) {
   const Scattered s;
   const std::size_t w = s.lattice.width(), node = 3 * w + 5;
@@ -154,7 +156,8 @@ TEST(Lattice, FindsTheNodesAroundAPoint) {
   }
 }
 
-// The place of a node is where at() gives its column and row.
+// The expected nodes are those whose column and row lie in the triangle, as place() measures its corners in
+// cells.
 TEST(Lattice, FindsTheNodesInATriangle) {
   const Scattered s;
   for (Index first = 0; first + 2 < 300; first += 3) {
@@ -175,8 +178,8 @@ TEST(Lattice, FindsTheNodesInATriangle) {
   }
 }
 
-// Cubic B-splines are a partition of unity, and exact for linear functions: spreading keeps amounts and their
-// centre.
+// Cubic B-splines are a partition of unity, and exact for linear functions: spreading keeps the sum of
+// amounts and their centre.
 TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
   const Scattered s;
   for (const Vec2& place : {Vec2(3, 4), Vec2(5.25, 2.9), Vec2(7.999, 8.5)}) {

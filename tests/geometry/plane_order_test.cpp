@@ -18,7 +18,7 @@ TEST(PlaneOrder, ScalesIntoTheUnitSquare) {
   EXPECT_TRUE(in_unit_square({}).empty());
 }
 
-// Every quarter of the square is passed in one piece, and so on in each quarter.
+// The order passes the quarters of the square one after the other, and so on within each quarter.
 TEST(PlaneOrder, PassesQuartersOneByOne) {
   std::vector<Eigen::Vector2f> points;
   for (int y = 0; y < 8; ++y)

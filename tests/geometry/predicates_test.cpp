@@ -26,7 +26,7 @@ Integer orientation(Integer ax, Integer ay, Integer bx, Integer by) {
   return ax * by - ay * bx;
 }
 
-// The determinants over integers: `integer` turns a coordinate into one.
+// Computes the determinant over integers; `integer` converts a coordinate.
 template <typename F>
 auto orient2d_oracle(const Vec2& a, const Vec2& b, const Vec2& c, F integer) {
   const auto cx = integer(c.x()), cy = integer(c.y());
@@ -57,7 +57,7 @@ int exact_incircle(const Quad& q) {
   return incircle_oracle(q, BigInteger::scaled).sign();
 }
 
-// The signs in plain doubles. A test on hard cases first shows with them that the cases are hard.
+// Returns the sign in plain doubles, which shows that the cases of a test are hard.
 int naive_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return sign(orient2d_oracle(a, b, c, [](double x) { return x; }));
 }

@@ -114,7 +114,7 @@ TEST(Rasterizer, TheNearestIsSeenAndBackFacesAreNot) {
   const std::vector<Fragment> fragments = draw_all(scene, 6);
   EXPECT_EQ(fragments[0].triangle, 1U);             // nearer
   EXPECT_EQ(fragments[12].triangle, 0U);            // equally near: the first
-  EXPECT_EQ(fragments[19 * 20 + 19].triangle, 3U);  // the other one there faces away
+  EXPECT_EQ(fragments[19 * 20 + 19].triangle, 3U);  // the other triangle there faces away
 }
 
 TEST(Rasterizer, ASliverDoesNotSpike) {
@@ -140,7 +140,7 @@ TEST(CornerWeights, ReproduceThePlaceAndStayPositiveOutside) {
   EXPECT_NEAR(corner_weights(scene, 1, 3, 3).sum(), 1, 1e-6);  // no area
 }
 
-// Straight from its declaration.
+// Blurs by the definition in the header.
 std::vector<float> slow_blur(std::vector<float> values, int width, int radius) {
   const int height = static_cast<int>(values.size()) / width;
   const auto at = [&](const std::vector<float>& v, int x, int y) {

@@ -14,7 +14,8 @@
 namespace relievo {
 namespace {
 
-// Two triangles on one short edge, between its far corners: a, b and then one on either side.
+// Two triangles that share a short edge. The points are the edge's ends a and b, then a far corner on either
+// side.
 struct Needles {
   std::array<Vec3, 4> points;
   std::vector<Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
@@ -81,7 +82,8 @@ TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   EXPECT_EQ(stored(made.needles).points, made.needles.points);
 }
 
-// Far corners must move hundreds of times as far as a move that makes one flat and the other steep.
+// A small move flattens one needle but makes the other steep. The far corners must move hundreds of times as
+// far.
 TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   const Needles needles = stored({{Vec3(20.0088615, 20.0504284, 3.0039897),
                                    {20.0088387, 20.0504589, 3.0040071},
@@ -95,8 +97,8 @@ TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   }
 }
 
-// Returns needles on an edge of 20 to 200 steps of single precision, 10 to 100 times as long as it, with
-// slopes up to `most`.
+// Returns needles on an edge of 20 to 200 steps of single precision, 10 to 100 times as long as the edge,
+// with slopes up to `most`.
 Needles random_needles(test::Random& random, double most) {
   const double edge = std::exp(random.uniform(std::log(4e-5), std::log(4e-4))),
                turn = random.uniform(0, 2 * std::numbers::pi);

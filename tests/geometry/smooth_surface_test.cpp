@@ -58,8 +58,8 @@ TEST(SmoothSurface, ReproducesQuadratics) {
     }
 }
 
-// Rows of points beside outlines: the surface bends by 24 degrees at one of them. Along the rows it shall stay straight,
-// or every triangle shows as a bead.
+// The points stand in rows, as beside outlines, and the surface bends by 24 degrees between two rows. Along
+// the rows it must stay straight, as otherwise every triangle would show as a bead.
 TEST(SmoothSurface, BendsBetweenRowsAsIfThereWereNoTriangles) {
   const double bend = .45;
   std::vector<Vec3> points;

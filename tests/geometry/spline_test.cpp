@@ -36,7 +36,7 @@ std::vector<float> values_of(std::span<const Vec2> points, F f) {
   return values;
 }
 
-// Fit and evaluation in one.
+// Fits the spline to values, and evaluates it.
 std::vector<float> fitted(const MultilevelSpline& spline, std::span<const float> values,
                           std::span<const Vec2> at) {
   SplineFunction function = spline.make_function();
@@ -55,7 +55,7 @@ double wavy(double x, double y) {
   return std::sin(3 * x) * std::cos(4 * y) + x;
 }
 
-// Textbook: the recursion of Cox and de Boor for uniform knots 0, 1, 2, ...; the cubic one lives on [0, 4].
+// Textbook: the recursion of Cox and de Boor for uniform knots 0, 1, 2, ...; the cubic is positive in (0, 4).
 double b_spline(int degree, double t) {
   if (degree == 0) return t >= 0 && t < 1 ? 1 : 0;
   return t / degree * b_spline(degree - 1, t) + (degree + 1 - t) / degree * b_spline(degree - 1, t - 1);
@@ -86,7 +86,7 @@ Lattice lattice(int level) {
   return {2 * cells + 3, cells + 3, std::ldexp(1, -level)};
 }
 
-// Equations (3) to (5) of the paper for sites with weights, in full.
+// Computes equations (3) to (5) of the paper for sites with weights, without shortcuts.
 Lattice approximated(int level, std::span<const Vec2> sites, std::span<const float> weights,
                      std::span<const double> values) {
   Lattice result = lattice(level);
@@ -186,7 +186,7 @@ TEST(Spline, TakesTheEdgesValueOutsideTheDomain) {
   EXPECT_EQ(out[2], out[3]);
 }
 
-// A site of no weight changes nothing, and where there is no weight the coarser levels rule.
+// A site of weight 0 changes nothing, and the coarser levels determine the spline where there is no weight.
 TEST(Spline, FollowsTheWeights) {
   std::vector<Vec2> sites = scattered(200);
   std::vector<float> values = values_of(sites, wavy), weights = ones(200);
@@ -227,7 +227,7 @@ TEST(Spline, TellsWhatTheFitLeaves) {
   EXPECT_LT(largest_difference(sum, values), 3e-4);
 }
 
-// Coarse levels alone, refined to the finer lattice, are the same function as on their own lattice.
+// Coarse levels alone, refined to the finer lattice, give the same function as on their own lattice.
 TEST(Spline, IsTheSameOnAFinerLattice) {
   const std::vector<Vec2> sites = scattered(200), places = scattered(300, 2);
   const std::vector<float> values = values_of(sites, wavy);

@@ -29,7 +29,7 @@ void expect_correct(const Points& points) {
   EXPECT_EQ(delaunay_fault(points, delaunay(points)), "");
 }
 
-// Exact for integers below 2^12.
+// Returns twice the signed area, exactly for integers below 2^12.
 double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
@@ -39,8 +39,8 @@ double in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          (c - d).squaredNorm() * twice_area(d, a, b);
 }
 
-// Convex hull with the points on its edges, by the monotone chain, counter-clockwise from the leftmost point;
-// the duplicates are left out.
+// Returns the convex hull with the points on its edges, by the monotone chain, counter-clockwise from the
+// leftmost point, without duplicates.
 Points brute_hull(Points points) {
   const auto less = [](const Vec2& p, const Vec2& q) {
     return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
