@@ -1,5 +1,6 @@
-// Files of other projects' test suites, which are not part of the project because their licences differ: that every
-// answer keeps its promises, and the verdicts that the files' names and their validators' reports give.
+// Reads files of other projects' test suites, which are no part of this project because of their licences.
+// Every answer must keep its promises, and agree with the verdicts in the files' names and the validators'
+// reports.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -131,7 +132,7 @@ TEST_F(Corpus, BrokenStlIsRefused) {
   }
 }
 
-// The pixels of these pictures are numbered, modulo the largest number; the last part of the name is a checksum of them.
+// The pixels of these pictures are numbers that count up, modulo the largest number.
 TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
   std::size_t judged = 0;
   for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {
@@ -218,7 +219,7 @@ TEST_F(Corpus, RightGltfOfTheValidatorIsRead) {
         << name << (file ? " is no exception any more" : file.error().expected);
     if (!file) continue;
     ++read;
-    if (file->mesh.empty()) continue;  // two have only triangles with a corner twice, which are left out
+    if (file->mesh.empty()) continue;  // in two files, all triangles have a corner twice and are left out
     EXPECT_EQ(file->mesh.triangles.size(), triangles) << name;
   }
   EXPECT_TRUE(all.empty() || read > 0);
@@ -346,7 +347,7 @@ TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {
   for (const fs::path& path : files("nst+JSONTestSuite", ".json")) {
     const std::string name = path.filename().string();
     const std::string text = content_of(path);
-    if (text.contains('\0')) continue;  // nlohmann's parser takes it for the end, which is harmless
+    if (text.contains('\0')) continue;  // nlohmann's parser takes a zero byte for the end, which is harmless
     const bool is_json = json_error_place(text).empty();
     EXPECT_FALSE(name.starts_with("y_") && !is_json) << name;
     EXPECT_FALSE(name.starts_with("n_") && is_json) << name;

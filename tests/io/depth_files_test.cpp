@@ -1,4 +1,4 @@
-// Depth images as files: PNG and TIFF, whole and broken.
+// Depth images in PNG and TIFF files, whole and broken.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,7 +14,7 @@
 #include "support/results.h"
 
 // The largest allocation of the test program and the libraries in it, which call this function in place of the system's.
-// Sanitizers have one of their own.
+// Sanitizers have a malloc() of their own.
 static std::atomic<std::size_t> largest_allocation = 0;
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -92,7 +92,8 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }
 
-// A chunk of a PNG, whose length may be a lie; the checksum of skipped chunks is not looked at.
+// Returns a chunk of a PNG that states that length, true or not. Its checksum is wrong, but not read if it is
+// skipped.
 std::string png_chunk(const std::string& type, std::uint32_t length, const std::string& data) {
   std::string chunk;
   for (int shift = 24; shift >= 0; shift -= 8) chunk += static_cast<char>(length >> shift);

@@ -29,7 +29,7 @@ struct TiffTags {
   std::string no_data = {};
 };
 
-// Little-endian, one strip of these bytes.
+// Returns a little-endian TIFF with one strip of these bytes.
 std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
   const bool has_palette = tags.colours == 3;  // of 256 colours
   const std::string palette(has_palette ? 2 * 3 * 256 : 0, '\7');
@@ -66,7 +66,7 @@ Result<DepthImage> read_tiff(const TiffTags& tags, const std::string& pixels,
   return read_depth_image(bytes_of(tiff_of(tags, pixels)), "d.tif", channels);
 }
 
-// The bytes of all pixels, each made of its number.
+// Returns the bytes of all pixels; number(i) returns the value of pixel i.
 template <typename MakeNumber>
 std::string pixels_of(MakeNumber&& number) {
   std::string pixels;
@@ -135,7 +135,7 @@ TEST(DepthTiff, ReadsFractions) {
   EXPECT_EQ(special->values[4], -2);
 }
 
-// Terrain models have it where nothing is known, and not all have a tag that says so.
+// Terrain models have the lowest fraction where no height is known, though not all have a tag that says so.
 TEST(DepthTiff, TakesTheLowestFractionForNone) {
   const auto image = read_tiff({32, 3}, pixels_of([](int i) {
                                  constexpr float all[] = {-3.4028235e38F, -3.4e38F, -9999, 7};
@@ -240,7 +240,7 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
 }
 
 // A picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16. Tiles at its sides are cut. The number
-// in column x and row y is 100 y + x; beyond the sides stands 7.
+// in column x and row y is 100 y + x; pixels beyond the sides are 7.
 std::string tiled_tiff(std::uint32_t tile_width) {
   constexpr std::uint32_t columns = 40, rows = 24, side = 16, tiles = 6, tile_bytes = 2 * side * side;
   const std::uint32_t data = 8 + 2 + 11 * 12 + 4;
@@ -280,7 +280,7 @@ TEST(DepthTiff, CutFilesAreNamedWithThePlace) {
   EXPECT_EQ(tiff_message(tiled_tiff(16).substr(0, tiled_tiff(16).size() - 1)),
             cat("d.tif, tile 5: expected 512 bytes from byte ", tiled_tiff(16).size() - 512,
                 " on, found 511; the file is cut, get it anew"));
-  // Some programs write the tags behind the picture.
+  // Some programs write the tags after the picture.
   for (const auto& [begin, place] : {std::pair{std::string("II*\0\x20\x1\0\0", 8), "byte 4"},
                                      {std::string("MM\0*\0\0\x1\x20", 8), "byte 4"},
                                      {std::string("II+\0\x8\0\0\0\x20\x1\0\0\0\0\0\0", 16), "byte 8"}})

@@ -1,4 +1,4 @@
-// Scans of E57 files that the tests write themselves; those of other programs are in corpus_test.cpp.
+// E57 files that the tests write themselves; corpus_test.cpp reads those of other programs.
 #include <gtest/gtest.h>
 
 #include "io/e57/pages.h"
@@ -114,7 +114,7 @@ TEST(E57, ColoursAreScaledByTheirLimits) {
   EXPECT_EQ(file_of(e57({whole}), "a").cloud.colours, (std::vector<Colour>{{0, 255, 128}, {64, 1, 255}}));
   EXPECT_EQ(file_of(e57({fractions}), "a").cloud.colours,
             (std::vector<Colour>{{64, 51, 51}, {255, 204, 204}}));
-  // A scan without colours takes them from all.
+  // If one scan has no colours, the whole cloud has none.
   EXPECT_FALSE(file_of(e57({whole, scan_of({1}, {2}, {3})}), "a").cloud.has_colours());
 }
 
@@ -147,7 +147,7 @@ TEST(E57, BrokenDescriptionsAreNamed) {
   EXPECT_EQ(message_with("recordCount=\"1\"", "recordCount=\"0\""), "a.e57: expected points, found none");
 }
 
-// Returns a message from "expected" on.
+// Returns the part of a message from "expected" on.
 std::string after_place(const std::string& message) {
   return message.substr(message.find("expected"));
 }

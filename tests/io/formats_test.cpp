@@ -1,4 +1,4 @@
-// The table of formats: the lists made from it, and that each row is reached by its own files.
+// The table of formats: the lists that are made from it, and that each row reads the files of its format.
 #include "io/formats.h"
 
 #include <gtest/gtest.h>

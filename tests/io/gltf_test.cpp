@@ -1,4 +1,4 @@
-// glTF whose buffers are in other files, and what is legal in it but rare.
+// glTF with buffers in other files, and with legal but rare features.
 #include "io/gltf/gltf.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ Result<CloudFile> read_beside(const std::string& text, const std::map<std::strin
   });
 }
 
-// Returns the sample's file after a change of its JSON.
+// Returns the sample, read after `what` in its JSON is replaced by `by`.
 CloudFile changed(std::string_view what, std::string_view by) {
   return file_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
 }
@@ -54,7 +54,7 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
   }
 }
 
-// The data of a URI are in base64, or are bytes, each of which may be escaped.
+// The data of a URI are in base64, or plain bytes, any of which may be escaped.
 TEST(Gltf, ReadsDataOfUrisInBothForms) {
   std::string escaped;
   for (const char byte : gltf_buffer()) {
@@ -115,7 +115,7 @@ TEST(Gltf, ReadsMeshesWithoutNodes) {
   EXPECT_EQ(file_of(glb_of(two), "a.glb").mesh.triangles.size(), 8U);
 }
 
-// Chunks of unknown kinds, and a second one of the binary kind, say nothing.
+// Chunks of unknown kinds, and a second binary chunk, are ignored.
 TEST(Gltf, TakesTheFirstBinaryChunk) {
   const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
   const std::string chunks = glb().substr(12), text_size = chunks.substr(0, 4);
@@ -143,7 +143,7 @@ TEST(Gltf, TakesWholeNumbersWrittenAsFractions) {
   const auto file = changed(R"("nodes":[0])", R"("nodes":[0.0])");
 }
 
-// The tetrahedron's second and fourth corner replaced by two others.
+// Returns the tetrahedron with its second and fourth corner replaced by sparse values.
 std::string sparse_glb(const std::string& base) {
   std::string json =
       replaced(gltf_json(), R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
@@ -183,7 +183,8 @@ TEST(Gltf, AnEmptyAccessorHasNoPoints) {
   EXPECT_EQ(message_of(json, "a.gltf"), "a.gltf, meshes: expected triangles or points, found none");
 }
 
-// Exporters store coordinates in 8 or 16 bits: the node has their scale, or they are fractions of the largest number.
+// Exporters store coordinates in 8 or 16 bits: the node scales them, or they are fractions of the largest
+// number.
 TEST(Gltf, ReadsQuantisedMeshes) {
   struct Kind {
     int code;
@@ -213,7 +214,7 @@ TEST(Gltf, ReadsQuantisedMeshes) {
                     R"({"buffer":0,"byteLength":48,"byteStride":)" + std::to_string(stride) + "}");
     const auto file = file_of(glb_of(json, buffer), "a.glb"), plain = file_of(glb(), "a.glb");
     EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
-    const Vec3 middle(10, 0, 0);  // of the node, which doubles sizes
+    const Vec3 middle(10, 0, 0);  // the place of the node, which doubles sizes
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 expected =
           (plain.mesh.points[i] - middle) * (kind.is_normalised ? 1 : kind.largest) + middle;
@@ -301,7 +302,7 @@ double volume_of(const Mesh& mesh) {
   return volume;
 }
 
-// A node that mirrors its mesh would turn it inside out; the format says that it does not.
+// A mirror turns the triangles of a mesh inside out, so readers must reverse them, as the format demands.
 TEST(Gltf, KeepsTheOutsideOfMirroredMeshesOutside) {
   for (const char* scale : {"[2,2,2]", "[-2,2,2]", "[-2,-2,-2]"}) {
     const auto file = changed("[2,2,2]", scale);

@@ -20,7 +20,7 @@ using rc::gen::element;
 using rc::gen::inRange;
 using rc::gen::map;
 
-// Numbers that any type from int8 to double holds.
+// Returns numbers that any type from int8 to double represents.
 rc::Gen<double> small_number() {
   return map(inRange(0, 128), [](int i) { return static_cast<double>(i); });
 }
@@ -45,7 +45,8 @@ rc::Gen<float> finite_float() {
   });
 }
 
-// Columns with the given names, shuffled among columns with others, all of any type; lists if allowed.
+// Returns columns with the given names, shuffled with extra columns, all of any type; extra columns may be
+// lists.
 std::vector<PlyColumn> any_columns(std::vector<std::string> names) {
   const int extras = *inRange(0, 4);
   for (int i = 0; i < extras; ++i) names.push_back("extra" + std::to_string(i));
@@ -76,7 +77,7 @@ PlyTable any_table(const std::string& name, const std::vector<std::string>& colu
   return table;
 }
 
-// The value of a column that is no list.
+// Returns the value of a column that is no list.
 double value_of(const PlyTable& table, const std::vector<double>& row, std::string_view name) {
   std::size_t at = 0;
   for (const PlyColumn& column : table.columns) {
@@ -163,7 +164,7 @@ TEST(TextProperty, EverySeparatorGivesTheSamePoints) {
   }));
 }
 
-// Small valid files of every format, to be broken: format_samples(), and those of PLY.
+// Returns small valid files of every format, to be broken: format_samples(), and files of PLY.
 std::vector<FileSample> valid_files() {
   const PlyTable strips{"strips", {{"int", "i", "uchar"}, {"short", "s"}}, {{2, 0, 1, 7}, {0, 9}}};
   const PlyTable vertex{
@@ -222,7 +223,7 @@ TEST(BrokenFiles, WithAnyByteChangedGiveAnAnswer) {
   }
 }
 
-// Several edits at once: bytes removed, doubled, inserted; numbers blown up; lines swapped.
+// Makes several edits: removes, doubles and inserts bytes, enlarges numbers and swaps lines.
 std::string mutated(std::string text) {
   const auto place = [&] { return *inRange<std::size_t>(0, text.size() + 1); };
   const int edits = *inRange(1, 6);

@@ -46,7 +46,7 @@ TEST(ReadCloud, ContentGoesBeforeTheName) {
   EXPECT_EQ(read("v 1 2 3\n", "scan.OBJ")->format, "OBJ");
 }
 
-// The cloud as it comes back from a file. Written by write_ply(), which does not judge what it writes.
+// Writes a cloud by write_ply(), which does not check it, and returns the file as it is read back.
 CloudFile through_ply(const Cloud& cloud) {
   return file_of(as_string(write_ply(cloud)), "scan.ply");
 }
@@ -150,7 +150,7 @@ void PrintTo(const Scan& scan, std::ostream* out) {
   *out << scan.file;
 }
 
-// The letters and digits of a file's path: what a test may be named.
+// Returns the characters of a file's path that a test's name may have.
 std::string test_name_of(std::string path) {
   std::erase_if(path, [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
   return path;

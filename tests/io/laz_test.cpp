@@ -1,4 +1,4 @@
-// Compressed points that the tests write themselves; those of other programs are in corpus_test.cpp.
+// LAZ files that the tests write themselves; corpus_test.cpp reads those of other programs.
 #include <gtest/gtest.h>
 
 #include <map>

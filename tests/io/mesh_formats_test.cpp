@@ -1,4 +1,5 @@
-// STL, OFF, glTF and the faces of PLY and OBJ: what is read, and what is said of each broken field.
+// STL, OFF, glTF and the faces of PLY and OBJ: the meshes that are read, and the messages about broken
+// fields.
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -9,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// The triangles of a file as sets of corners, each beginning with its smallest, to compare regardless of
-// numbering.
+// Returns the triangles of a mesh by their corners' coordinates, smallest first, to compare meshes regardless
+// of numbering.
 std::vector<std::array<std::array<double, 3>, 3>> corners_of(const Mesh& mesh) {
   std::vector<std::array<std::array<double, 3>, 3>> all;
   for (const Triangle& t : mesh.triangles) {
@@ -111,7 +112,7 @@ TEST(Stl, TextMayBeginInManyWays) {
     expect_tetrahedron(text, "scan.stl", "STL ascii");
 }
 
-// The name of the solid holds words of the format.
+// The name of the solid contains words of the format.
 TEST(Stl, TextMayStandInOneLine) {
   const std::string named = replaced(ascii_stl(), "solid tetrahedron", "solid a vertex of my facet 7");
   expect_tetrahedron(replaced(named, "\n", " "), "a.stl", "STL ascii");

@@ -1,5 +1,6 @@
-// Buffer views of glTF that KHR_meshopt_compression and EXT_meshopt_compression have compressed: examples of its specification, streams that are put
-// together by hand, and an encoder that is independent of the decoder.
+// Buffer views of glTF that are compressed by KHR_meshopt_compression and EXT_meshopt_compression: examples
+// of the specification, streams that are put together by hand, and an encoder that is independent of the
+// decoder.
 #include "io/gltf/meshopt.h"
 
 #include <gtest/gtest.h>
@@ -233,7 +234,7 @@ std::string json_of(const TestView& view, std::size_t offset, const std::string&
          "\"}}}";
 }
 
-// The tetrahedron's corners in thousandths, as four numbers of 16 bits.
+// Returns the tetrahedron's corners in thousandths, as four numbers of 16 bits.
 TestView compressed_corners() {
   std::string positions;
   for (const Vec3& point : tetrahedron_points) {
@@ -246,7 +247,7 @@ TestView compressed_corners() {
   return {compressed_attributes(positions, 8), "ATTRIBUTES", tetrahedron_points.size(), 8};
 }
 
-// The tetrahedron's triangles with explicit indices alone.
+// Returns the tetrahedron's triangles with explicit indices alone.
 TestView compressed_triangles() {
   std::string data;
   int last = 0;
@@ -261,7 +262,7 @@ TestView compressed_triangles() {
   return {triangle_stream(std::string(triangles, '\xFF'), data), "TRIANGLES", 3 * triangles, 4};
 }
 
-// The tetrahedron in a GLB whose second buffer is not there.
+// Returns the tetrahedron in a GLB whose second buffer has no data.
 std::string compressed_glb(const std::string& mode, const std::string& extension) {
   const TestView corners = compressed_corners();
   TestView triangles = compressed_triangles();

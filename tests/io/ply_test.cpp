@@ -10,7 +10,7 @@ namespace {
 const PlyTable three_vertices = ply_vertices({{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}});
 const std::vector<Vec3> three_points = {{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}};
 
-// ascii, three vertices; the tests bend it
+// ASCII with three vertices; the tests change it
 const std::string small_ply =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
     "z\nend_header\n"

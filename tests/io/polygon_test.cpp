@@ -1,4 +1,4 @@
-// Triangles over polygons: whether they cover them, by their areas, for shapes that a fan does not cover.
+// Checks by areas that triangles cover their polygons, for shapes that a fan does not cover.
 #include "io/polygon.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Polygon = std::vector<Vec3>;
 
-// Returns twice the vector area.
+// Returns twice the vector area of a polygon.
 Vec3 area_of(const Polygon& p) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < p.size(); ++i) sum += p[i].cross(p[(i + 1) % p.size()]);
@@ -37,7 +37,7 @@ void expect_covered(const Polygon& polygon, const char* what) {
   EXPECT_NEAR(sum, 1, 1e-5) << what;
 }
 
-// The polygon from every corner on, in both senses, and somewhere in space.
+// Expects this of a polygon in a slanting plane, for every first corner and in both orientations.
 void expect_covered_in_every_way(Polygon polygon, const char* what) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond(.3, -.5, .7, .2).normalized();
   for (Vec3& p : polygon) p = turn * p + Vec3(300, -20, 7);

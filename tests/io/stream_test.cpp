@@ -67,7 +67,7 @@ TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
     if (p.z() > .6) sum_sq += (p.norm() - 1) * (p.norm() - 1), ++n;
   }
   EXPECT_LT(error, .03);
-  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // of .002 in the scan: means take noise away
+  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // the scan's noise is .002: means reduce it
 }
 
 TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
@@ -80,7 +80,7 @@ TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
   EXPECT_EQ(streamed(bytes_of(text)).ignored_faces, 2U);
 }
 
-// Sums of colours in single precision came out as 256, which a byte holds as 0.
+// In single precision, the mean of the colours would be 256, which becomes 0 as a byte.
 TEST(StreamFront, KeepsAColourThatManyPointsOfASquareHave) {
   std::vector<Vec3> points = test::sphere(600'000, 1).points;
   points.insert(points.end(), 400'000, Vec3(0, 0, 1));
@@ -187,8 +187,8 @@ TEST(StreamFront, ReadsLas) {
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // Without normals, a square without points of the front shows points behind it: exp(-5) of the squares in
-  // the middle. The relief's own search for visible points removes these.
+  // Without normals, a square without points of the front shows points behind it. These are exp(-5) of the
+  // squares in the middle. The relief's own search for visible points removes them.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 

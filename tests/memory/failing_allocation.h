@@ -7,12 +7,12 @@
 namespace relievo::test {
 
 struct AllocationFault {
-  long first = 1;               // the number of the first one that fails, counted from 1
-  long count = 1;               // how many fail, one after the other
-  std::size_t least_bytes = 0;  // smaller ones are not counted and do not fail
+  long first = 1;               // number of the first allocation that fails, from 1
+  long count = 1;               // number of consecutive allocations that fail
+  std::size_t least_bytes = 0;  // smaller allocations are not counted and do not fail
 };
 
-// Lets allocations fail for as long as it lives. There may be only one at a time.
+// Lets allocations fail until this object is destroyed. Only one may exist at a time.
 class FailingAllocation {
  public:
   explicit FailingAllocation(const AllocationFault& fault);
@@ -20,7 +20,7 @@ class FailingAllocation {
   FailingAllocation& operator=(const FailingAllocation&) = delete;
   ~FailingAllocation();
 
-  // Returns how many there were since this was made.
+  // Returns the number of allocations since the construction.
   long counted() const;
 };
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using test::FailingAllocation;
 
-// The answer to a request; its text is "memory" if that was the error.
+// The answer to a request; its text is "memory" if memory ran out.
 struct Told {
   int status = 0;
   std::string text;
@@ -37,7 +37,7 @@ const Told out_of_memory{507, "memory"};
 
 constexpr std::size_t few_bytes = 4096;
 
-// Leaves out of an answer what differs each time.
+// Returns the text of an answer without the times and counts that differ each time.
 std::string without_times(const Answer& answer) {
   std::string text = answer.body;
   for (const auto& [name, value] : answer.headers) {
@@ -49,7 +49,7 @@ std::string without_times(const Answer& answer) {
   return text;
 }
 
-// A studio whose page has opened one scan and then asks for things.
+// A studio whose page has opened one scan and then sends other requests.
 class Studio {
  public:
   Studio() {
@@ -96,7 +96,7 @@ class Studio {
     return json;
   }
 
-  // Returns whether it is still at work after a minute.
+  // Returns whether the studio is still at work after a minute.
   bool is_stuck() {
     const auto engine = documents_.find(document_);
     for (int look = 0; look < 60000; ++look) {
@@ -147,7 +147,7 @@ class StudioMemory : public testing::TestWithParam<int> {
   }
   void TearDown() override { set_thread_count(0); }
 
-  // Makes a request again and again, each time with other allocations that fail, and without.
+  // Makes a request without faults, and then again and again while other allocations fail.
   template <typename Request>
   void survives(const Request& request, long usual = 12) {
     const Told whole = request();
@@ -159,7 +159,7 @@ class StudioMemory : public testing::TestWithParam<int> {
       return none.counted();
     }();
     ASSERT_GT(all, 0);
-    for (const long count : {1, 1000000})  // one, or all from then on
+    for (const long count : {1, 1000000})  // one allocation, or all from there on
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 

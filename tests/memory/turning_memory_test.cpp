@@ -1,4 +1,4 @@
-// Turning copies no points of a scan, which may have many.
+// Turning copies no points of a scan, as scans may have many points.
 #include <gtest/gtest.h>
 
 #include "memory/failing_allocation.h"

@@ -1,4 +1,4 @@
-// Previews of finished bodies and live pictures of frames come from one renderer: the same body in the same
+// Previews of finished solids and live pictures of frames come from one renderer: the same solid in the same
 // view, light and material gives the same pixels.
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
       }
 }
 
-// The renderer's cache must not show, and impossible sizes give no picture.
+// The renderer's cache must not change pictures, and impossible sizes give no picture.
 TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   SolidRenderer renderer(std::make_shared<const Solid>(bodies().solid));
   Picture first, other, again;

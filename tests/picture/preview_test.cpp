@@ -88,7 +88,7 @@ Solid hemisphere_plate() {
   return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
-// Mean of the channels; x and y in millimetres of a plate of the given size, in the front view.
+// Returns the mean of the channels at x, y in millimetres on a plate of the given size, in the front view.
 struct FrontView {
   const Image8& image;
   double width_mm, height_mm;

@@ -1,4 +1,4 @@
-// Material that a tool leaves standing is coloured, and nothing else.
+// Only material that a tool leaves standing is coloured.
 #include "picture/reach_tint.h"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// A half ball: 2 wide and high in the plane.
+// Returns a model of half a ball, 2 wide and high in the plane.
 std::shared_ptr<const ReliefModel> ball() {
   static const auto model = std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
   return model;
@@ -67,7 +67,7 @@ std::size_t opaque_pixels(const Picture& picture) {
   return count;
 }
 
-// The pixels of the plate, as the rectangle around them.
+// The rectangle around the pixels of the plate.
 struct PlatePixels {
   Vec2 low = Vec2::Constant(1e9), high = Vec2::Constant(-1e9);
   Vec2 centre() const { return (low + high) / 2; }
@@ -150,7 +150,7 @@ TEST(Render, KeepsNothingOfEarlierPictures) {
   EXPECT_EQ(after.image.pixels, picture(other, small()).image.pixels);
 }
 
-// Orbiting draws triangles anew, the front looks them up: two ways to one picture.
+// Pictures of an orbit draw all triangles anew, and pictures of the front look them up. Both must be equal.
 TEST(Render, OrbitBeginsAtTheFront) {
   RenderOptions turned = small();
   turned.camera.pitch_deg = 1e-7;
@@ -214,7 +214,7 @@ TEST(Render, PansByMillimetresOfThePlate) {
   const Picture after = picture(bumps(), options);
   EXPECT_LT((plate_in(after).centre() - plate_in(before).centre() - Vec2(-right, up)).norm(), 1);
   EXPECT_LT((plate_in(after).size() - plate_in(before).size()).norm(), 1);
-  double difference = 0;  // what is on the plate moves with it
+  double difference = 0;  // the relief moves with the plate
   for (int row = 60; row < 140; ++row)
     for (int column = 80; column < 160; ++column)
       difference += std::abs(red(after, column - right, row + up) - red(before, column, row));

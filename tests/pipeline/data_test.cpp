@@ -1,4 +1,4 @@
-// Real scans, where they are at hand: every file becomes a sound solid of the height asked for.
+// Every real scan that is at hand becomes a valid solid of the height asked for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 
 using test::has_shared, test::missing_scan, test::shared_bytes, test::shared_data;
 
-// The scans' paths within the folder; "none" where it holds no scan, so that a test is there to say what was skipped.
+// Returns the scans' paths within the folder; "none" if there are no scans, so that one test reports what is
+// skipped.
 std::vector<std::string> scan_names() {
   std::vector<std::string> names;
   for (const fs::path& folder : {shared_data(), shared_data() / "original"})

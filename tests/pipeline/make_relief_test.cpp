@@ -40,7 +40,8 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   EXPECT_NEAR(box.size().z(), 1.5 + made.report.height_mm, 1e-9);
 }
 
-// A relief in the plate of that size: as large as the margin allows, so that a point touches it and none lies beyond.
+// Expects that a relief in a plate of that size is as large as the margin allows: one point touches the
+// margin, and none lies beyond.
 void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const Vec2& size) {
   const auto made = value_of(make_relief(model, options));
   EXPECT_EQ(check_solid(made.solid), "");
@@ -50,13 +51,13 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
   ReliefOptions larger = options;
   larger.width_mm = width * 1.001;
   expect_error(make_relief(model, larger), "width: expected ");
-  // Without a size, the plate of this width is no larger, and in one direction as large.
+  // Without a size, the plate of a relief of this width is no larger, and as large in one direction.
   ReliefOptions free = options;
   free.width_mm = width;
   free.diameter_mm.reset();
   free.plate_mm.reset();
   const Vec2 share = box_of(make_relief(model, free)->solid).size().head<2>().cwiseQuotient(size);
-  if (options.outline == Outline::ellipse) return;  // the small one has axes of another ratio
+  if (options.outline == Outline::ellipse) return;  // the smaller ellipse has axes of another ratio
   EXPECT_NEAR(share.maxCoeff(), 1, 1e-3) << name;
 }
 
@@ -76,16 +77,16 @@ TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   options.diameter_mm = 80;
   options.outline = Outline::circle;
   expect_fitted(*model, options, Vec2(80, 80));
-  options.width_mm = 20;  // smaller than would fit: the plate stays
+  options.width_mm = 20;  // a smaller relief keeps the plate's size
   const auto made = make_relief(*model, options);
   EXPECT_NEAR(box_of(made->solid).size().x(), 80, 1e-9);
   EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
-  options.form = Form::die;  // the groove of the coin's rim, and around it as much again and the bevel
+  options.form = Form::die;  // the coin's rim is a groove, in a border as wide as the rim and its bevel
   const Vec3 die = box_of(make_relief(*model, options)->solid).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);
 }
 
-// Heights at which a vertical line crosses the solid, by looking at every triangle.
+// Returns the heights at which a vertical line crosses the solid, by trying every triangle.
 std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   std::vector<double> heights;
   for (const Triangle& t : solid.triangles) {
@@ -159,7 +160,7 @@ TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
   EXPECT_FALSE(paper->report.height_usual_mm);
 }
 
-// A shallow dome, which no height of a twentieth can be made of; with a draft angle, too.
+// The dome is too shallow for a height of a twentieth, with or without a draft angle.
 TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
   Cloud shallow = test::sphere(20000, 1);
   for (Vec3& p : shallow.points) p.z() *= .02;
@@ -199,7 +200,7 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
   options.height_mm = 2;
   options.rim_mm = 3;
   options.draft_deg = 20;
-  for (const double share : {.9, 1.1}) {  // of the bevel that leans by that angle
+  for (const double share : {.9, 1.1}) {  // shares of the bevel that leans by the draft angle
     options.rim_bevel_mm = share * 2 * std::tan(20 * std::numbers::pi / 180);
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
     const auto made = make_relief(*model, options);
@@ -238,7 +239,7 @@ TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   options.shift_mm = Vec2(12, -7);
   EXPECT_LT((place(options) - middle - options.shift_mm).norm(), 1e-9);
   EXPECT_LT((box_of(make_relief(*model, options)->solid).size().head<2>() - *options.plate_mm).norm(), 1e-9);
-  options.form = Form::mirror;  // where the right is the left
+  options.form = Form::mirror;  // the mirrored relief moves to the left
   const Vec2 mirrored = place(options);
   EXPECT_LT((mirrored - Vec2(120 - middle.x() - 12, middle.y() - 7)).norm(), 1e-6);
   options.form = Form::relief;

@@ -133,7 +133,7 @@ TEST(OptionTable, HasNamesOfTheirOwnHelpAndADefault) {
   }
 }
 
-// All numbers of NumericOptions are in the table: none can be typed that is not checked.
+// All numbers of NumericOptions are in the table, so every number that users set is checked.
 TEST(OptionTable, HasARowForEachNumber) {
   std::size_t bytes = 0;
   for (const OptionRow& option : option_table()) {

@@ -125,8 +125,8 @@ TEST(SeenScene, MeshesHideEachOther) {
   }
 }
 
-// Spacing of the points within a ball, and the mean angle of their normals to those of the sphere about its
-// centre.
+// The spacing of the points of a ball, and the mean angle between their normals and those of a sphere about
+// its centre.
 struct Look {
   double spacing = 0, angle_deg = 0;
 };

@@ -177,7 +177,7 @@ TEST(Session, ANewerOpeningReplacesAnOlder) {
   first.ready = second.ready = third.ready = count;
   session.open(first);
   stuck.has_begun.acquire();
-  session.open(second);  // cancels the first, and is itself never begun
+  session.open(second);  // cancels the first preparation, and is never begun
   session.open(third);
   ASSERT_TRUE(session.wait_until_idle(60s));
   ASSERT_NE(session.model(), nullptr);

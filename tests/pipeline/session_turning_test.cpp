@@ -68,7 +68,7 @@ bool turns_once(bool makes_first_relief) {
   EXPECT_NE(turned_model(session, view_to("1,0,1")), first);
   held.may_go_on.release();
   EXPECT_TRUE(session.wait_until_idle(60s));
-  EXPECT_NE(turned_model(session), first);  // it takes over the tuning of the model now
+  EXPECT_NE(turned_model(session), first);  // the turned model takes over the tuning of the first model now
   return first == second;
 }
 
@@ -129,7 +129,7 @@ TEST(Session, TurningLeavesThePreparationAlone) {
   ASSERT_TRUE(session.wait_until_idle(60s));
 }
 
-// Points of all sides that come only when the turn that waits for them has been cancelled.
+// A turn whose preparation gives the points of all sides only after the turn has been cancelled.
 struct StuckTurn {
   std::binary_semaphore has_begun{0};
   std::atomic<bool> is_first = true, has_ended = false;

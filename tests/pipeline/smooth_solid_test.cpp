@@ -61,13 +61,13 @@ MadeRelief made_of(const Cloud& cloud) {
 // A scan with that many points, and how much the facets of its solid may turn.
 struct ScanSize {
   std::size_t points;
-  double most_deg, rare_deg;  // what 99 % and 99.9 % do not exceed
+  double most_deg, rare_deg;  // bounds of 99 % and 99.9 % of the angles
 };
 
 class SmoothSolid : public testing::TestWithParam<ScanSize> {};
 
-// The edge of the small button turns by 14 degrees from one of 20,000 points to the next, and by 3 of 250,000. Where the
-// boundary weight is wide, the surface bends by 13 degrees all along the silhouette.
+// The edge of the small button turns by 14 degrees from point to point if there are 20,000, and by 3 if there
+// are 250,000. Where the boundary weight is wide, the surface bends by 13 degrees all along the silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);

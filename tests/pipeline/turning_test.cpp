@@ -112,7 +112,8 @@ TEST(Turntable, HasAboutAsManyPointsAsItSays) {
   }
 }
 
-// Returns the diameter of the rest of a sphere of radius 1 if the model before had a plane at that height.
+// Returns the diameter of the part of a sphere of radius 1 that is left if the model before had a plane at
+// that height.
 double diameter_before_plane(const Turntable& table, const MeasuredCloud& measured, double height) {
   Surface surface = find_surface(measured, {}).value();
   surface.plane = SupportPlane{PlaneKind::background, Vec3::UnitZ(), height - surface.centre.z(), .01, .3};

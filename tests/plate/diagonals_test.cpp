@@ -30,7 +30,7 @@ struct Roof {
     mesh = delaunay(points);
   }
 
-  // The largest difference between the roof and the middles of edges.
+  // Returns the largest difference between the roof and the middles of edges.
   double error(double direction) const {
     double most = 0;
     for (const Triangle& t : mesh.triangles)

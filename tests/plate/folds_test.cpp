@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Points so dense that single precision turns many of their triangles over, in the middle of a square.
+// Returns a square with points in its middle that are so dense that single precision folds their triangles.
 Solid dense_surface(double size) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(.499999, .500001);

@@ -17,7 +17,7 @@
 namespace relievo {
 namespace {
 
-// Not symmetric: a ball with a smaller one at its upper right.
+// Returns a ball with a smaller one at its upper right, which is not symmetric.
 Cloud balls() {
   Cloud cloud = test::sphere(12000, 1);
   const Cloud small = test::sphere(6000, .5, 9);
@@ -77,7 +77,7 @@ TEST(Forms, AMirrorSwapsLeftAndRight) {
 TEST(Forms, TheReliefFitsIntoItsDie) {
   const MadeRelief relief = made(Form::relief), die = made(Form::die);
   const double width = box_of(relief.solid).max.x();
-  // Face to face: the die turned about the y axis meets the relief with no gap.
+  // Turned about the y axis, the die lies on the relief without a gap.
   const double sum = relief.solid.points[0].z() + die.solid.points[0].z();
   for (std::size_t i = 0; i < relief.solid.points.size() - 8; i += 89) {
     EXPECT_NEAR(die.solid.points[i].x(), width - relief.solid.points[i].x(), 1e-9);
@@ -89,7 +89,7 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const MadeRelief it = made(Form::lithophane);
   const Box box = box_of(it.solid);
-  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is thin for the light
+  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is thin, so that light passes
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
   // The lamp is at the upper left: over the ball's upper left the plate is thinner than over its lower right.
   const HeightFieldMesh front = lithophane_of(test::sphere(20000, 1));

@@ -19,7 +19,8 @@
 namespace relievo {
 namespace {
 
-// Least distance from the points to the lines of the polygon's edges; negative if one lies outside.
+// Returns the least distance from the points to the lines of the polygon's edges; negative if one lies
+// outside.
 double least_ground(const std::vector<Vec2>& polygon, const std::vector<Vec2>& points) {
   double least = 1e300;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -37,7 +38,7 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return ((box.min + box.max) / 2).head<2>();
 }
 
-// Not symmetric: a bent half of an ellipse, far from the origin.
+// Returns a shape that is not symmetric: a bent half of an ellipse, far from the origin.
 std::vector<Vec2> lump() {
   std::vector<Vec2> points = test::ellipse(41, 30, 20, .3);
   std::erase_if(points, [](const Vec2& p) { return p.x() + p.y() < -12; });
@@ -145,7 +146,7 @@ TEST(OutlineAround, HasTheSizeAskedForAndItsCentre) {
     EXPECT_LT((size_of(sized) - size).norm(), 1e-9) << name;
     const Vec2 shift = middle_of(sized) - middle_of(small);
     EXPECT_LT(shift.norm(), outline == Outline::ellipse ? .5 : 1e-9)
-        << name;  // of another shape than the small one
+        << name;  // the axes' ratio differs from that of the small ellipse
   }
 }
 
@@ -164,9 +165,9 @@ TEST(PlateSize, IsTwoLengthsOfAnyUnit) {
 TEST(OutlineAround, RoundCornersWithinTheMarginKeepTheRectanglesSize) {
   const std::vector<Vec2> box = {{0, 0}, {30, 0}, {30, 20}, {0, 20}};
   EXPECT_LT((size_of(outline_around(box, {Outline::round, 5, 5})) - Vec2(40, 30)).norm(), 1e-9);
-  // A corner's circle of 8 mm is 8 - 8/sqrt(2) away from the rectangle's corner, 5 sqrt(2) - that is left.
+  // Corners of radius 15 - 5 would cut off the corners of the box, so the rectangle grows.
   const Vec2 grown = size_of(outline_around(box, {Outline::round, 15, 5}));
-  const double inner = 10 * (1 - std::sqrt(.5));  // corners of radius 15 - 5 would cut off so much a side
+  const double inner = 10 * (1 - std::sqrt(.5));  // growth at each side
   EXPECT_NEAR(grown.x(), 40 + 2 * inner, .02);
   EXPECT_NEAR(grown.y(), 30 + 2 * inner, .02);
 }
@@ -188,7 +189,7 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   }
 }
 
-// Squares of a grid that are relief: '#'. The heights do not matter.
+// Returns a grid of squares, of which those marked '#' are relief. The heights do not matter.
 HeightFieldMesh patches(const std::vector<std::string>& rows) {
   const int n = static_cast<int>(rows.size());
   HeightFieldMesh front =
@@ -230,7 +231,7 @@ TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
 
 TEST(MakePlate, WithoutGroundNothingHangsOnByACorner) {
   // Two blocks touch in one point. The diagonals of the cells run through it, so two triangles of each meet
-  // there: those of one block go.
+  // there: the two of one block are removed.
   const auto solid = test::plate_of(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(pieces(solid), 2U);

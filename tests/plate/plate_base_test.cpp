@@ -24,7 +24,7 @@ double bump(double x, double y) {
   return to_middle < 8 ? 1 + std::cos(to_middle * std::numbers::pi / 8) : 0;
 }
 
-// A hill in the middle of flat ground.
+// Returns a hill in the middle of flat ground.
 HeightFieldMesh hill() {
   HeightFieldMesh front = test::grid_front({30, 20, 30, 20}, bump);
   for (const Triangle& t : front.triangles)
@@ -32,7 +32,7 @@ HeightFieldMesh hill() {
   return front;
 }
 
-// The same with points in no order, whose triangles are Delaunay's; the hill ends in flat ground, too.
+// Returns the same hill with scattered points and Delaunay's triangles; it ends in flat ground, too.
 HeightFieldMesh scattered_hill() {
   test::Random random(7);
   std::vector<Vec3> points;
@@ -76,7 +76,7 @@ class Heights {
     }
   }
 
-  // NaN beside the front.
+  // Returns the height at a place, NaN beside the front.
   double at(const Vec2& place) const {
     for (const Index t : cells_[static_cast<std::size_t>(80 * cell(place.y()) + cell(place.x()))]) {
       const auto& [a, b, c] = solid_.triangles[t];
@@ -200,7 +200,7 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
       EXPECT_EQ(check_solid(solid), "") << shape;
       EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
       EXPECT_LE(solid.error_mm, .034) << shape;
-      // Both ways: where either bends.
+      // The errors are compared at the points of both surfaces, where either may bend.
       double worst = 0;
       for (const auto& [one, other] : {std::pair(&solid, &full), std::pair(&full, &solid)}) {
         const Heights heights(*other);

@@ -12,7 +12,7 @@ namespace {
 
 const Tool ball{Tool::Kind::ball, 2};
 
-// A block of 20 x 10 mm, 3 mm high, with walls as steep as the grid allows, and a pit in its middle.
+// Returns a block of 20 x 10 mm, 3 mm high, with walls as steep as the grid allows, and a pit in its middle.
 HeightFieldMesh block() {
   return test::grid_front({40, 20, 160, 80}, [&](double x, double y) {
     const bool is_pit = std::abs(x - 20) < 1 && std::abs(y - 10) < 1;

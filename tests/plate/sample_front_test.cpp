@@ -19,7 +19,7 @@ double dome(const Vec2& p) {
   return 2 - .02 * (p - Vec2(side / 2, side / 2)).squaredNorm();
 }
 
-// Random points over a square, its corners among them, with the heights of a function.
+// Returns random points over a square, its corners among them, with the heights of a function.
 template <typename F>
 HeightFieldMesh front_of(F height, std::size_t n = 4000) {
   std::vector<Vec2> plane = random_points(n, 21);

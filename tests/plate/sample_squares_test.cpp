@@ -11,7 +11,7 @@ namespace {
 
 constexpr float angle = .03F, none = std::numeric_limits<float>::quiet_NaN();
 
-// Slopes of a grid of 64 x 64 cells.
+// Returns the slopes of a grid of 64 x 64 cells.
 template <typename Slope>
 Image<Vec2f> grid_of(Slope slope) {
   Image<Vec2f> slopes = filled_image(64, 64, Vec2f(Vec2f::Zero()));
@@ -20,7 +20,7 @@ Image<Vec2f> grid_of(Slope slope) {
   return slopes;
 }
 
-// A surface that turns by that angle from one cell to the next, along x.
+// Returns the slopes of a surface that turns along x, by that angle from one cell to the next.
 Image<Vec2f> cylinder(float turn) {
   return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
 }
@@ -51,7 +51,7 @@ TEST(SampleSquares, CoverEachCellWithASlopeOnce) {
 TEST(SampleSquares, AreLargeOnAPlane) {
   const std::vector<SampleSquare> squares = sample_squares(cylinder(0), angle);
   const auto large = std::ranges::count(squares, largest_square, &SampleSquare::side);
-  EXPECT_EQ(large, 16);  // smaller ones lie around them, at the edge of the grid
+  EXPECT_EQ(large, 16);  // smaller squares lie around these, at the edge of the grid
   EXPECT_EQ(quartered(squares), 0);
 }
 
@@ -76,7 +76,8 @@ TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
 }
 
 TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {
-  // On a steep cone slopes turn about the axis, by which normals turn more than along the slope.
+  // The slopes of a cone turn only about its axis. This turns the normals of a steep cone more than of a flat
+  // one.
   const auto cone = [](float steepness) {
     return grid_of([&](int x, int y) {
       return Vec2f(steepness *

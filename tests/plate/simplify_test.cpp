@@ -17,7 +17,7 @@ namespace {
 
 using test::flat_front, test::grid_front;
 
-// The Delaunay front of scattered points with a rectangle at 0 around them.
+// Returns the Delaunay front of scattered points with a rectangle at 0 around them.
 HeightFieldMesh scattered_front(int n, const std::function<double(double, double)>& z,
                                 std::uint64_t seed = 7) {
   test::Random random(seed);
@@ -83,7 +83,7 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   double largest = 0;
   const auto compare = [&](const Vec2& place) {
     const double error = std::abs(height_at(full, place) - height_at(simpler.front, place));
-    if (error > largest) largest = error;  // not for NaN, outside by rounding
+    if (error > largest) largest = error;  // NaN, which is outside by rounding, does not count
   };
   for (const Vec3& p : full.points) compare(p.head<2>());
   for (const auto& [a, b] : edges_of(full))

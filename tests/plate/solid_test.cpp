@@ -201,7 +201,7 @@ TEST(Volume, DoesNotDependOnThePlace) {
 
 // ------------------------------------------------------------------------------------------------- writers
 
-// Takes numbers from the front of bytes, as the formats lay them down.
+// Reads numbers from the start of bytes, in the formats' byte order.
 struct Reader {
   std::span<const std::byte> rest;
   template <typename T>
@@ -268,7 +268,7 @@ TEST(WritePly, HoldsEveryPointAndTriangle) {
   EXPECT_TRUE(reader.rest.empty());
 }
 
-// Reads " x y z" from the front of text.
+// Reads " x y z" from the start of a text.
 template <typename T>
 std::array<T, 3> take_three(std::string_view& text) {
   std::array<T, 3> numbers{};
@@ -328,7 +328,7 @@ TEST(InUnit, ScalesAndSeparates) {
   EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
 }
 
-// Two points of a needle. They differ in a file in millimetres, but not always in one in inches.
+// Two points of a needle differ in a file in millimetres, but not always in one in inches.
 TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {

@@ -58,7 +58,7 @@ TEST(ThinTriangles, AtAnEdgeOfTheFrontAreRemovedIfItMayLoseEdges) {
   EXPECT_EQ(solid.regions.size(), 2);
 }
 
-// Without the thin triangle, the point 2 alone would hold the two sides together.
+// Without the thin triangle, the point 2 alone would connect the two sides.
 TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   const std::vector<Vec3> points{{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1}, {0, 1, 1}, {2, 1, 1}};
   Solid solid = surface_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}});

@@ -91,7 +91,7 @@ TEST(Tool, ProfilesAreBallsPlanesAndCones) {
   EXPECT_EQ(tool_profile(flat, 1.5), 0);
   EXPECT_TRUE(std::isinf(tool_profile(flat, 1.501)));
   EXPECT_NEAR(tool_profile(sharp, 1), std::sqrt(3), 1e-12);
-  // The ball of a rounded tip goes over into the flank without a step or an edge.
+  // The ball of a rounded tip joins the flank without a step or an edge.
   const Tool tapered{Tool::Kind::v, 0, 40, 2};
   const double touching = std::cos(20 * std::numbers::pi / 180), e = 1e-6;
   const auto at = [&](double r) { return tool_profile(tapered, r); };
@@ -146,7 +146,7 @@ TEST(CloseByTool, AVReachesSlopesUpToItsFlank) {
   };
   const Image<float> gentle = valley(1.7), steep = valley(2.5);
   EXPECT_LT(close_by_tool(gentle, .05, sharp).pixels[10 * 161 + 80], 1e-5);
-  // Between steeper walls it hangs from their upper ends.
+  // Between steeper walls the tool touches only their upper ends.
   EXPECT_NEAR(close_by_tool(steep, .05, sharp).pixels[10 * 161 + 80], 4 * (2.5 - std::sqrt(3)), 1e-4);
 }
 
@@ -160,7 +160,7 @@ TEST(CloseByTool, IsAClosing) {
     const Image<float> once = close_by_tool(z, .2, tool), twice = close_by_tool(once, .2, tool);
     for (std::size_t i = 0; i < z.pixels.size(); ++i) {
       RC_ASSERT(once.pixels[i] >= z.pixels[i]);
-      // A V tool's flank would end lower the second time.
+      // A V tool is left out, as its flank would end lower the second time.
       RC_ASSERT(tool.kind == Tool::Kind::v || std::abs(twice.pixels[i] - once.pixels[i]) < 1e-5F);
     }
     RC_ASSERT(*std::ranges::max_element(once.pixels) == *std::ranges::max_element(z.pixels));

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Hills with a ring before them, which leaves a depth jump.
+// Returns hills with a ring before them, at which the depth jumps.
 Surface figure() {
   const Cloud hills = test::height_field(
       60000, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },
@@ -22,7 +22,7 @@ Surface figure() {
   return find_surface(test::joined(hills, test::torus(60000, .6, .2)), {}).value();
 }
 
-// The depths, each distorted in its own way.
+// Returns copies of the depths, each distorted in its own way.
 std::vector<std::vector<double>> reliefs(const Surface& surface) {
   std::vector<std::vector<double>> all(4);
   for (const Vec3& p : surface.points) {

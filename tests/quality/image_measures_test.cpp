@@ -9,7 +9,7 @@ namespace {
 
 constexpr int width = 30, height = 20;
 
-// Everywhere but within `margin` of the rim, and in a hole.
+// Returns a mask of all pixels, except those within `margin` of the rim or in a hole.
 PixelMask measured(int margin, bool has_hole = false) {
   Image8 is_measured = filled_image(width, height, std::uint8_t{0});
   for (int y = margin; y < height - margin; ++y)
@@ -34,7 +34,7 @@ TEST(PixelMask, ListsItsPixels) {
   for (const Index i : where.pixels) ASSERT_TRUE(where.mask[i]);
 }
 
-// Rows run down: y falls with them.
+// Rows run downwards, so y falls from row to row.
 TEST(Divergence, IsThatOfALinearField) {
   const PixelMask where = measured(1, true);
   const Image<float> sum = divergence(image([](int x, int y) { return .3 * x + 7 * y; }),

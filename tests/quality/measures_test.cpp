@@ -13,7 +13,7 @@ namespace {
 
 using test::surface_of;
 
-// Bumps of several sizes on a square of side 2.
+// Returns the height of bumps of several sizes on a square of side 2.
 double bumps(double x, double y) {
   return .3 * std::sin(3 * x) * std::cos(2 * y) + .02 * std::sin(25 * x) * std::sin(20 * y);
 }
@@ -42,14 +42,14 @@ std::vector<double> heights(const Surface& surface, F f) {
 
 TEST(Measures, OfTheModelItselfAreTheBest) {
   const Measures m = ReliefMetrics(bumpy()).measure(depths(bumpy()));
-  EXPECT_GT(m.shading, .97);  // what triangles between points scattered at random leave
+  EXPECT_GT(m.shading, .97);  // triangles between random points distort the picture
   EXPECT_LT(m.angle_deg, 1);
   for (const double detail : m.detail) EXPECT_GT(detail, .98);
   EXPECT_EQ(m.order, 1);
   EXPECT_LT(m.jump_step, 1e-12);
 }
 
-// The mean angle against the integral over the gradient of both.
+// The expected angle is the mean over the points, which are uniform in x and y.
 TEST(Measures, AngleOfALevelReliefIsTheMeanTilt) {
   std::vector<double> level(bumpy().points.size(), 0.0);
   level[0] = 1e-6;  // a relief of some height
@@ -114,8 +114,8 @@ TEST(Measures, JumpStepIsWhatIsLeftOfAJump) {
   EXPECT_LT(judge.measure(ramp).jump_step, .05);
 }
 
-// Everything one high but the boundary: a step at the silhouette, none within, even where a sheet in front
-// ends beyond the one behind.
+// All points but the boundary have one height: there is a step at the silhouette and none within, even where
+// the sheet in front ends beyond the one behind.
 TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   Cloud front = test::sheet(10000, .5, 3, 9);
   for (Vec3& p : front.points) p.x() += 1;

@@ -14,13 +14,13 @@ using test::surface_of;
 
 constexpr double pi = std::numbers::pi;
 
-// A disc of radius 1 whose rim is a circle.
+// Returns a disc of radius 1, whose rim is a circle.
 const Surface& disc() {
   static const Surface surface = surface_of(test::button(40000, .85, .15));
   return surface;
 }
 
-// Heights that rise from 0 at radius 1, with that slope at that azimuth.
+// Returns heights that rise inwards from 0 at radius 1; the slope is a function of the azimuth.
 template <typename Slope>
 std::vector<double> rising(const Surface& surface, Slope slope) {
   std::vector<double> z;
@@ -50,7 +50,7 @@ TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   EXPECT_NEAR(fray, rest * amplitude / std::sqrt(2) * 180 / pi, .2);
 }
 
-// A slow change of the tilt is no fray.
+// A slow change of the tilt does not count as fray.
 TEST(SurfaceMeasures, FrayLeavesOutTheSmoothCourse) {
   const SurfaceMeasures measures(disc());
   EXPECT_LT(measures.fray(rising(disc(), [](double angle) { return .5 + .1 * std::sin(3 * angle); }))

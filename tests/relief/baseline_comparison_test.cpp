@@ -59,7 +59,7 @@ TEST(BaselineComparison, ReturnsTheDeficit) {
     }
 }
 
-// Compressed, they are the heights of the relief.
+// After compression, these heights are those of the relief.
 TEST(BaselineComparison, FindsHeightsBeforeCompression) {
   const Figure figure(shell());
   const ReliefModel model = ReliefModel::prepare(figure.surface).value();

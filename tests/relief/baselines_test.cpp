@@ -14,15 +14,15 @@
 namespace relievo {
 namespace {
 
-// A roof of that slope, its ridge along y.
+// Returns a roof of that slope with its ridge along y.
 Cloud roof(double slope, std::size_t n = 30000) {
   return test::height_field(
       n, 1, [=](double x, double) { return -slope * std::abs(x); },
       [=](double x, double) { return Vec2(x > 0 ? -slope : slope, 0); });
 }
 
-// Largest difference of heights from f(x, y) up to a constant, away from the rim and the roof's ends, of the
-// height.
+// Returns the largest difference of heights from f up to a constant, away from the rim and the roof's ends,
+// as a share of the height.
 template <typename F>
 double misfit(const Surface& surface, const Relief& relief, F f) {
   double low = 1e300, high = -1e300;
@@ -44,7 +44,7 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   }
 }
 
-// All points of a level face, and of four points, are at the same depth or on the boundary.
+// All points of a level face, and all of four points, are at the same depth or on the boundary.
 TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
   Cloud four;
   four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
@@ -88,7 +88,7 @@ TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
   EXPECT_EQ(attenuated(Vec2::Zero(), 5), Vec2(Vec2::Zero()));
 }
 
-// Weyrich et al.: the attenuated gradients integrated, then scaled.
+// Weyrich et al. integrate attenuated gradients and scale the result.
 TEST(Gradient, IntegratesAttenuatedGradients) {
   const ReliefModel model = test::prepared(test::sphere(20000, 1));
   const GradientOptions options{.attenuation = 3, .steepest_kept = 50, .band_weights = {1}};
@@ -148,7 +148,7 @@ TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
   EqualiseOptions options;
   options.windows = 1;
   options.picture_px = 128;
-  options.largest_window_px = 1024;  // all of the picture
+  options.largest_window_px = 1024;  // the whole picture
   const Relief relief = equalised_relief(surface, 1, options);
   EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);
 }

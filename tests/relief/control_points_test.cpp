@@ -15,7 +15,8 @@
 namespace relievo {
 namespace {
 
-// Scattered over a ring, denser on the left, with the distance to its two circles' boundary points.
+// Points scattered over a ring, denser on the left, with their distances from the boundary points on its two
+// circles.
 struct Figure {
   std::vector<Vec2> points;
   std::vector<float> distance;
@@ -108,7 +109,7 @@ TEST(ControlPoints, DoNotDependOnTheOrderOfThePoints) {
   EXPECT_EQ(before, places(figure));
 }
 
-// Any points, any distances, clusters and twins included.
+// Any points and any distances, clusters and coincident points included.
 TEST(ControlPoints, CoverAnything) {
   ASSERT_TRUE(rc::check([] {
     const auto cells = *rc::gen::container<std::vector<std::pair<int, int>>>(

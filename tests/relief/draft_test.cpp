@@ -23,12 +23,12 @@ namespace {
 
 using test::prepared;
 
-// Walls at depth jumps, curvature of both signs, a hole.
+// Returns a figure with walls at depth jumps, curvature of both signs, and a hole.
 Cloud figure(std::size_t n = 12000) {
   return test::joined(test::torus(n, 1.5, .4), test::sphere(n, .8));
 }
 
-// A relief over points of the plane, 0 at the boundary.
+// Returns a relief with the heights f(x, y), 0 at the boundary.
 template <typename F>
 Relief relief_of(const ReliefModel& model, F f) {
   Relief relief;
@@ -70,7 +70,8 @@ double steepest(const std::vector<Slope>& slopes) {
   return most;
 }
 
-// Angle of the steepest triangle that looks up, in degrees, as another program would find it in the file.
+// Returns the angle of the steepest triangle that faces up, in degrees, as another program would find it in
+// the file.
 double steepest_deg_in_stl(const std::vector<std::byte>& file, std::size_t triangles) {
   double most = 0;
   for (std::size_t t = 0; t < triangles; ++t) {
@@ -101,7 +102,7 @@ TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
   EXPECT_EQ(limited->heights, free->heights);
 }
 
-// The steepest cone that may be is the nearest one: its slopes are the given ones, cut.
+// The nearest relief is the steepest cone that is allowed: the given slopes, cut off at the limit.
 TEST(Draft, ACone) {
   const ReliefModel model = prepared(test::sheet(20000, 1, 0));
   const auto cone = [](double slope) {
@@ -187,7 +188,7 @@ double largest_named(const Result<Relief>& refused) {
 TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   const ReliefModel model = prepared(figure(6000));
   const Shape shape = default_shape(Method::layered);
-  for (const double height : {1.2, 50.0}) {  // in reach without the limit, and not
+  for (const double height : {1.2, 50.0}) {  // within reach without the limit, and out of reach
     const auto made = make_with_draft(model, {Method::layered, shape, height, 10}, {.4});
     expect_error(made, ErrorKind::geometry);
     const double largest = largest_named(made) / 10;
@@ -326,7 +327,8 @@ TEST(SteepestSlope, OfARampAndOfAWall) {
   EXPECT_TRUE(std::isinf(steepest_slope(solid)));
 }
 
-// Dense points far from the origin, where single precision alone makes slopes of needles.
+// The points are dense and far from the origin, so that rounding to single precision alone makes needles
+// steeper.
 TEST(HoldDraft, TakesWhatRoundingAdds) {
   ASSERT_TRUE(rc::check([] {
     test::Random random(*rc::gen::arbitrary<std::uint64_t>());

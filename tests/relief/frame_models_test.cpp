@@ -24,7 +24,7 @@ const std::string scan_names[] = {"armadillo",     "bimba",
                                   "nefertiti",     "scene_menagerie_front",
                                   "squirrel"};
 
-// A test for each sample and each scan; those of scans that are missing are skipped.
+// Has a test for each sample and each scan; those of missing scans are skipped.
 class FrameOfModel : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -40,7 +40,7 @@ class FrameOfModel : public testing::TestWithParam<std::string> {
   Cloud cloud_;
 };
 
-// Single precision against double.
+// Compares single precision with double precision.
 TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);

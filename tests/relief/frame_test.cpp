@@ -47,7 +47,7 @@ TEST(Frame, AgreesWithTheExactRelief) {
       }
 }
 
-// The stencil against the cross products themselves.
+// Compares the stencil with the cross products of the triangles.
 TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
   const Frame frame = frame_of({});
   const Surface& surface = model().surface();

@@ -16,14 +16,14 @@ namespace {
 
 using test::surface_of;
 
-// Level, and longer in y: far from its ends only x matters.
+// Returns a level strip that is longer in y, so that far from its ends only x matters.
 Surface strip(double half_width) {
   Cloud cloud = test::sheet(60000, 1, 0);
   for (Vec3& p : cloud.points) p.x() *= half_width;
   return surface_of(cloud);
 }
 
-// Bumps on a square of side 2, 0 at its rim, up to .3 high.
+// Returns the height of bumps on a square of side 2, 0 at its rim, up to .3 high.
 double bump(double x, double y) {
   return (1 - x * x) * (1 - y * y) * (.15 + .15 * std::sin(9 * x) * std::sin(7 * y));
 }
@@ -229,7 +229,7 @@ TEST(HeightCorrection, IsHingedAtJumps) {
           most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
     return most;
   };
-  // With rows of points beside the jump it is 3.6 times as much, with scattered points alone it was above 4.
+  // The ratio is 3.6 with rows of points beside the jump, and was above 4 with scattered points alone.
   EXPECT_GT(bend(18, 21), 3 * bend(5, 15));
   EXPECT_GT(bend(18, 21), 3 * bend(24, 34));
 }
@@ -241,7 +241,7 @@ TEST(HeightCorrection, IsTheSameInSinglePrecision) {
   EXPECT_LE(test::largest_difference(single, exact), 2e-6);
 }
 
-// Rims end as w_b says, and the height is just the one asked for.
+// The rim follows w_b, and the height is exactly the one asked for.
 TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const Surface surface = bumpy();
   const HeightCorrection correction(surface, jump_weights(surface));
@@ -249,7 +249,7 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as (9) has it
+    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as in (9)
   correction.compress_heights<double>({z, weight, {.15, pull_length}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);

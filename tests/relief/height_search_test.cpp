@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-// A height that grows with u as those of reliefs do: 5 (1 - exp(-u)). Counts its calls.
+// Returns a height that grows with u as those of reliefs do, 5 (1 - exp(-u)), and counts its calls.
 struct Growth {
   double last = 0;  // height of the last call
   int calls = 0;
@@ -39,7 +39,7 @@ TEST(HeightSearch, EndsWithTheHighestWhereTheHeightIsOutOfReach) {
   EXPECT_EQ(climbed.last, Growth()(4.5));
 }
 
-// Heights leap where level points have their whole slope only at u = infinity.
+// Heights jump at u = infinity if level points have their whole slope only there.
 TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   double last = 0;
   const auto leaping = [&](double log_u) {
@@ -55,7 +55,7 @@ TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   EXPECT_FALSE(HeightSearch(6, 1e-5).bracket(leaping));
 }
 
-// Slopes kept whole may be higher than what is asked for before the first step is added.
+// Slopes that are kept whole may give more than the height asked for, even without steps.
 TEST(HeightSearch, EndsAboveAHeightThatIsBelowAll) {
   double last = 0;
   const auto high = [&](double x) { return last = 4.1 + 1 / (1 + std::exp(-x)); };
@@ -75,7 +75,7 @@ TEST(HeightSearch, TracksSmallChangesInTwoCalls) {
   }
 }
 
-// Once it has learnt how the height grows, a change as small as the tolerance takes one call.
+// Once the search has learnt how the height grows, a change as small as the tolerance takes one call.
 TEST(HeightSearch, TracksWithinATolerance) {
   HeightSearch::Track track;
   int calls = 0, heights = 0;

@@ -16,7 +16,7 @@
 namespace relievo {
 namespace {
 
-// Points in a disc of radius 1, the first `rim` of them on its circle: the boundary.
+// Points in a disc of radius 1. The first `rim` points lie on its circle and are the boundary.
 struct DiscCase {
   std::vector<Vec2> points;
   Triangulation mesh;
@@ -89,7 +89,7 @@ TEST(Heights, InSinglePrecisionAgreeWithDouble) {
   EXPECT_LE(test::largest_difference(z, truth), 1e-5 * (highest - lowest));
 }
 
-// Against the dense least-squares problem, assembled from equation (9) edge by edge.
+// Compares heights with those of the dense least-squares problem, assembled from equation (9) edge by edge.
 void expect_least_squares(const std::vector<float>& weights) {
   const DiscCase disc(40, 20);
   const auto weight_of = [&](Index p, Index q) {
@@ -103,8 +103,8 @@ void expect_least_squares(const std::vector<float>& weights) {
     for (int corner = 0; corner < 3; ++corner) {
       const Index apex = t[corner], p = t[(corner + 1) % 3], q = t[(corner + 2) % 3];
       const Vec2 u = disc.points[p] - disc.points[apex], v = disc.points[q] - disc.points[apex];
-      // Half the cotangent from this side: the two sides of an edge add up. Complex where it is negative: use
-      // A directly.
+      // The weight is half the cotangent from this side; those of both sides of an edge add up. It may be
+      // negative, so the normal equations A are formed directly.
       const double weight = .5 * weight_of(p, q) * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n + 1);
       row[p] = 1, row[q] = -1, row[n] = weight;
@@ -182,8 +182,8 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
 }
 
-// The memory shows who shares a pattern: it counts only for the matrix that made it. Points on the boundary,
-// which have no unknown, come before their neighbours, and after them.
+// A pattern counts as memory only of the matrix that made it, which shows whether another matrix shares it.
+// Points on the boundary, which have no unknown, come before their neighbours, and after them.
 TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
   for (const bool is_boundary_last : {false, true}) {
     DiscCase disc(500);

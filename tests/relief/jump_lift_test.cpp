@@ -19,8 +19,8 @@ namespace {
 
 constexpr double half_width = .5;  // of the flap
 
-// A tilted square before a level one. Slopes say nothing of the depth between them, so (9) puts the middle of the square at
-// the height of what is behind it, and its lower half below.
+// Returns a tilted square before a level one. Slopes do not show the depth between them, so (9) puts the
+// middle of the tilted square at the height of the level one, and its lower half below.
 Cloud flap(std::size_t points = 8000) {
   const double tilt = 25 * std::numbers::pi / 180;
   Cloud square = test::sheet(points, half_width / std::cos(tilt), 0);
@@ -73,7 +73,7 @@ double mean_inversion(const Surface& surface, std::span<const double> z) {
   return sum / edges;
 }
 
-// Returns the share of the inversion that is left of heights for that shape.
+// Returns the share of the inversion that the lift leaves for that shape.
 double inversion_left(const Prepared& prepared, const Shape& shape) {
   std::vector<double> z = prepared.heights(shape);
   const double before = mean_inversion(prepared.surface, z);
@@ -119,7 +119,7 @@ TEST(JumpLift, MovesNothingFarFromJumpsNorOnTheSilhouette) {
   EXPECT_GT(moved, 1000U);
 }
 
-// Returns by how much a field at a point differs from a quadratic fit of those around it.
+// Returns by how much a field at a point differs from a quadratic fit of the values around it.
 double roughness(const Surface& surface, std::span<const double> y, std::size_t i) {
   std::vector<std::size_t> around;
   for (std::size_t j = 0; j < y.size(); ++j)

@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using test::surface_of;
 
-// A wave of that length along x, of slope 0.2, on a square of side 2.
+// Returns a wave of that length along x with slopes up to 0.2, on a square of side 2.
 Surface wavy(double length) {
   const double k = 2 * std::numbers::pi / length, a = .2 / k;
   return surface_of(test::height_field(
@@ -29,7 +29,7 @@ std::vector<PointLayers> layers_of(const Surface& surface) {
   return normal_layers(surface.points, surface.normals);
 }
 
-// Root mean square of a layer, away from the rim.
+// Returns the root mean square of a layer, away from the rim.
 template <typename Layer>
 double size_of(const Surface& surface, Layer layer) {
   const std::vector<PointLayers> layers = layers_of(surface);
@@ -76,7 +76,8 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
   EXPECT_LT(kept(2), 2 * rounding);
 }
 
-// 1 / (1 + (slope / 12)^8) is left of a normal's x and y, in the direction in which the surface rises.
+// A share of 1 / (1 + (slope / 12)^8) remains of a normal's x and y, in the direction in which the surface
+// rises.
 TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
   for (const double slope : {0.0, .5, 3.0, 12.0, 24.0}) {
     const Vec3 normal = Vec3(-.6 * slope, .8 * slope, 1).normalized();

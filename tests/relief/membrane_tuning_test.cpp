@@ -98,7 +98,7 @@ TEST(MembraneTuning, HeightsGrowWithU) {
   }
 }
 
-// The knots are included.
+// The parameters are continuous at the knots, too.
 TEST(MembraneTuning, IsContinuous) {
   EXPECT_NEAR(model().membrane_at(0).height_share, model().membrane_at(1e-9).height_share, 1e-8);
   for (const double u : {.25, .625, 1.5625, 3.90625}) {
@@ -177,7 +177,7 @@ TEST(MembraneTuning, CanBeCancelled) {
   }
 }
 
-// A strip is too narrow, a sheet has too few points or nothing to compress: none of them is an error.
+// A strip that is too narrow, and a sheet with too few points or nothing to compress, are no errors.
 TEST(MembraneTuning, HasItsDefaultWhereNothingCanBeMeasured) {
   Cloud strip = test::sheet(3000, 1, 0);
   for (Vec3& p : strip.points) p.x() *= .005;

@@ -31,7 +31,7 @@ TEST(Relief, OfATiltedPlaneIsFlatWhereNothingIsKept) {
   EXPECT_LT(model.make({keep_all, 0}).height, .2);
 }
 
-// Up to a constant: the rim's steepest two rho belong to the boundary weight.
+// The heights are equal up to a constant, as the boundary weight lowers the steep rim, two rho wide.
 TEST(Relief, OfAHemisphereKeptInFullIsTheHemisphere) {
   const ReliefModel model = prepared(test::sphere(120000, 1));
   const Relief relief = model.make({keep_all, 0, 100});
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(LayeredGrid, ReliefAtHeight,
                                           testing::Values(0, .01, 1)),
                          name_of);
 
-// A sphere has no depth jumps, whose steps would take what is missing.
+// A sphere has no depth jumps, whose steps would add the missing height.
 TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   const ReliefModel model = prepared(test::sphere(30000, 1));
   const double most = model.make({keep_all, .04}).height;
@@ -99,7 +99,7 @@ TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   expect_error(model.make_at_height(1.01 * most, {{}, .04}, 10), ErrorKind::geometry, "at most");
 }
 
-// At a high saturation most of the height comes at a u that double cannot hold.
+// At a high saturation most of the height comes at a u that double cannot represent.
 TEST(Relief, HasEveryHeightUpToTheLargest) {
   const ReliefModel model = prepared(bumps_behind_a_ring());
   for (const double beta : {0.0, 10.0, 100.0}) {

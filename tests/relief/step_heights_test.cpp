@@ -50,7 +50,7 @@ double largest_error(const ReliefModel& model, std::span<const double> heights, 
   return worst;
 }
 
-// The differences that are asked for are those of the terraces' depths, so no least squares are left over.
+// The wanted differences are those of the terraces' depths, so the least squares leave no residual.
 TEST(StepHeights, OfTerracesAreTheirDepths) {
   const ReliefModel model = test::prepared(terraces(20000));
   const StepHeights& steps = model.steps();
@@ -136,7 +136,7 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
 }
 
-// A share that is asked for leaves the correction at work, which keeps the order.
+// The height correction is made with a share of steps, too, and keeps the order.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();

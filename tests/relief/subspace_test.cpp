@@ -45,8 +45,8 @@ float span_of(const std::vector<float>& heights) {
   return *high - *low;
 }
 
-// The largest root mean square error over reliefs from high to very low, even and not, in shares of the
-// height.
+// Returns the largest root mean square error over reliefs from high to very low, even and uneven, as a share
+// of the height.
 double worst_error(const Surface& surface, const SubspaceModel& subspace) {
   const ReliefModel exact = ReliefModel::prepare(surface).value();
   double worst = 0;
@@ -96,7 +96,8 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// The first is 1.02 % with rows of points beside outlines, and was below 1 % with scattered points alone.
+// The first error is 1.02 % with rows of points beside outlines, and was below 1 % with scattered points
+// alone.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
   const Surface surface = surface_of(bumps_behind_a_ring());
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .012);
@@ -108,7 +109,7 @@ TEST(Subspace, IsCloseToTheExactReliefOfASphere) {
   EXPECT_LT(worst_error(surface, subspace_of(surface, 1000)), .01);
 }
 
-// Every point a control point, slopes without means: nothing is left to approximate but the offset's spline.
+// If every point is a control point and slopes are not averaged, only the offset's spline approximates.
 TEST(Subspace, IsTheExactReliefWhereAllPointsAreControlPoints) {
   const Surface surface = surface_of(test::sphere(10000, 1));
   SubspaceOptions options;

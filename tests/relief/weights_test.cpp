@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Equation (6) as printed.
+// Returns equation (6) as printed in the paper.
 double printed(double k, double delta, double alpha, double beta) {
   return 1 - std::exp(-std::pow(std::abs(k) / (alpha * delta), beta));
 }
@@ -60,7 +60,7 @@ TEST(Compression, LeavesAlphaOpenAtBetaZero) {
   for (const double u : {0.0, .5, 1.0, 2.0, infinity}) EXPECT_TRUE(std::isnan((Compression{u, 0}.alpha())));
 }
 
-// The factor of the saturation is (6) at u = 1 over its value where |k| = delta, whatever the u.
+// For every u, the factor of the saturation is (6) at u = 1, divided by its value where |k| = delta.
 TEST(Saturation, IsEquationSixWithoutItsHeight) {
   for (const double u : {.2, 1.0, 6.0})
     for (const double beta : {0.0, .5, 2.0})

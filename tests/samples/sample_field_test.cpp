@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Off the origin, so that no cell or axis is special.
+// The centre is off the origin, so that no cell or axis is special.
 const Vec3 centre(0.31, -0.17, 0.05);
 constexpr double big = 0.8, small = 0.3;
 
@@ -32,7 +32,8 @@ Solid torus() {
   return {value, {centre - Vec3::Constant(1.15), centre + Vec3::Constant(1.15)}};
 }
 
-// Pearson's statistic in units of its own standard deviation: some -3 to 3 for counts that follow `expected`.
+// Returns Pearson's statistic in units of its own standard deviation: about -3 to 3 if counts follow
+// `expected`.
 double misfit(const std::vector<double>& counts, const std::vector<double>& expected) {
   double chi_sq = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -91,7 +92,7 @@ TEST(Scatter, HasTheNearestNeighboursOfAPoissonProcess) {
   EXPECT_NEAR(sum / n, spacing / 2, 0.03 * spacing / 2);
 }
 
-// On a sphere the noise is what the radius varies by, and the tilt is the angle to the radius.
+// On a sphere the noise is the variation of the radius, and the tilt is the angle to the radius.
 TEST(Scatter, AddsTheNoiseAskedForAlongTheNormal) {
   const std::size_t n = 100000;
   for (const double noise : {0.15, 1.0}) {

@@ -26,7 +26,7 @@ field::Solid solid_of(std::string_view name) {
   return field::green_man();
 }
 
-// The sample without noise; made once.
+// Returns the sample without noise, which is made once.
 const Cloud& exact(std::string_view name) {
   static std::map<std::string_view, Cloud> made;
   const auto [it, is_new] = made.try_emplace(name);
@@ -61,7 +61,7 @@ TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vec3& p = cloud.points[i];
     ASSERT_LT(std::abs(solid.value(p)), 1e-6);
-    Vec3 gradient;  // by central differences: not as the cloud's own
+    Vec3 gradient;  // by central differences, unlike the cloud's normals
     for (int axis = 0; axis < 3; ++axis) {
       gradient[axis] = solid.value(p + step * Vec3::Unit(axis)) - solid.value(p - step * Vec3::Unit(axis));
     }
@@ -89,7 +89,7 @@ TEST_P(Sample, HasAFieldThatIsAtMostTheDistance) {
   EXPECT_LT(too_high, 500);
 }
 
-// Cells of the view plane, over the box.
+// The cells of the view plane over the box.
 struct Plane {
   Box box;
   int side = 0;
@@ -100,7 +100,7 @@ struct Plane {
   }
 };
 
-// Times that a ray along Z enters or leaves, by steps too small to miss much.
+// Returns how often a ray along Z enters or leaves the solid, by steps too small to miss much.
 int crossings(const field::Solid& solid, Vec3 p) {
   const double step = 0.002;
   int count = 0;
@@ -115,7 +115,7 @@ int crossings(const field::Solid& solid, Vec3 p) {
   return count;
 }
 
-// The share of all crossings that falls into each cell, by brute force.
+// Returns the share of all crossings that falls into each cell, by brute force.
 std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane) {
   const std::size_t side = 120;
   std::vector<int> counts(side * side);

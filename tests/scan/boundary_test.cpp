@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// The boundary of a flat cloud, all of it visible.
+// The boundary of a flat cloud whose points are all visible.
 struct FlatCase {
   std::vector<Vec2> points;
   double rho;

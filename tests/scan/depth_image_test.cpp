@@ -24,7 +24,7 @@ DepthImage image_of(F&& value, double step) {
   return image;
 }
 
-// Heights of a smooth surface in [0, 1]: hills of different steepness.
+// Returns the height of a smooth surface in [0, 1]: hills of different steepness.
 double hills(double c, double r) {
   const auto hill = [&](double x, double y, double radius) {
     return std::exp(-((c - x) * (c - x) + (r - y) * (r - y)) / (2 * radius * radius));
@@ -38,7 +38,7 @@ double highest_hill() {
   return high;
 }
 
-// The surface's normal where a picture width of range 1 is `range` deep.
+// Returns the surface's normal if a height of 1 is `scale` pixels.
 Vec3f hills_normal(double c, double r, double scale) {
   const double e = 1e-3, dx = (hills(c + e, r) - hills(c - e, r)) / (2 * e),
                dy = (hills(c, r + e) - hills(c, r - e)) / (2 * e);
@@ -111,7 +111,7 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   RecordProperty("mean_normal_error_deg", std::to_string(smooth.angle_deg));
   RecordProperty("mean_normal_error_of_steps_deg", std::to_string(stepped.angle_deg));
   RecordProperty("height_error_in_steps", std::to_string(smooth.height / step));
-  EXPECT_NEAR(stepped.height / step, 1 / std::sqrt(12), .02);  // the oracle of uniform rounding
+  EXPECT_NEAR(stepped.height / step, 1 / std::sqrt(12), .02);  // the deviation of uniform rounding
   EXPECT_LT(smooth.height, .5 * stepped.height);
   EXPECT_LT(smooth.angle_deg, .2 * stepped.angle_deg);
   EXPECT_LT(smooth.angle_deg, 2);
@@ -135,18 +135,18 @@ TEST(DepthCloud, FloatsWithoutNoiseStayAsTheyAre) {
 
 TEST(DepthCloud, NoiseIsMeasuredAndTakenAway) {
   test::Random random(3);
-  const double sigma = .004;  // half a pixel of height at this range
+  const double sigma = .004;  // a height of about half a pixel
   const auto made = depth_cloud(
       image_of([&](int c, int r) { return hills(c, r) + sigma * random.gaussian(); }, 0), as_heights());
   ASSERT_TRUE(made);
   const double high = highest_hill();
   const double scale = .5 * width / (high + 2 * 3.5 * sigma);  // the range holds the noise's ends, too
   EXPECT_NEAR(made->noise, 2 * sigma * scale, .3 * sigma * scale);
-  EXPECT_LT(errors_of(made->cloud, scale).angle_deg, 4.5);  // of 26 degrees without smoothing
+  EXPECT_LT(errors_of(made->cloud, scale).angle_deg, 4.5);  // 26 degrees without smoothing
 }
 
 TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
-  // Rays (u, v, 1) with n . p = 1 meet it at depth 1 / n . (u, v, 1).
+  // A ray (u, v, 1) meets the plane n . p = 1 at the depth 1 / n . (u, v, 1).
   const DepthCamera camera{300, 300, 119.5, 89.5};
   const Vec3 n = Vec3(.3, -.2, 1);
   const auto ray = [&](double c, double r) {
@@ -159,7 +159,8 @@ TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
   for (std::size_t k = 0; k < made->cloud.size(); k += 31) {
     const auto i = static_cast<int>(pixel_of(made->cloud.points[k]));
     const Vec3 r = ray(i % width, i / width);
-    // z is focal length times minus the logarithm of depth: its slope in pixels is n's part over n . ray.
+    // z is minus the focal length times the logarithm of depth, so its slope in pixels is n.x, n.y over n .
+    // ray.
     const Vec3f expected = Vec3(-n.x() / n.dot(r), n.y() / n.dot(r), 1).normalized().cast<float>();
     EXPECT_LT(angle_deg(made->cloud.normals[k], expected), .3) << k;
   }
@@ -176,7 +177,7 @@ TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
   options.camera = DepthCamera{264, 264, 119.5, 89.5};
   const auto by_depth = depth_cloud(image_of(depth, 0), options);
   options.camera.reset();
-  options.values = DepthValues::inverse;  // its assumed camera is the same: 1.1 times 240
+  options.values = DepthValues::inverse;  // the default camera has the same focal length, 1.1 times 240
   const auto by_inverse = depth_cloud(image_of([&](int c, int r) { return 7 / depth(c, r); }, 0), options);
   ASSERT_TRUE(by_depth && by_inverse);
   ASSERT_EQ(by_depth->cloud.size(), by_inverse->cloud.size());
@@ -184,7 +185,7 @@ TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
     EXPECT_LT(angle_deg(by_depth->cloud.normals[k], by_inverse->cloud.normals[k]), 1) << k;
 }
 
-// A disc at 200 before a wall at 60, its outline blurred over `blur` pixels on each side.
+// Returns a disc at 200 before a wall at 60, with an outline that is blurred over `blur` pixels on each side.
 DepthImage blurred_disc(double blur) {
   return image_of(
       [&](int c, int r) {

@@ -29,7 +29,8 @@ TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
   const Mesh mesh = front_mesh(scene, measure_spacing(scene));
   EXPECT_NEAR(test::area_of(mesh.points, mesh.triangles), 4, .1);
   for (const Vec3& p : mesh.points) EXPECT_LT(std::min(std::abs(p.z()), std::abs(p.z() - 2)), 1e-9);
-  // Triangles of both sheets, over gaps too wide to be shared out, stand at the edge of the nearer one alone.
+  // Triangles with corners on both sheets, over gaps too wide to close, stand only at the edge of the nearer
+  // sheet.
   const double rho = measure_spacing(scene).rho;
   for (const Triangle& t : mesh.triangles) {
     const auto is_near = [&](Index i) { return mesh.points[i].z() > 1; };

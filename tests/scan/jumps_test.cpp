@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// A level square of side .8 before one of side 2: the depth jumps at |x| or |y| = .4.
+// Returns a level square of side .8 before one of side 2: the depth jumps at |x| or |y| = .4.
 Surface sheets(double apart = 3) {
   const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, apart, 9));
   return test::surface_of(cloud);
@@ -38,7 +38,8 @@ TEST(Jumps, AreWhereTheNearerSheetEnds) {
       }
 }
 
-// A fifth at the jump, rising by equal factors to 1 at .8 % of the side: by brute force.
+// Weights are a fifth at the jump and rise by equal factors to 1 at .8 % of the side: compared by brute
+// force.
 TEST(Jumps, CountLessTheNearer) {
   const Surface surface = sheets();
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
@@ -87,8 +88,8 @@ TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {
   EXPECT_GT(heights({}), 1e-3);
 }
 
-// A membrane that is drawn to the front in the middle, and to the base around it, leaves more of a step if it
-// yields.
+// A membrane that is pulled to the front in the middle, and to the base around it, leaves more of a step if
+// it is weaker at jumps.
 TEST(Jumps, LetTheMembraneStep) {
   const Surface surface = sheets();
   const auto step = [&](std::span<const float> weights) {

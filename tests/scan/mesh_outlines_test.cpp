@@ -1,4 +1,4 @@
-// Outlines of meshes against their closed forms, and against pictures of the mesh.
+// Outlines of meshes agree with their closed forms, and with pictures of the mesh.
 #include "scan/outlines/mesh_outlines.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The surface that a mesh's samples give, and the way from its points to the mesh's.
+// The surface of a mesh's samples, and its centre, which leads back to the mesh's coordinates.
 struct MeshSurface {
   Surface surface;
   Vec3 centre;  // in view coordinates
@@ -30,7 +30,7 @@ struct MeshSurface {
   Vec2 place(Index i) const { return (surface.points[i] + centre).head<2>(); }
   double rho() const { return surface.rho; }
 
-  // Calls f(from, to) for the sides of triangles inside that have none on their right.
+  // Calls f(from, to) for the sides of triangles inside that have no such triangle on their right.
   template <typename F>
   void each_boundary_edge(F&& f) const {
     std::vector<std::array<Index, 2>> sides;

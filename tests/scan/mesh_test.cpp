@@ -60,7 +60,7 @@ TEST(SampleMesh, ThePointsLieOnTheMeshInAnyView) {
 }
 
 TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
-  Mesh nearer = square(1, true);  // seen from behind: hides all the same
+  Mesh nearer = square(1, true);  // the nearer square is seen from behind, and still hides
   for (Vec3& p : nearer.points) p.head<2>() *= .5;
   const auto cloud = value_of(sample_mesh(test::joined(square(0), nearer), front, {10000}));
   std::size_t near = 0;
@@ -79,7 +79,8 @@ TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
 TEST(SampleMesh, TheOutlineIsFinerThanTheGrid) {
   const auto cloud = value_of(sample_mesh(test::sphere_mesh(1, 400), front, {3000}));
   const double pixel = std::sqrt(std::numbers::pi / 3000);
-  // Largest radius seen in each of 90 directions: on the grid alone it would fall short by up to a pixel.
+  // The largest visible radius in each of 90 directions: on the grid alone it would be up to a pixel too
+  // small.
   std::vector<double> reach(90, 0);
   for (const Vec3& p : cloud.points) {
     const double angle = std::atan2(p.y(), p.x()) + std::numbers::pi;
@@ -153,7 +154,7 @@ TEST(SmoothNormals, StopAtCreases) {
 
 TEST(MakeRelief, OfAMeshIsThatOfItsDenseCloud) {
   CloudFile file;
-  file.mesh = test::sphere_mesh(1, 24);  // 0.26 between its points: as a cloud they would make a poor relief
+  file.mesh = test::sphere_mesh(1, 24);  // its points, 0.26 apart, would make a poor relief as a cloud
   file.cloud.points = file.mesh.points;
   ReliefOptions options;
   options.height_mm = 5;

@@ -20,8 +20,8 @@ struct NoisyCloud {
   std::vector<Vec3f> truth;
 };
 
-// Moves the points along their normals by Gaussian noise in sampling distances, and estimates their normals as a program
-// would that has nothing but the points.
+// Moves the points along their normals by Gaussian noise in sampling distances, and estimates their normals
+// from the moved points alone.
 NoisyCloud with_noise(Cloud cloud, double noise) {
   test::Random random(11);
   const double rho = measure_spacing(cloud).rho;
@@ -99,7 +99,7 @@ TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {
 }
 
 TEST(RemoveNoise, KeepsTheRadiusOfASphereWithoutNoise) {
-  // Fits that are constant would move the points inwards by about rho^2 / 2, which is 3e-4 here.
+  // Constant fits would move the points inwards by about rho^2 / 2, which is 3e-4 here.
   Cloud cloud = test::sphere(20000, 1);
   const std::vector<Vec3f> truth = cloud.normals;
   remove_noise(cloud, measure_spacing(cloud), .5);

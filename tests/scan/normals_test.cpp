@@ -36,7 +36,7 @@ TEST(TurnToViewer, LeavesNoNormalFacingAway) {
   for (const Vec3f& n : sphere.normals) EXPECT_GE(n.z(), 0);
 }
 
-// Round a sphere's edge the estimated normals go on turning away, as they should, instead of folding back.
+// Beyond a sphere's silhouette, the estimated normals turn away from the viewer, as the true ones do.
 TEST(TurnToViewer, GoesOnRoundAnEdge) {
   const Cloud truth = test::sphere(20000, 1);
   Cloud cloud{truth.points, {}};

@@ -48,8 +48,8 @@ Deviation deviation(const SeenOutline& outline, Offset offset) {
   return result;
 }
 
-// The kinds of scans of a shape: by the number of points, clean or with a scanner's noise along the normals,
-// in rho, and without normals.
+// A kind of scan: its number of points, and a scanner's noise along the normals in rho. Scans with noise have
+// no normals.
 struct ScanKind {
   std::size_t points = 0;
   double noise = 0;
@@ -77,7 +77,7 @@ TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
   EXPECT_LT(off.scatter, is_clean ? .02 : .07);
 }
 
-// A flat gear of that many teeth, between two radii.
+// The number of teeth of a flat gear, and its two radii.
 constexpr int teeth = 12;
 constexpr double root = .8, tip = 1;
 
@@ -94,7 +94,7 @@ Cloud gear(std::size_t n) {
 }
 
 TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
-  // Scattered points leave the last half of a sampling distance to guess at every side of a corner.
+  // Scattered points leave the outline uncertain by half a sampling distance at each side of a corner.
   const SeenOutline outline = outline_of(scan(gear(GetParam().points)), View{});
   std::vector<double> off;
   for (int k = 0; k < 2 * teeth; ++k)

@@ -13,12 +13,12 @@ namespace {
 
 using test::surface_of;
 
-// A button of radius 1.15 with another of half its size before it.
+// Returns a button of radius 1.15 with another of half its size before it.
 Cloud two_buttons(std::size_t n) {
   return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
-// The radii of the points of a surface that satisfy a condition, about the z axis of the model.
+// Returns the radii, about the z axis of the model, of the points of a surface that satisfy a condition.
 template <typename Condition>
 std::vector<double> radii(const Surface& surface, Condition holds) {
   std::vector<double> found;
@@ -101,7 +101,7 @@ double longest_side(const Surface& surface) {
   return longest / surface.rho;
 }
 
-// A square on a regular grid, its points moved by up to a third of its spacing.
+// Returns a square on a regular grid, with points moved by up to a third of the spacing.
 Cloud jittered_square(int per_side, double half) {
   test::Random random(17);
   Cloud cloud;
@@ -134,13 +134,13 @@ TEST(Outlines, OfASphereHaveNoJump) {
 TEST(Outlines, LeaveNoGapInside) {
   const Cloud cloud = test::button(60000, 1, .15);
   const double rho = surface_of(cloud).rho;
-  // A hole that is narrow enough to be closed.
+  // The hole is so narrow that it is closed.
   const auto is_beside = [&](const Vec3& p) { return (p.head<2>() - Vec2(.3, .2)).norm() > 4.5 * rho; };
   EXPECT_LT(longest_side(surface_of(test::where(cloud, is_beside))), 3.5);
 }
 
 TEST(Outlines, OfASliverHaveNoGap) {
-  // A sheet that another one before it covers but for a sliver, which shows no more than one row of points.
+  // Another sheet covers the sheet except for a sliver, which shows no more than one row of points.
   for (const double width : {.3, .6, 1.}) {
     Cloud cloud = jittered_square(200, 1);
     const double rho = surface_of(cloud).rho;

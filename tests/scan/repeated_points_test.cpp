@@ -20,7 +20,7 @@ const Cloud& single() {
   return cloud;
 }
 
-// How the points of a cloud are repeated: those up to that height, in a random order.
+// The points of a cloud up to a height are copied, with jitter, and put into a random order.
 struct Repeats {
   std::size_t copies = 1;
   double jitter = 0;  // standard deviation, a share of the size
@@ -138,7 +138,7 @@ TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   Cloud mesh;
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 100; ++x) {
-      const double off = random.uniform(-.5, .5);  // of the surface from the corner of the grid
+      const double off = random.uniform(-.5, .5);  // offset of the surface from the corner of the grid
       test::add(mesh, Vec3(x, y, off), Vec3(0, 0, 1));
       if (off > 0) test::add(mesh, Vec3(x + off, y, 0), Vec3(0, 0, 1));
       if (off > 0) test::add(mesh, Vec3(x, y + off, 0), Vec3(0, 0, 1));

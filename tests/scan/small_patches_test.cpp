@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-// A wall of points 0.01 apart with a square window, and a wall at depth z that shows through it.
+// Returns a wall of points 0.01 apart with a square window, and a wall at depth z that shows through the
+// window.
 Cloud window(double half_width, double z) {
   test::Random random(3);
   Cloud cloud;
@@ -33,7 +34,7 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   };
   EXPECT_EQ(seen(.035, -.5), 0U);  // of about 49
   EXPECT_GT(seen(.1, -.5), 200U);
-  EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall shows as much of its form as it has
+  EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall is visible
 }
 
 // A patch beside a wall, behind its edge: the gap of 3.5 spacings between them hides that they are apart, because the

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-constexpr double noise = .01;  // of planes, as standard deviation
+constexpr double noise = .01;  // standard deviation of planes
 
 // Adds a square part of the plane through the origin with that normal, 2 * half wide, with noise along the normal.
 void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half) {
@@ -45,7 +45,7 @@ Surface surface_of(const Cloud& cloud, bool has_plane = true) {
   return find_surface(cloud, view).value();
 }
 
-// The plane's points that the sphere does not hide, by rays towards the viewer.
+// Returns the share of the plane's points among those that are visible, by rays towards the viewer.
 double visible_share(const Cloud& cloud, const Vec3& centre) {
   std::size_t plane = 0, sphere = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -156,7 +156,8 @@ TEST(SupportPlane, IsNoFaceOfASolid) {
   EXPECT_FALSE(surface_of(test::torus(20000, 2, .5)).plane);
 }
 
-// Letters, which stand out by a fiftieth of the width, or a relief that rises by a twentieth.
+// The ground of a plaque is no support plane, under letters that rise by a fiftieth of the width or under a
+// relief that rises by a twentieth.
 TEST(SupportPlane, IsNoPlaquesGround) {
   EXPECT_FALSE(surface_of(test::sheet(20000, 1, 0, 5)).plane);
   for (const double half : {.1, .3, .7})

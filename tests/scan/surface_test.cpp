@@ -57,7 +57,7 @@ TEST(Surface, EstimatesNormalsAndSaysSo) {
   EXPECT_TRUE(surface.has_estimated_normals);
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     EXPECT_GT(surface.normals[i].z(), 0);
-    EXPECT_GT(surface.points[i].z(), -.2);  // the back does not shine through
+    EXPECT_GT(surface.points[i].z(), -.2);  // no point of the back is visible
   }
 }
 

@@ -69,7 +69,7 @@ TEST(FrontCells, MarksTheEdgesOfAJump) {
   EXPECT_GT(edges, static_cast<std::size_t>(4 / front.cell));
 }
 
-// Random cells, half of them covered, at depth 0.
+// Returns random cells at depth 0, half of them covered.
 FrontCells random_front(unsigned seed) {
   constexpr int width = 50, height = 40;
   FrontCells front;
@@ -81,8 +81,8 @@ FrontCells random_front(unsigned seed) {
   return front;
 }
 
-// Returns the size of each cell's piece, by walking from cell to cell. The cells of a piece are connected,
-// and all covered or all not.
+// Returns the size of each cell's component, by walking from cell to cell. The cells of a component are
+// connected, and all covered or all uncovered.
 std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   const Image<Vec3f>& normal = front.normal;
   std::vector<std::size_t> sizes;

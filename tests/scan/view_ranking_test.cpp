@@ -22,12 +22,12 @@ TEST(ViewRanking, RanksTheCarvedSideFirst) {
   EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
 }
 
-// Half a sphere as scanned from +Z: there is nothing behind it.
+// Returns a part of a sphere as scanned from +Z: it has no back.
 Cloud dome() {
   return test::where(test::sphere(40000, 1), [](const Vec3& p) { return p.z() > .3; });
 }
 
-// Maps every point and normal, which may lose its normals.
+// Maps every point and normal of a cloud, or drops the normals.
 Cloud mapped(const Cloud& cloud, const Mat3& turn, bool has_normals = true) {
   Cloud out = cloud;
   for (Vec3& p : out.points) p = turn * p;
@@ -65,7 +65,8 @@ TEST(ViewRanking, DoesNotMindNormalsThatPointInwards) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(inward_first[i].name, outward_first[i].name);
 }
 
-// A tall turned column, which is alike on all sides but its top and its foot, and widest at its foot.
+// Returns a tall turned column, which looks the same from all sides except its top and foot, and is widest at
+// its foot.
 Cloud column(const Vec3& up) {
   test::Random random(7);
   Cloud cloud;

@@ -14,7 +14,7 @@ std::vector<Index> visible(const Cloud& cloud) {
   return visible_points(cloud, measure_spacing(cloud));
 }
 
-// The share of points of [first, last) that is visible.
+// Returns the share of the points of [first, last) that is visible.
 double share(const std::vector<Index>& found, std::size_t first, std::size_t last) {
   const auto begin = std::lower_bound(found.begin(), found.end(), first);
   const auto end = std::lower_bound(found.begin(), found.end(), last);
@@ -105,7 +105,7 @@ TEST(Visible, IsTheSameForAnyOrder) {
   EXPECT_EQ(found, reversed);
 }
 
-// A ledge that begins at the edge of a depth image, as narrow as a pixel: its points there have no near neighbours, and
+// A ledge begins at the edge of a depth image, one pixel wide. Its points there have no near neighbours, and
 // would hide much.
 TEST(Visible, OfAHeightFieldIsAll) {
   Cloud steps;

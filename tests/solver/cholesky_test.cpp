@@ -18,8 +18,8 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Every allocation of the test program passes here, except under sanitizers, which have an operator new of
-// their own. Not inlined, or the compiler takes new and free for a mismatch.
+// Counts every allocation of the test program, except under sanitizers, which have an operator new of their
+// own. It is not inlined, as the compiler would take new and free for a mismatch.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RELIEVO_COUNTS_ALLOCATIONS
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
@@ -43,7 +43,7 @@ using test::PlanarSystem;
 using test::random_vector;
 using test::Sparse;
 
-// A random sparse matrix made positive definite: B B^T + I.
+// Returns a random sparse positive definite matrix B B^T + I.
 Sparse random_spd(int n, std::uint64_t seed) {
   test::Random random(seed);
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(n, n);
@@ -74,7 +74,7 @@ double relative_error(const Eigen::VectorXd& x, const Eigen::VectorXd& truth) {
   return (x - truth).cwiseAbs().maxCoeff() / std::max(truth.cwiseAbs().maxCoeff(), 1e-300);
 }
 
-// Both precisions against a factorisation that shares nothing with ours.
+// Compares both precisions with a factorisation that shares no code with ours.
 void expect_agreement(const Sparse& A, std::span<const Vec2> positions) {
   const Eigen::VectorXd b = random_vector(A.rows());
   const Eigen::SimplicialLDLT<Sparse> oracle(A);
@@ -100,7 +100,7 @@ TEST(Cholesky, AgreesWithSparseEigenOnPlanarGraphs) {
   }
 }
 
-// Positions steer the order, nothing else.
+// Positions determine the order of elimination, and nothing else.
 TEST(Cholesky, IsRightWhereverThePositionsAre) {
   const PlanarSystem system = jittered_grid(45, 40);
   std::vector<Vec2> nowhere(system.positions.size(), Vec2(3, 4)), line = nowhere, infinite = nowhere;
@@ -136,7 +136,7 @@ TEST(Cholesky, OfADiagonalMatrixDivides) {
   for (int i = 0; i < n; ++i) ASSERT_NEAR(x[i] * (i + 1), b[i], 1e-13);
 }
 
-// A hub joined to all others: one column is full.
+// One vertex is joined to all others, so one column is full.
 TEST(Cholesky, SolvesAStar) {
   const int n = 3000;
   Sparse A(n, n);
@@ -157,7 +157,7 @@ TEST(Cholesky, ReadsTheLowerTriangleAlone) {
   EXPECT_EQ(solved(*Cholesky::factor(A), b), solved(*Cholesky::factor(B), b));
 }
 
-// For any planar system: in single precision within 1e-5 of the solution's range, in double to rounding.
+// Errors are below 1e-5 of the solution's range in single precision, and due to rounding in double precision.
 TEST(Cholesky, HoldsForAnyGrid) {
   const bool holds = rc::check([] {
     const int width = *rc::gen::inRange(1, 40), height = *rc::gen::inRange(1, 40);
@@ -267,7 +267,7 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
   indefinite.insert(1, 1) = -1;
   singular.insert(0, 0) = 1;
   not_finite.insert(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  // Rows that add up to 0: constants are in the kernel, pivots say so up to rounding only.
+  // The rows add up to 0, so constants are in the kernel. Pivots show this only up to rounding.
   for (int j = 0; j < 400; ++j) floating.coeffRef(j, j) = 0;
   for (int j = 0; j < 400; ++j)
     for (Sparse::InnerIterator e(floating, j); e; ++e)

@@ -19,7 +19,7 @@ bool is_rim(std::size_t n) {
   return x == 0 || y == 0 || x == width - 1 || y == height - 1;
 }
 
-// Free but for the lattice's rim.
+// Returns the same stiffness at all nodes but those of the lattice's rim, which are fixed.
 Stiffness even(float bending) {
   Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -27,7 +27,7 @@ Stiffness even(float bending) {
   return all;
 }
 
-// The same, but for two columns of nodes.
+// Returns the same with another stiffness in two columns of nodes.
 Stiffness yielding(float bending, std::size_t column, float hinge, float tension) {
   Stiffness all = even(bending);
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -35,7 +35,7 @@ Stiffness yielding(float bending, std::size_t column, float hinge, float tension
   return all;
 }
 
-// A load that pulls the left half up and the right half down, with ripples.
+// Returns a load that pulls the left half up and the right half down, with ripples.
 float load(std::size_t n) {
   const double x = static_cast<double>(n % width) / width, y = static_cast<double>(n / width) / height;
   return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
@@ -58,7 +58,7 @@ struct Problem {
   }
 };
 
-// The energy's matrix: L' C L + tension + springs, rows of fixed nodes those of the identity.
+// Returns the energy's matrix L' C L + tension + springs. Rows of fixed nodes are those of the identity.
 Eigen::MatrixXd matrix(const Stiffness& stiffness, const Springs& springs) {
   const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
@@ -108,7 +108,7 @@ void add_ties(Eigen::MatrixXd& a, std::span<const Tie> ties, const Springs& spri
   }
 }
 
-// Ties along a line that slants across the cells, x + slope y = start.
+// Returns ties along a line that slants across the cells, x + slope y = start.
 std::vector<Tie> slanting_ties(double start, double slope) {
   std::vector<Tie> ties;
   for (double y = 3; y < height - 3; ++y) {
@@ -218,7 +218,7 @@ std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
 }
 
-// A plate that is pushed down rests on its ties, evenly along the line, though that crosses the cells anywhere.
+// A plate that is pushed down rests evenly on its ties, wherever their line crosses the cells.
 TEST(ObstacleSolver, RestsEvenlyOnTies) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   const auto resting = [&](std::span<const Tie> held) {

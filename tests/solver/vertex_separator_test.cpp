@@ -11,7 +11,7 @@
 namespace relievo::solver {
 namespace {
 
-// Any graph, drawn anywhere: the search must not depend on the drawing for its result.
+// Returns any graph at any positions, on which the result of the search must not depend.
 SeparatorBand random_band(Index n, std::uint64_t seed) {
   test::Random random(seed);
   std::vector<std::vector<Index>> nearby(n);
@@ -50,7 +50,7 @@ bool separates(const SeparatorBand& band, const std::vector<std::uint8_t>& is_re
   return true;
 }
 
-// Tries every set of vertices.
+// Returns the size of the smallest separator, by trying every set of vertices.
 Index smallest_separator(const SeparatorBand& band) {
   const Index n = band.graph.size();
   Index best = n;

@@ -23,7 +23,7 @@ double difference(const Vector& a, const Vector& b) {
   return static_cast<double>((a - b).norm());
 }
 
-// Returns the largest difference of two elements at one place, infinity for sequences of two sizes.
+// Returns the largest difference of elements at the same index; infinity if the sequences' sizes differ.
 template <typename A, typename B>
 double largest_difference(const A& a, const B& b) {
   if (std::size(a) != std::size(b)) return std::numeric_limits<double>::infinity();

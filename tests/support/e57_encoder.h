@@ -50,8 +50,8 @@ inline std::string packed_bits(const E57Column& column) {
   return bytes;
 }
 
-// The packets of a section, each with at most `most` bytes of every column; before them an index packet and an empty
-// one, which readers skip.
+// Returns the packets of a section, each with at most `most` bytes of every column. Before them are an index
+// packet and an empty one, which readers skip.
 inline std::string e57_packets(const std::vector<E57Column>& columns, std::size_t most) {
   std::string all =
       std::string("\x00\x00\x0F\x00", 4) + std::string(12, '\0') + std::string("\x02\x00\x03\x00", 4);
@@ -95,7 +95,7 @@ inline std::uint64_t e57_physical(std::uint64_t logical) {
   return logical / 1020 * 1024 + logical % 1020;
 }
 
-// The contents of all pages: header, one section per scan, XML.
+// Returns the contents of all pages: header, one section per scan, XML.
 inline std::string e57_contents(const std::vector<E57TestScan>& scans, std::size_t most_in_packet = 7) {
   std::string contents(48, '\0'), xml;
   for (const E57TestScan& scan : scans) {
@@ -124,7 +124,7 @@ inline std::string e57(const std::vector<E57TestScan>& scans, std::size_t most_i
   return e57_pages(e57_contents(scans, most_in_packet));
 }
 
-// Three points in cartesian coordinates, the second invalid, with colours.
+// Returns a file of three points in cartesian coordinates with colours; the second point is invalid.
 inline std::string e57_sample() {
   return e57({{{e57_doubles("cartesianX", {1, 4, 7}), e57_integers("cartesianY", -2, 9, {2, 5, 8}),
                 e57_doubles("cartesianZ", {3, 6, 9}), e57_integers("cartesianInvalidState", 0, 2, {0, 1, 0}),

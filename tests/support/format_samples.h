@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// The number's bytes, little-endian as all machines that run these tests.
+// Returns the number's bytes, little-endian as on all machines that run these tests.
 template <typename T>
 std::string raw(T value) {
   std::string bytes(sizeof value, '\0');
@@ -25,7 +25,7 @@ std::string patched(std::string text, std::size_t at, T value) {
   return text;
 }
 
-// A tetrahedron: four corners, four triangles that look outwards.
+// A tetrahedron: four corners, four triangles that face outwards.
 inline const std::vector<Vec3> tetrahedron_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 inline const std::vector<Triangle> tetrahedron_triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
 
@@ -65,7 +65,7 @@ inline std::string padded(std::string text, char by) {
   return text;
 }
 
-// The tetrahedron's positions as float32 and its indices as uint16, one after the other.
+// Returns the tetrahedron's positions as float32, then its indices as uint16.
 inline std::string gltf_buffer() {
   std::string buffer;
   for (const Vec3& p : tetrahedron_points)
@@ -75,7 +75,8 @@ inline std::string gltf_buffer() {
   return buffer;
 }
 
-// Its JSON; `uri` is empty, or the member uri with a comma.
+// Returns the JSON of a glTF file with gltf_buffer(); `uri` is empty, or the buffer's member uri with a
+// comma.
 inline std::string gltf_json(const std::string& uri = "") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
          R"("nodes":[{"translation":[10,0,0],"children":[1]},{"mesh":0,"scale":[2,2,2]}],)"
@@ -115,7 +116,7 @@ inline std::string embedded_gltf() {
   return gltf_json(R"("uri":"data:application/octet-stream;base64,)" + base64(gltf_buffer()) + R"(",)");
 }
 
-// Three points with a normal along x, y and z and the colours red, green and blue.
+// Returns a PCD header for three points with normals along x, y and z and the colours red, green and blue.
 inline std::string pcd_header(const std::string& data) {
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z rgb normal_x normal_y "
          "normal_z tag\n"
@@ -147,7 +148,7 @@ inline std::string binary_pcd() {
   return file;
 }
 
-// LZF in literal runs alone.
+// Compresses by LZF, with literal runs alone.
 inline std::string pack_lzf(const std::string& bytes) {
   std::string out;
   for (std::size_t at = 0; at < bytes.size(); at += 32) {
@@ -166,8 +167,8 @@ inline std::string compressed_pcd() {
   return pcd_header("binary_compressed") + size(packed.size()) + size(fields.size()) + packed;
 }
 
-// Two points, (1000000, 2000000, 100) and (1000000.5, 2000000.25, 99), of point format 2 (red, blue), or of
-// format 7 in LAS 1.4.
+// Returns two points, (1000000, 2000000, 100) and (1000000.5, 2000000.25, 99), of point format 2 (red, blue),
+// or of format 7 in LAS 1.4.
 inline std::string las(int minor = 2) {
   const bool is_new = minor == 4;
   const std::size_t header = is_new ? 375 : 227, record = is_new ? 36 : 26, colours = is_new ? 30 : 20;

@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Frequencies of symbols, adapted as LASzip adapts them.
+// The frequencies of symbols, which are adapted as in LASzip.
 class LazTestModel {
  public:
   explicit LazTestModel(std::uint32_t symbols) : counts_(symbols, 1), starts_(symbols), cycle_(symbols) {
@@ -97,7 +97,7 @@ class LazTestEncoder {
   std::uint64_t base_ = 0, length_ = 0xFFFFFFFF;
 };
 
-// Writes differences; the prediction and the context are the caller's.
+// Writes differences; the caller chooses the prediction and the context.
 class LazTestIntegers {
  public:
   explicit LazTestIntegers(std::size_t contexts) : sizes_(contexts, LazTestModel(33)) {
@@ -125,8 +125,8 @@ class LazTestIntegers {
 
 using LazTestPoint = std::array<std::int32_t, 3>;
 
-// A chunk of points of one return. x and y have steps of 0 and more, every other step being 0, so that the medians of
-// steps that are predictions stay 0; z is predicted by the z before.
+// Returns a chunk of points of one return. Steps in x and y are 0 or more, and every other step is 0, so that
+// their medians, which are the predictions, stay 0. Each z is predicted by the z before it.
 inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered) {
   std::string first;
   for (const std::int32_t value : points[0]) first += raw(value);

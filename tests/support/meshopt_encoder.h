@@ -26,7 +26,7 @@ inline std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "nothing";
 }
 
-// The bits of a difference, for each code of a group.
+// The number of bits of a difference, for each code of a group.
 using Widths = std::array<int, 4>;
 inline constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 

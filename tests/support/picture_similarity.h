@@ -51,7 +51,7 @@ inline Image<double> means(const Image<double>& a, const Image<double>* b) {
 
 }  // namespace similarity
 
-// Both pictures have the same size and four channels.
+// Both pictures must have the same size and four channels.
 inline double structural_similarity(const Image8& one, const Image8& other) {
   using namespace similarity;
   const Image<double> a = luminance(one), b = luminance(other);

@@ -84,7 +84,7 @@ inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   return {points, std::move(mesh.triangles), std::move(mesh.hull)};
 }
 
-// Returns a plate of the front; the test ends where there is none.
+// Returns a plate of the front; the test ends if there is none.
 inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   return value_of(make_plate(front, options));
 }

@@ -13,13 +13,12 @@
 namespace relievo {
 
 struct PlyColumn {
-  std::string type = "float";  // by any of the names
+  std::string type = "float";  // any name of a type
   std::string name;
   std::string length_type = {};  // not empty for a list; a row then has as many values as its first one says
 };
 
-// One element: each row has one number per column, or for lists the values one after the other, with their
-// length first.
+// An element: each row has one number per column; a list has its length first, then its values.
 struct PlyTable {
   std::string name;
   std::vector<PlyColumn> columns;
@@ -31,7 +30,7 @@ inline const std::vector<PlyColumn> ply_xyz = {{"float", "x"}, {"float", "y"}, {
 inline PlyTable ply_vertices(const std::vector<std::vector<double>>& rows) {
   return {"vertex", ply_xyz, rows};
 }
-// Each row is the number of corners, then the corners.
+// Returns a table of faces; each row is the number of corners, then the corners.
 inline PlyTable ply_faces(const std::vector<std::vector<double>>& rows) {
   return {"face", {{"int", "vertex_indices", "uchar"}}, rows};
 }

@@ -1,4 +1,5 @@
-// Reads bodies from STL, PLY and OBJ files without the library, so that tests compare what it writes with another opinion.
+// Reads solids from STL, PLY and OBJ files without the library, so that tests can check the files that it
+// writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@
 
 namespace relievo::test {
 
-// A body as a list of triangles, each with its own corners.
+// A solid as a list of triangles, each with its own corners.
 struct ReadSolid {
   std::vector<std::array<Vec3f, 3>> triangles;
 
@@ -81,7 +82,7 @@ inline Vec3f point_at(std::string_view bytes, std::size_t at) {
   return {value_at<float>(bytes, at), value_at<float>(bytes, at + 4), value_at<float>(bytes, at + 8)};
 }
 
-// Binary STL; expects that the file is as long as its number of triangles says.
+// Reads a binary STL; expects that the file is as long as its number of triangles says.
 inline ReadSolid solid_in_stl(std::string_view file) {
   ReadSolid solid;
   EXPECT_EQ(file.size(), 84 + std::size_t{50} * value_at<std::uint32_t>(file, 80));
@@ -96,7 +97,7 @@ inline std::size_t number_after(std::string_view text, std::string_view label) {
   return at == text.npos ? 0 : std::stoul(std::string(text.substr(at + label.size(), 20)));
 }
 
-// Binary little-endian PLY of points (x, y, z as floats) and triangles.
+// Reads a binary little-endian PLY of points (x, y, z as floats) and triangles.
 inline ReadSolid solid_in_ply(std::string_view file) {
   const std::string_view end = "end_header\n";
   const std::size_t begin = file.find(end) + end.size(), points = number_after(file, "element vertex "),
@@ -113,7 +114,7 @@ inline ReadSolid solid_in_ply(std::string_view file) {
   return solid;
 }
 
-// OBJ with lines `v x y z` and `f a b c`, whose corners count from 1.
+// Reads an OBJ with lines `v x y z` and `f a b c`, whose corners count from 1.
 inline ReadSolid solid_in_obj(const std::string& file) {
   ReadSolid solid;
   std::vector<Vec3f> points;

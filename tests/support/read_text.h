@@ -1,4 +1,4 @@
-// Reads scans that tests hold as texts, and checks that the answers keep what the readers promise.
+// Reads scans from texts, and checks that the results are as the readers promise.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct BrokenText {
   std::string text, message;
 };
 
-// Expects that the texts are refused, each with its message after the name.
+// Expects that each text is refused with its message, which begins with the name.
 inline void expect_messages(const std::string& name, const std::vector<BrokenText>& all) {
   for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, name), name + message);
 }

@@ -15,7 +15,7 @@
 
 namespace relievo {
 
-// Returns the value of a result. Where there is none, the test ends with the error's message.
+// Returns the value of a result. If there is none, the test ends with the error's message.
 template <typename T>
 T value_of(Result<T> result, const std::source_location& place = std::source_location::current()) {
   if (!result)
@@ -28,7 +28,7 @@ T value_of(std::optional<T> value, const std::source_location& place = std::sour
   return std::move(*value);
 }
 
-// Returns the error's message; "no error" of a result that has a value.
+// Returns the error's message; "no error" if the result has a value.
 template <typename T>
 std::string message_of(const Result<T>& result) {
   return result ? "no error" : result.error().message();

@@ -27,8 +27,8 @@ struct RayCamera {
   }
 };
 
-// Returns the axes after a turn about the upright axis, by which the right side comes nearer, and one about the level
-// axis, by which the lower side does.
+// Returns the axes after a turn about the upright axis, which brings the right side nearer, and a turn about
+// the level axis, which brings the lower side nearer.
 inline Mat3 axes_after(double yaw_deg, double pitch_deg) {
   const double a = yaw_deg * std::numbers::pi / 180, b = pitch_deg * std::numbers::pi / 180;
   Mat3 yaw, pitch;

@@ -1,5 +1,5 @@
-// Finds the pairs of triangles in which a body cuts or touches itself, in exact arithmetic on the single-precision
-// coordinates that files store.
+// Finds the pairs of triangles in which a solid cuts or touches itself, in exact arithmetic on the
+// single-precision coordinates that files store.
 #pragma once
 
 #include <algorithm>
@@ -161,8 +161,8 @@ class BoxTree {
   std::vector<Box> boxes_;
 };
 
-// Returns what is wrong with the body as files store it, or an empty string: the number of triangles without an area, and
-// of pairs of triangles that share more than a corner or an edge, with one of them as an example.
+// Returns the faults of a solid as files store it, or an empty string: the number of triangles without an
+// area, and of pairs of triangles that share more than a corner or an edge, with one pair as an example.
 inline std::string self_intersections(const Solid& solid) {
   std::vector<BoundedTriangle> triangles;
   std::size_t flat = 0, pairs = 0;

@@ -1,4 +1,5 @@
-// Scatters points at random over shapes that have closed forms, from a generator that is the same on all machines.
+// Scatters points at random over shapes that have closed forms, with numbers that are the same on all
+// machines.
 #pragma once
 
 #include <algorithm>

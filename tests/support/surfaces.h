@@ -1,4 +1,4 @@
-// Makes surfaces and models of reliefs from clouds; the test ends where there is none.
+// Makes surfaces and models of reliefs from clouds; the test ends if this fails.
 #pragma once
 
 #include "relievo/relief/relief.h"

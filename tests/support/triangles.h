@@ -1,4 +1,4 @@
-// Areas of triangles in the plane, and heights over them, found by looking at all of them.
+// Computes areas of triangles in the plane and heights over them, by trying all triangles.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ double area_of(const std::vector<Point>& points, std::span<const Triangle> trian
   return twice / 2;
 }
 
-// Returns that of the triangles inside the boundary.
+// Returns the signed area of the triangles inside the boundary.
 template <typename Point>
 double inside_area(const std::vector<Point>& points, const Triangulation& mesh, const Boundary& boundary) {
   std::vector<Triangle> inside;
