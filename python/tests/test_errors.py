@@ -1,4 +1,4 @@
-"""Unusable inputs raise an exception that says what is wrong and where, and never end the program."""
+"""Unusable inputs raise an exception that names the fault and its place, and never end the program."""
 
 import pickle
 import unittest

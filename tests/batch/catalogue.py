@@ -4,7 +4,7 @@ import math
 import os
 import random
 
-# Options with which such scans take little time.
+# Options with which these scans take little time.
 OPTIONS = ["--method", "linear", "--height", "2", "--width", "30", "--resolution", "1.5", "--denoise", "0"]
 
 

@@ -21,7 +21,7 @@ import time
 sys.path.insert(0, os.path.dirname(__file__))
 import catalogue
 
-# Drawing a preview of the usual size takes twice as long as making such a relief.
+# Drawing a preview of the default size takes twice as long as making one of these reliefs.
 SMALL_PICTURES = ["--preview-size", "64"]
 
 
@@ -129,7 +129,8 @@ def check(output, scans, program, good, bad, first):
     assert [name for name in sorted(records) if records[name]["status"] == "made"] == good
     for name in bad:
         assert records[name]["error"].count("\n") == 0 and "expected" in records[name]["error"], records[name]
-    # Only a scan that was at work when something was killed may have been begun twice; none was finished twice.
+    # Only a scan that was being made when a worker or the run was killed may have been begun twice. None was finished
+    # twice.
     lines = journal(output)
     made = [record["name"] for record in lines if record["status"] == "made"]
     assert len(made) == len(set(made)) == len(good), f"{len(made)} made, {len(set(made))} different"

@@ -53,7 +53,7 @@ class BatchRun : public CliFolder {
     bool operator==(const Counts&) const = default;
   };
 
-  // Runs all jobs and returns what became of them.
+  // Runs all jobs and returns how many were made, failed or kept.
   Counts run_jobs(RunLimits limits = {2, 0}) {
     const Records records = read_journals(workshop_.outputs);
     std::vector<Work> works;
@@ -94,7 +94,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(journal_lines(), 4U);
 }
 
-// A second run keeps what was made and tries a killed job again, but not one whose error would come again.
+// A second run keeps finished outputs, and repeats killed jobs, but not jobs whose errors would come again.
 TEST_F(BatchRun, DoesNothingTwice) {
   run_jobs();
   EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));
@@ -125,7 +125,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
   jobs_.resize(2);
   run_jobs();
   const std::string text = read_all(journal_path());
-  write_all(journal_path(), text.substr(0, text.size() - 20));  // as a power failure leaves it
+  write_all(journal_path(), text.substr(0, text.size() - 20));  // as a power failure may leave the journal
   EXPECT_EQ(run_jobs(), (Counts{1, 0, 1}));
   EXPECT_EQ(run_jobs(), (Counts{0, 0, 2}));
 }

@@ -1,4 +1,4 @@
-"""The cases of scripts/fault-campaign: how each fault is made in each command, and what must hold afterwards."""
+"""The cases of scripts/fault-campaign: they cause each fault in each command, and check its consequences."""
 
 import shutil
 import signal
@@ -14,7 +14,7 @@ OUTPUTS = ("a.stl", "a.png", "a.tif")
 
 
 def run_with_fault(place, kind, chance, command, name):
-    """Runs a program while a fault happens. Returns its exit code and errors, and whether the fault came in time."""
+    """Runs a program with a fault. Returns its exit code, its errors, and whether the fault came before its end."""
     faults, most = place.faults, place.workshop.most[name]
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, chance.randint(1, most[0]), chance.choice([1, 1, 3, 10**9]))

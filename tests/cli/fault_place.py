@@ -221,7 +221,7 @@ def batch_command(place):
 
 
 def finish(process):
-    """Waits for the end of a program; returns its exit code and what it printed."""
+    """Waits for the end of a program; returns its exit code, output and errors."""
     try:
         out, errors = process.communicate(timeout=PATIENCE)
     except subprocess.TimeoutExpired:

@@ -125,7 +125,7 @@ def work(page, document, chance):
 
 
 def send_slowly(page, chance, is_over):
-    """Holds connections open on which requests come slowly or not at all."""
+    """Keeps connections open on which requests come slowly or not at all."""
     host, port = page.address.split(":")
     held = []
     for _ in range(chance.randint(1, 60)):

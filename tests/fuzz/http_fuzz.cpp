@@ -21,7 +21,7 @@ namespace {
 using namespace relievo;
 using namespace relievo::app::studio;
 
-// A studio that answers for as long as the program lives.
+// A studio that answers until the program ends.
 struct Studio {
   std::string folder = std::filesystem::temp_directory_path() / "relievo-fuzz-XXXXXX";
   DiskStore store{*take_state_folder(::mkdtemp(folder.data()))};

@@ -1,4 +1,4 @@
-// Fuzz target of options and projects: a line "name=text" sets an option as it is typed, and all of the bytes are read as
+// Fuzz target of options and projects: a line "name=text" sets an option, and all of the bytes are read as
 // a project. An accepted value is within its range; a refusal names an option.
 #include <cstdlib>
 #include <string>

@@ -167,7 +167,7 @@ TEST(Lattice, FindsTheNodesInATriangle) {
     s.lattice.mark_nodes_in(t, found);
     for (std::size_t n = 0; n < found.size(); ++n) {
       const Vec2 p(static_cast<double>(n % s.lattice.width()), static_cast<double>(n / s.lattice.width()));
-      double nearest = 1e9;  // to a side, from within
+      double nearest = 1e9;  // distance to a side, positive inside
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec2 a = s.place(t[k]), side = s.place(t[(k + 1) % 3]) - a;
         nearest = std::min(nearest, cross(side, p - a) / side.norm());

@@ -1,4 +1,4 @@
-// A second opinion: Qhull lifts the points to a paraboloid and takes the lower convex hull, in plain doubles.
+// Compares triangulations with Qhull, which takes the lower hull of points on a paraboloid, in plain doubles.
 // On points far from degenerate both must find the same triangles.
 #ifdef RELIEVO_HAS_QHULL
 

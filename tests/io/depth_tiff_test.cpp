@@ -31,7 +31,7 @@ struct TiffTags {
 
 // Returns a little-endian TIFF with one strip of these bytes.
 std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
-  const bool has_palette = tags.colours == 3;  // of 256 colours
+  const bool has_palette = tags.colours == 3;  // a palette has 256 colours
   const std::string palette(has_palette ? 2 * 3 * 256 : 0, '\7');
   const std::string text = tags.no_data.empty() ? palette : padded(tags.no_data + '\0', '\0');
   std::vector<TiffField> fields = {{256, 4, 1, width},

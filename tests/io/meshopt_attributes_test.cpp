@@ -91,7 +91,7 @@ TEST(MeshoptAttributes, DecodesAttributesOfAllSizes) {
   std::mt19937 random(1);
   for (const std::size_t stride : {4U, 8U, 12U, 16U, 64U, 256U})
     for (const std::size_t count : {1U, 15U, 16U, 17U, 64U, 200U, 255U, 256U, 257U, 1000U})
-      for (const unsigned range : {1, 2, 5, 256}) {  // of differences
+      for (const unsigned range : {1, 2, 5, 256}) {  // differences are smaller than this
         const std::string elements = random_elements(random, count * stride, stride, range);
         const std::string stream = compressed_attributes(elements, stride);
         const MeshoptLayout layout{.count = count, .stride = stride};

@@ -35,8 +35,8 @@ TEST(ScanSize, IsThatOfAPicture) {
   EXPECT_EQ(size.points, 0U);
 }
 
-// The points expected of a file are at least a tenth of those that are read, for every format: an estimate may be rough,
-// but memory must not be gravely underestimated.
+// For every format, the expected number of points is at least a tenth of the points that are read: estimates
+// may be rough, but memory must not be gravely underestimated.
 TEST(ScanSize, IsNotFarBelowThePointsOfAnyFormat) {
   for (const FileSample& sample : format_samples()) {
     const auto bytes = std::as_bytes(std::span(sample.bytes));

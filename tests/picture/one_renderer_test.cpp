@@ -108,7 +108,7 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   EXPECT_TRUE(other.image.pixels.empty());
 }
 
-// The preview's front view, on its wall, shows what the studio shows at this size and zoom.
+// The preview's front view, on its wall, equals the studio's picture at this size and zoom.
 TEST(OneRenderer, PreviewShowsTheLivePicture) {
   const Image8 preview = render_preview(bodies().solid, {.longer_side_px = 300});
   RenderOptions options = options_for(Material::plaster, true, 0);

@@ -47,7 +47,7 @@ TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
 }
 
 TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
-  // A groove and a ridge, each on a plateau wide enough to hold pixel centres.
+  // The groove and the ridge are wide enough to contain pixel centres.
   const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
   const HeightMap map = make_height_map(plate_of(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
   const auto [low, high] = std::ranges::minmax(map.image.pixels);

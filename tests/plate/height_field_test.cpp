@@ -31,7 +31,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// Such flat bevels, and folds, were once smoothed by up to .7 mm.
+// Flat bevels like these, and folds, were once smoothed by up to .7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {

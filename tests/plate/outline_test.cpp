@@ -312,7 +312,7 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   EXPECT_EQ(check_solid(body), "");
   EXPECT_EQ(pieces(body), 1U);
   EXPECT_LT(body.triangles.size(), full.triangles.size());
-  EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // of 254
+  EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // the whole area is 254
 }
 
 // The transform of the report puts each point of the outline on a corner of the solid, however it is cut out and formed and

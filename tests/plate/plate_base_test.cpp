@@ -119,7 +119,7 @@ TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
           ++seen;
         });
         EXPECT_GT(seen, 6 * solid.front_triangles) << shape;
-        EXPECT_LT(worst, .011) << shape;  // of 2 mm: half a percent
+        EXPECT_LT(worst, .011) << shape;  // half a percent of 2 mm
         EXPECT_LE(solid.error_mm, .01) << shape;
       }
 }

@@ -43,7 +43,7 @@ TEST(Simplify, FlatGroundBecomesTwoTriangles) {
   EXPECT_EQ(simpler.error_mm, 0);
 }
 
-// A hull's points that rounding moved off its sides are outside the triangles of the others.
+// Rounding moves points of a straight hull off its sides, and so outside the triangles of the other points.
 TEST(Simplify, TakesAHullThatIsStraightUpToRounding) {
   const auto simpler =
       simplify(test::turned_grid_front(60, .5, [](double x, double y) { return waves(9 * x, 9 * y); }), .1);

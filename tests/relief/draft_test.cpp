@@ -197,7 +197,7 @@ TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   }
 }
 
-// Whatever was asked for, the largest height that a message names can be had.
+// For every height that is asked for, the largest height that the message names can be reached.
 TEST(Draft, TheLargestHeightOfEveryMethodCanBeReached) {
   const ReliefModel model = prepared(figure(3000));
   for (const MethodInfo& info : methods)

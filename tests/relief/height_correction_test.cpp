@@ -80,7 +80,8 @@ TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
     worst = std::max(worst, std::abs(u[i] - fit.dot(basis(i))));
   }
   EXPECT_GT(most, 3 * least);
-  // The sweeps leave 6.9 %, ten times as many 2.1 %; k and m a quarter off would leave 14.5 %.
+  // The sweeps leave 6.9 %, and ten times as many would leave 2.1 %. Wrong k and m, by a quarter, would leave
+  // 14.5 %.
   EXPECT_LT(worst, .08 * most);
 }
 

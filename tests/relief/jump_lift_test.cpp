@@ -17,7 +17,7 @@
 namespace relievo {
 namespace {
 
-constexpr double half_width = .5;  // of the flap
+constexpr double half_width = .5;  // half the width of the flap
 
 // Returns a tilted square before a level one. Slopes do not show the depth between them, so (9) puts the
 // middle of the tilted square at the height of the level one, and its lower half below.
@@ -108,7 +108,7 @@ TEST(JumpLift, MovesNothingFarFromJumpsNorOnTheSilhouette) {
   const Surface& surface = flap_before_sheet.surface;
   std::vector<double> z(surface.points.size(), 0);
   flap_before_sheet.lift.add_to(std::span(z), shape_at(1));
-  const double farthest = .05 * 3;  // of the longer side
+  const double farthest = .05 * 3;  // .05 of the longer side, which is 3
   std::size_t moved = 0;
   for (std::size_t i = 0; i < z.size(); ++i) {
     if (z[i] == 0) continue;

@@ -140,7 +140,7 @@ TEST(DepthCloud, NoiseIsMeasuredAndTakenAway) {
       image_of([&](int c, int r) { return hills(c, r) + sigma * random.gaussian(); }, 0), as_heights());
   ASSERT_TRUE(made);
   const double high = highest_hill();
-  const double scale = .5 * width / (high + 2 * 3.5 * sigma);  // the range holds the noise's ends, too
+  const double scale = .5 * width / (high + 2 * 3.5 * sigma);  // the range includes the noise
   EXPECT_NEAR(made->noise, 2 * sigma * scale, .3 * sigma * scale);
   EXPECT_LT(errors_of(made->cloud, scale).angle_deg, 4.5);  // 26 degrees without smoothing
 }

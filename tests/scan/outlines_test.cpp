@@ -28,7 +28,7 @@ std::vector<double> radii(const Surface& surface, Condition holds) {
 }
 
 struct Spread {
-  double mean = 0, deviation = 0, farthest = 0;  // from a radius, in rho
+  double mean = 0, deviation = 0, farthest = 0;  // distances from a radius, in rho
 };
 
 Spread spread(const std::vector<double>& radii, double radius, double rho) {

@@ -14,7 +14,7 @@ namespace {
 
 using test::surface_of;
 
-constexpr double size = 2.8;  // of the torus
+constexpr double size = 2.8;  // the size of the torus
 const Cloud& single() {
   static const Cloud cloud = test::torus(20'000, 1, .4);
   return cloud;

@@ -32,7 +32,7 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   const auto seen = [](double half_width, double z) {
     return points_at(*find_surface(window(half_width, z), View{}), z);
   };
-  EXPECT_EQ(seen(.035, -.5), 0U);  // of about 49
+  EXPECT_EQ(seen(.035, -.5), 0U);  // about 49 points are there
   EXPECT_GT(seen(.1, -.5), 200U);
   EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall is visible
 }

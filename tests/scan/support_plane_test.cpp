@@ -99,7 +99,7 @@ TEST(SupportPlane, IsLeftOutUnlessTheViewHasIt) {
   EXPECT_NEAR(box.size().x(), 2, 2 * without.rho);
 }
 
-// A ridge beside the sphere, whose normals are not those of the plane, is too low for a figure.
+// A ridge beside the sphere has other normals than the plane, but is too low for a figure.
 TEST(SupportPlane, IsLeftOutWithItsRidges) {
   const Vec3 normal = tilted(50), up = normal.cross(Vec3::UnitX());
   Cloud cloud = sphere_before(normal);

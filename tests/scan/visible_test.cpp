@@ -118,7 +118,7 @@ TEST(Visible, OfAHeightFieldIsAll) {
   EXPECT_FALSE(turned.is_height_field);
 }
 
-// A box whose front has a hole: through it one sees the inside of its back, which faces away.
+// The front of a box has a hole that shows the inside of the box's back, where normals face away.
 TEST(HoleFillPoints, StandInWhereOnlyTheOtherSideWasScanned) {
   const Cloud front =
       test::where(test::sheet(40000, 1, 0), [](const Vec3& p) { return p.head<2>().norm() > .2; });

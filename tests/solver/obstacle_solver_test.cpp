@@ -120,7 +120,7 @@ std::vector<Tie> slanting_ties(double start, double slope) {
 }
 
 // Without limits the least energy is that of a linear system. The sweeps reach these shares of it: with three quarters of
-// the sweeps, none is reached.
+// the sweeps, no case reaches them.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;

@@ -1,4 +1,4 @@
-// A second opinion on solids: admesh, a program that repairs STL files, reports what it has to repair.
+// Checks solids by admesh, a program that repairs STL files and reports its repairs.
 #pragma once
 
 #include <unistd.h>

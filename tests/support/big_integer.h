@@ -1,5 +1,4 @@
-// An integer wide enough for every exact determinant in these tests: the oracle for floating-point
-// expansions.
+// An integer wide enough for every exact determinant in these tests, to check floating-point expansions.
 #pragma once
 
 #include <array>

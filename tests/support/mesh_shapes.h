@@ -68,7 +68,7 @@ inline Mesh joined(Mesh mesh, const Mesh& other) {
 // Returns a flat gear in the plane z = 0 with that many teeth between two radii, its flanks radial.
 inline Mesh gear_mesh(double root, double tip, int teeth) {
   Mesh mesh;
-  const int steps = 40;  // of a tooth's arc
+  const int steps = 40;  // number of steps of a tooth's arc
   const auto at = [&](double radius, double angle) {
     mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
     return static_cast<Index>(mesh.points.size() - 1);

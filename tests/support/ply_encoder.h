@@ -1,4 +1,4 @@
-// A second, independent opinion on PLY: encodes a table of numbers in any of its three formats.
+// Encodes a table of numbers in any of the three formats of PLY, independently of the library.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace relievo {
 struct PlyColumn {
   std::string type = "float";  // any name of a type
   std::string name;
-  std::string length_type = {};  // not empty for a list; a row then has as many values as its first one says
+  std::string length_type = {};  // type of a list's length; empty if the column is no list
 };
 
 // An element: each row has one number per column; a list has its length first, then its values.

@@ -1,4 +1,4 @@
-// Takes values out of results, and judges their errors.
+// Takes values out of results, and checks their errors.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Draws the triangles of a file without the library, as a second opinion on the library's pictures: which
-// pixels are covered, and how directly the lamp shines on the surface there.
+// Draws the triangles of a file without the library, to check the library's pictures: which pixels are
+// covered, and how directly the lamp shines on the surface there.
 #pragma once
 
 #include <algorithm>

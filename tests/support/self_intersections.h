@@ -65,7 +65,7 @@ inline bool overlap_in_plane(const Corners& s, const Corners& t) {
   return !is_apart(s, t) && !is_apart(t, s);
 }
 
-// Returns whether the segment pq meets the triangle, whose boundary counts, but does not lie in its plane.
+// Returns whether the segment pq meets the triangle or its boundary, but does not lie in its plane.
 inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   if (orient3d(t[0], t[1], t[2], p) == orient3d(t[0], t[1], t[2], q)) return false;
   int least = 1, most = -1;

@@ -114,7 +114,7 @@ inline Cloud reversed(Cloud cloud) {
   return cloud;
 }
 
-// Returns the points for whose places is_kept() is true.
+// Returns the points p for which is_kept(p) is true.
 template <typename IsKept>
 Cloud where(const Cloud& cloud, IsKept is_kept) {
   Cloud kept;

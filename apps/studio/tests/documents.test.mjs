@@ -218,7 +218,7 @@ test("packs a scan into a project, from which make and another machine make the 
   assert.deepEqual(unpacked.studio, project.studio);
   const asked = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(asked.is_there, false);
-  project.input.hash = unpacked.input.hash; // known by its content, it is found among the scans that were dropped
+  project.input.hash = unpacked.input.hash; // by this hash the scan is found among those that were dropped
   const found = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(found.input.path, unpacked.input.path);
   for (let cut = 0; cut < saved.body.length; cut += Math.ceil(saved.body.length / 40))

@@ -11,7 +11,7 @@ export let engine;
 export const OPTIONS = {width: 60, height: 2, view: "front"};
 export const FRAME = {options: OPTIONS, width: 200, height: 150};
 
-// Gives the suite an engine and a scan: a sample with that many points. `begin` prepares everything else for the tests;
+// Gives the suite an engine and a scan: a sample with `points` points. `begin` prepares everything else for the tests;
 // by default it opens the scan.
 export function withEngine(sample, points, begin = () => engine.open({path: scan})) {
   before(async () => {

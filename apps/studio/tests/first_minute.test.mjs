@@ -1,4 +1,4 @@
-// The first minute with a scan: the kinds of pieces to choose from, the tour, the findings about the scan, and several
+// The first minute with a scan: the kinds of work to choose from, the tour, the findings about the scan, and several
 // files as one scene.
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
@@ -402,7 +402,7 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await untilReady(page);
 });
 
-// Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
+// The page learns from the engine's answer that a document is open; before that the engine refuses to prepare a view.
 test("takes what is changed while a scan is still opening", async () => {
   const other = await page.context().newPage(), answers = [];
   other.on("response", (response) => answers.push(response.status()));

@@ -18,7 +18,7 @@ function mostMemory() {
   return kib / 1024;
 }
 
-// Writes `size` bytes for as long as the other side takes them; returns what it answered.
+// Writes up to `size` bytes for as long as the server takes them; returns its answer.
 function pour(head, size) {
   return new Promise((resolve) => {
     const socket = connect(), part = Buffer.alloc(MIB, "x");

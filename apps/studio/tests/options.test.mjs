@@ -1,4 +1,4 @@
-// Every option of the engine's table has a control on the page, and what is set there reaches the engine.
+// Every option of the engine's table has a control on the page, and the values that are set there reach the engine.
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";

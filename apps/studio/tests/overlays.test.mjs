@@ -225,7 +225,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
     return {at, ...steps[at].options};
   };
   const [whole, wide, before] = [Number(await longer.inputValue()), await plate(), await step()];
-  const pinch = async (degrees) => { // from 100 pixels to 60, and to the left
+  const pinch = async (degrees) => { // fingers move from 100 pixels apart to 60, and turn left
     await send("touchStart", fingers(100).slice(0, 1));
     await send("touchStart", fingers(100));
     for (let i = 1; i <= 8; ++i) await send("touchMove", fingers(100 - 5 * i, i * degrees / 8));

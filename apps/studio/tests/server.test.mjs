@@ -302,7 +302,8 @@ test("keeps a document as it is while the opening of another is cancelled", asyn
   await engine.prepare({view: "front"});
 });
 
-// Copies a generated scan with all vectors turned about x, from y upright to z upright, as many scanners have it.
+// Copies a generated scan with all vectors turned about x, so that z points up instead of y, as in many scanners'
+// files.
 function writeUpright(scan, file) {
   const bytes = readFileSync(scan);
   const start = bytes.indexOf("end_header\n") + "end_header\n".length;

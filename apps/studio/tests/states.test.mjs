@@ -90,7 +90,7 @@ function wrapped() {
   return innerWidth === 820 || middles.size <= (innerWidth < 800 ? 2 : 1) ? [] : [...middles];
 }
 
-// Returns what is wrong on a screen, by kind.
+// Returns the faults on a screen, by kind.
 async function misfits(screen, part) {
   await page.setViewportSize(screen);
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));

@@ -36,7 +36,7 @@ export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 // Runs `relievo studio` with a state folder of its own.
 export class EngineProcess {
   constructor(state, ...args) {
-    const page = process.env.RELIEVO_PAGE ? ["--page", process.env.RELIEVO_PAGE] : []; // for work on the page
+    const page = process.env.RELIEVO_PAGE ? ["--page", process.env.RELIEVO_PAGE] : []; // another folder of the page
     this.child = spawn(PROGRAM, ["studio", "--no-browser", "--state", state, ...page, ...args]);
     this.errors = "";
     this.child.stderr.on("data", (data) => (this.errors += data));
@@ -236,7 +236,7 @@ export async function enter(field, text) {
   await field.press("Enter");
 }
 
-// Repeats a check until it no longer throws: what a page shows follows its events a little later.
+// Repeats a check until it no longer throws, as a page shows the effects of events a little later.
 export async function eventually(check) {
   for (const end = Date.now() + PATIENCE_MS; ;) {
     try {
@@ -248,7 +248,7 @@ export async function eventually(check) {
   }
 }
 
-// Says what is missing, and returns it as the reason for which tests of the page are skipped.
+// Prints which tool is missing, and returns this as the reason why tests of the page are skipped.
 function without(missing) {
   const skip = `${missing}: the page is not tested`;
   console.log(`SKIPPED: ${skip}`);
