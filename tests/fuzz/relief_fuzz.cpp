@@ -16,7 +16,7 @@ namespace {
 
 using namespace relievo;
 
-// Each three bytes are a point; a row of a grid makes most of them visible.
+// Makes a point of every three bytes; rows of a grid make most points visible.
 Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
   Cloud cloud;
   for (std::size_t i = 0; i + 2 < size && cloud.size() < 400; i += 3) {

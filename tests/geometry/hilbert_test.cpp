@@ -12,7 +12,7 @@ TEST(HilbertOrder, StepsFromCellToAdjacentCell) {
   const int side = 64;
   std::vector<Vec2> points;
   for (int i = 0; i < side * side; ++i) points.emplace_back(64 * (i % side), 64 * (i / side));
-  points.emplace_back(4095, 4095);  // so that the curve's finest cells are unit squares
+  points.emplace_back(4095, 4095);  // makes the curve's finest cells unit squares
   std::vector<Index> order = hilbert_order(points);
   std::erase(order, side * side);
   for (std::size_t k = 1; k < order.size(); ++k) {

@@ -55,7 +55,8 @@ double wavy(double x, double y) {
   return std::sin(3 * x) * std::cos(4 * y) + x;
 }
 
-// Textbook: the recursion of Cox and de Boor for uniform knots 0, 1, 2, ...; the cubic is positive in (0, 4).
+// Computes a B-spline by the recursion of Cox and de Boor for uniform knots 0, 1, 2, ...; the cubic one is
+// positive in (0, 4).
 double b_spline(int degree, double t) {
   if (degree == 0) return t >= 0 && t < 1 ? 1 : 0;
   return t / degree * b_spline(degree - 1, t) + (degree + 1 - t) / degree * b_spline(degree - 1, t - 1);

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A picture as libpng reads it; an error there ends the test program.
+// A picture as libpng reads it; an error of libpng ends the test program.
 struct Decoded {
   int width = 0, height = 0, bits = 0, colour_type = 0;
   std::vector<std::byte> samples;  // as stored: 16-bit samples big-endian
@@ -50,7 +50,8 @@ Decoded decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// Values that reach both ends and make every filter work: ramps, jumps and a little noise.
+// Returns an image of ramps, jumps and a little noise. Its values reach both ends, and it makes every filter
+// useful.
 template <typename T>
 Image<T> pattern(int width, int height, int channels) {
   Image<T> image{width, height, channels, {}};

@@ -43,7 +43,7 @@ StreamedCloud streamed(std::vector<std::byte> bytes, const View& view = front, d
   return value_of(stream_front(source, "a.ply", view, points));
 }
 
-// A sphere around another, both with noise: the inner one must never show.
+// Returns a sphere around another, both with noise: the inner one must never show.
 Cloud shells(std::size_t n) {
   Cloud cloud = test::sphere(n, 1);
   test::Random random(5);

@@ -49,13 +49,14 @@ TEST(ParseNumber, ReadsEveryNotation) {
                                                            {"1e3", 1000},
                                                            {"1E+03", 1000},
                                                            {"4500123.123456789", 4500123.123456789},
-                                                           // exponents of Fortran
+                                                           // exponents as in Fortran
                                                            {"1.0D+02", 100},
                                                            {"-2.5d-1", -.25},
                                                            {"+5D3", 5000},
                                                            {"1D999", INFINITY},
                                                            {"1D-999", 0},
-                                                           // too small or too large
+                                                           // numbers that are too small or too large for
+                                                           // double
                                                            {"1e-999", 0},
                                                            {"0." + std::string(400, '0') + "1", 0},
                                                            {"1" + std::string(400, '0') + ".0", INFINITY}};

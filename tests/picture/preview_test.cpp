@@ -79,7 +79,7 @@ TEST(HeightMap, NothingToDrawGivesNoPixels) {
 
 // ------------------------------------------------------------------------------------------------- preview
 
-// A hemisphere of radius 15 in the middle of a plate of 60 x 60.
+// Returns the height of a hemisphere of radius 15 in the middle of a plate of 60 x 60.
 double hemisphere(double x, double y) {
   return std::sqrt(std::max(0.0, 225 - (x - 25) * (x - 25) - (y - 25) * (y - 25)));
 }

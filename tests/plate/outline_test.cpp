@@ -251,7 +251,7 @@ TEST(MakePlate, RefusesACornerWithoutARadius) {
 
 // ------------------------------------------------------------------------------------ the whole pipeline
 
-// A torus, which has a hole, and a ball beside it.
+// Returns a torus, which has a hole, and a ball beside it.
 Cloud two_pieces() {
   Cloud cloud = test::torus(9000, 1, .35);
   const Cloud ball = test::sphere(4000, .5);

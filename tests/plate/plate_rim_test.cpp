@@ -15,7 +15,7 @@ HeightFieldMesh hill() {
   return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
 }
 
-// Corners of the plate's bottom in order: its outline.
+// Returns the outline of a plate: the corners of its bottom in order.
 std::vector<Vec2> outline_of(const Solid& solid) {
   std::vector<Vec2> outline;
   for (const Vec3& p : solid.points)

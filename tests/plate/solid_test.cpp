@@ -83,7 +83,7 @@ TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
 
 TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
   EXPECT_TRUE(rc::check([] {
-    // Corners on an ellipse at random angles.
+    // The corners lie on an ellipse at random angles.
     auto angles = *rc::gen::suchThat(
         rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 3600)), [](const std::vector<int>& a) {
           return a.size() >= 3 && std::ranges::max(a) - std::ranges::min(a) > 1800;

@@ -28,8 +28,8 @@ Image<float> picture(int width, int height, const auto& z) {
   return image;
 }
 
-// Closes the heights by the definition: the tool is lowered over every sample, and beside the picture within
-// its radius; each sample gets the lowest height that any position leaves above it.
+// Closes the heights by the definition. The tool is lowered over every sample, and beside the picture within
+// its radius. Each sample gets the lowest height that any position of the tool leaves above it.
 Image<float> closed_by_brute_force(const Image<float>& z, double step, const Tool& tool) {
   const int border = std::max(z.width, z.height);
   Image<float> left = z;

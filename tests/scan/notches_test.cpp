@@ -12,7 +12,7 @@ namespace {
 
 constexpr double half_opening = .1;  // slope of each lip's edge
 
-// Two lips: half cylinders of radius 0.2 along lines that meet at x = 0. The upper one lies behind.
+// Returns two lips: half cylinders of radius 0.2 along lines that meet at x = 0. The upper one lies behind.
 Cloud lips(std::size_t n) {
   test::Random random(5);
   Cloud cloud;

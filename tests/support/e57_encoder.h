@@ -79,7 +79,8 @@ inline std::uint32_t bitwise_crc32c(std::string_view bytes) {
   return ~crc;
 }
 
-// Cuts the contents into pages of 1,024 bytes with their checksums, and corrects the header's length of the file.
+// Cuts the contents into pages of 1,024 bytes with their checksums, and corrects the file's length in the
+// header.
 inline std::string e57_pages(std::string contents) {
   contents.resize((contents.size() + 1019) / 1020 * 1020, ' ');
   contents = patched(contents, 16, static_cast<std::uint64_t>(contents.size() / 1020 * 1024));

@@ -13,7 +13,8 @@
 
 namespace relievo::test {
 
-// The folder of scans: the environment variable RELIEVO_SHARED_DATA or, without it, the CMake variable of that name.
+// Returns the folder of scans: the environment variable RELIEVO_SHARED_DATA or, if it is not set, the CMake
+// variable of that name.
 inline std::filesystem::path shared_data() {
   if (const char* folder = std::getenv("RELIEVO_SHARED_DATA")) return folder;
   return RELIEVO_SHARED_DATA;

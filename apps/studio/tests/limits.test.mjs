@@ -142,7 +142,7 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// Each of these occupies a thread of the server as long as it may: a connection buffers less than an answer's 7 MB.
+// Each connection occupies a thread of the server as long as it may, as it buffers less than the 7 MB of an answer.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {

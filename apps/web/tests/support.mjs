@@ -19,7 +19,7 @@ const file = path.join(pageFolder, "relievo.html");
 export const fileAddress = pathToFileURL(file).href;
 const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".webmanifest": "application/manifest+json"};
 
-// The policy that docs/web.md names for servers, with the hashes of this page.
+// Returns the policy that docs/web.md names for servers, with the hashes of this page.
 function serverPolicy() {
   const own = fs.readFileSync(file, "utf8").match(/http-equiv="Content-Security-Policy" content="([^"]*)"/)[1];
   const [script] = own.match(/script-src ('sha256-\S+')/).slice(1), [style] = own.match(/style-src ('sha256-[^']+')/).slice(1);
