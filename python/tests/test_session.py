@@ -1,4 +1,4 @@
-"""Sessions: frames, finished reliefs, pictures, and no leak over 10,000 frames."""
+"""Sessions make frames, finished reliefs and pictures, and leak no memory over 10,000 frames."""
 
 import os
 import resource

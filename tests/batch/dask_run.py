@@ -34,7 +34,7 @@ def journal(output):
                 try:
                     lines.append(json.loads(line))
                 except ValueError:
-                    pass  # a line that a killed program has not written to its end
+                    pass  # a killed program has not finished this line
     return lines
 
 
@@ -68,7 +68,7 @@ def worker_processes(parent):
 
 
 def wait_for_the_end_of(workers, output):
-    """Waits until those workers and the programs that they started are gone, as they outlive the run for a moment."""
+    """Waits for the end of those workers and their programs, which outlive the run for a moment."""
     deadline = time.time() + 120
     while True:
         left = [number for number, _, command in processes() if number in workers or output.encode() in command]

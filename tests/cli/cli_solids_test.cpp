@@ -1,4 +1,5 @@
-// The solids and height maps that the program writes, read without the library or measured by closed forms.
+// Reads the solids and height maps that the program writes without the library, or compares them with closed
+// forms.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +51,7 @@ TEST_F(CliSolids, Writes3mfAndTiff) {
   ASSERT_TRUE(map) << map.error().message();
   const auto [lowest, highest] = std::ranges::minmax(map->values.pixels);
   EXPECT_NEAR(highest - lowest, 3, .02);
-  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the margin
+  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the corner lies in the margin
   const nlohmann::json report = nlohmann::json::parse(read_all(folder_ / "r.json"), nullptr, false);
   EXPECT_LE(report.value("simplification_error_mm", 1.0), .05);
   EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);

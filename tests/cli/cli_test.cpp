@@ -92,7 +92,7 @@ TEST_F(Cli, MakesProjects) {
   write_all(folder_ / "l.relievo", R"({"relievo": 1, "input": {"path": "torus.ply"},
     "options": {"height": 3, "width": 50, "method": "layered"}})");
   EXPECT_EQ(run("make l.relievo -o l.stl --alpha 2").exit_code,
-            0);  // by the paper's method, which alone has an alpha
+            0);  // only the paper's method has an alpha
   EXPECT_EQ(
       run("make torus.ply -o t.stl --height 2" + flags.substr(std::string(" --height 3").size())).exit_code,
       0);
@@ -186,7 +186,8 @@ TEST_F(Cli, TellsWhatIsInAScan) {
     size >> side >> comma;
     EXPECT_NEAR(side, expected, .01);
   }
-  // The spacing is that of a grid with as many points on the torus' surface of 4 pi^2 times .4.
+  // The expected spacing is that of a grid with as many points on the torus' surface, whose area is .4 * 4
+  // pi^2.
   const double in_a_grid = 2 * std::numbers::pi * std::sqrt(.4 / 20000);
   EXPECT_NEAR(std::stod("0" + line_of(outcome.out, "spacing")) / in_a_grid, 1, .1);
 }

@@ -92,7 +92,7 @@ class Workshop:
 
 
 class Place:
-    """A folder for one fault, with inputs, outputs from before, and foreign files."""
+    """A folder for one fault, with inputs, older outputs, and foreign files."""
 
     def __init__(self, workshop, number):
         self.workshop, self.folder = workshop, workshop.folder / str(number)

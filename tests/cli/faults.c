@@ -5,7 +5,7 @@
 // fail: see the enumeration below. Allocations are counted from main() on, or from the start if AT_ONCE is set, except
 // those of modules whose paths contain a word of EXCEPT.
 #define _GNU_SOURCE
-#define open declared_open  // with another number of arguments
+#define open declared_open  // declared with a variable number of arguments
 #define open64 declared_open64
 #include <fcntl.h>
 #undef open

@@ -1,4 +1,4 @@
-// Loops that several threads call at the same time. The tests for WebAssembly leave this file out, as it uses
+// Several threads run loops at the same time. The tests for WebAssembly leave this file out, as it uses
 // std::thread.
 #include <gtest/gtest.h>
 

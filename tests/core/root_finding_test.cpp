@@ -27,7 +27,7 @@ TEST(FindRoot, FindsRootsNearAndFar) {
   }
 }
 
-// The functions are flat far from the root and steep at it, or the other way round.
+// The functions are flat far from the root and steep at the root, or the other way round.
 TEST(FindRoot, FindsThemOnCurvesOfManyShapes) {
   const auto expect_root = [](auto f) {
     const Search s = search(f);

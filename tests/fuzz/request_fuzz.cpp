@@ -1,5 +1,5 @@
 // Fuzz target of the studio's requests, below HTTP: the first byte chooses an action, the rest is the body. One document
-// is open, and pictures and exports are small. Every answer is one that the page can show.
+// is open, and pictures and exports are small. The page must be able to show every answer.
 #include <algorithm>
 #include <array>
 #include <chrono>

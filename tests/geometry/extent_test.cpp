@@ -22,7 +22,7 @@ TEST(Weld, FindsTheFirstOfCoincidentPoints) {
   EXPECT_TRUE(first_coincident({}).empty());
 }
 
-// Returns points of a coarse lattice. Many coincide, and those on an axis have 0 or -0.
+// Returns points of a coarse lattice. Many coincide, and points on an axis have a coordinate 0 or -0.
 std::vector<Vec3> lattice_points(std::size_t n) {
   std::mt19937 random(5);
   std::vector<Vec3> points(n);

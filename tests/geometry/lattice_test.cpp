@@ -13,7 +13,7 @@ namespace {
 
 constexpr double cell = .1;
 
-// Points of a square of side 2. Every third point does not count.
+// Points of a square of side 2. Every third point is not counted.
 struct Scattered {
   std::vector<Vec3> points = test::sheet(3000, 1, 0).points;
   std::vector<Index> counted = two_of_three(points.size());

@@ -107,7 +107,7 @@ TEST(Orient2d, IsRightOnTheClassroomExamples) {
   }
 }
 
-// Points of a unit circle, rounded, moved by a common offset, and the last one by single bits.
+// Points of a unit circle are rounded and moved by a common offset, and the last one also by single bits.
 TEST(Incircle, IsRightNearTheCircle) {
   std::mt19937_64 random(1);
   int naive_errors = 0;
@@ -145,7 +145,7 @@ TEST(Incircle, KnowsRectangles) {
   }
 }
 
-// Coordinates of all magnitudes that the header allows, in one determinant.
+// One determinant has coordinates of all magnitudes that the header allows.
 TEST(Predicates, AreExactToTheEndsOfTheRange) {
   std::mt19937_64 random(3);
   const double ends[] = {0, 1e-60, -1e-60, 1e70, -1e70, 1 + 0x1p-52, 1e-20, -0x1.fffffffffffffp-150, 3e40};

@@ -158,7 +158,7 @@ TEST(Delaunay, AgreesWithBruteForceOnSmallIntegers) {
   }
 }
 
-// Three points with no other on or in their circle are a triangle of every Delaunay triangulation.
+// Three points whose circle has no other point on or in it are a triangle of every Delaunay triangulation.
 TEST(Delaunay, HasAllTrianglesWithAnEmptyClosedCircle) {
   ASSERT_TRUE(rc::check([] {
     Points points = few_integer_points(12, 4);

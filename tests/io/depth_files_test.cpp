@@ -13,8 +13,8 @@
 #include "support/read_text.h"
 #include "support/results.h"
 
-// The largest allocation of the test program and the libraries in it, which call this function in place of the system's.
-// Sanitizers have a malloc() of their own.
+// The largest allocation of the test program and its libraries, which call the malloc() below in place of the
+// system's. Sanitizers have a malloc() of their own.
 static std::atomic<std::size_t> largest_allocation = 0;
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

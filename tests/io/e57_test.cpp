@@ -34,7 +34,7 @@ TEST(E57, PointsColoursAndInvalidOnesAreRead) {
   EXPECT_EQ(file.dropped_points, 1U);
 }
 
-// Packets of seven bytes cut numbers of all widths anywhere.
+// Packets of seven bytes cut numbers of all widths at any bit.
 TEST(E57, IntegersOfAllWidthsAreUnpacked) {
   for (unsigned bits = 1; bits <= 64; ++bits) {
     const std::uint64_t most = bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;

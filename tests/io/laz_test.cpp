@@ -161,7 +161,7 @@ TEST(Laz, BrokenFilesAreNamed) {
   EXPECT_TRUE(message(patched(good, 247, std::uint64_t{1} << 30)).contains(": expected "));
 }
 
-// The file has no table of chunks and ends before the last point that its header promises.
+// The file has no table of chunks, and ends before the last point that its header states.
 TEST(Laz, PointsBeyondTheEndAreRefused) {
   std::string file = laz({any_points(50, 1)}, false);
   file = patched(patched(file, 429, std::uint16_t{1}), 247, std::uint64_t{100000});

@@ -169,7 +169,7 @@ TEST(Off, TheKeywordMayBeMissing) {
   expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", "OFF "), "a.off", "OFF");
 }
 
-// Numbers behind a face may be its colour.
+// Numbers after a face may be its colour.
 TEST(Off, TwoRowsInALineAreRefusedWithTheReason) {
   EXPECT_EQ(
       message_of(replaced(off(), "3 0 2 1\n", "3 0 2 1 "), "a.off"),

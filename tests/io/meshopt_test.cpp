@@ -77,7 +77,8 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
   EXPECT_EQ(text_of(small), bytes_of({0, 0, 1, 0, 2, 0}));
 }
 
-// Decodes triangles as the specification says, with lists instead of rings, and invents the data that the codes ask for.
+// Decodes triangles by the specification, with lists instead of rings, and makes up the data that the codes
+// need.
 class TriangleModel {
  public:
   TriangleModel(const std::string& table, std::mt19937& random) : table_(table), random_(random) {}

@@ -1,7 +1,8 @@
-// The studio below HTTP while memory runs out, in one process: whatever allocation fails, of whatever thread, the request is
-// answered by its usual answer or by an error of kind memory, nothing stays busy, and the same request made again is answered
-// as if nothing had happened. Allocations of a few bytes do not fail here: the destructors of JSON make some, and the program
-// has a reserve for them. The environment variable ALLOCATIONS sets how many of each request fail in turn, all if it is 0.
+// The studio below HTTP, in one process, while memory runs out. If any allocation of any thread fails, the
+// request must get its usual answer or an error of kind memory, nothing must stay busy, and the same request
+// must be answered as usual afterwards. Allocations of a few bytes do not fail here: the destructors of JSON
+// make some, and the program has a reserve for them. The environment variable ALLOCATIONS sets how many
+// allocations of each request fail in turn; all if it is 0.
 #include <gtest/gtest.h>
 
 #include <chrono>

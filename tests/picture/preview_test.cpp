@@ -163,7 +163,7 @@ TEST(Preview, NothingIsClipped) {
 }
 
 TEST(Preview, AShadowFallsAwayFromTheLight) {
-  // A tower of 10 x 10 x 12; the ground beside it, same distance on all sides.
+  // A tower of 10 x 10 x 12 is compared with the ground beside it, at the same distance on all sides.
   const auto tower = [](double x, double y) {
     return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
   };

@@ -18,7 +18,7 @@ std::shared_ptr<const ReliefModel> ball() {
   return model;
 }
 
-// A relief of the ball, given by a function of the place.
+// A relief of the ball, with heights that are a function of the place.
 struct Field {
   std::vector<float> heights;
   std::vector<Vec3f> normals;

@@ -85,7 +85,7 @@ TEST(Data, TablesAreLeftOut) {
     ASSERT_TRUE(with.plane && without.plane);
     EXPECT_EQ(with.plane->kind, PlaneKind::table);
     EXPECT_NEAR(with.plane->share, share, .03);
-    EXPECT_LT(Box::of(without.points).max.x(), .6);  // all to the right of it is table
+    EXPECT_LT(Box::of(without.points).max.x(), .6);  // everything farther right belongs to the table
     EXPECT_LT(static_cast<double>(without.visible_points),
               1.03 * (1 - share) * static_cast<double>(with.visible_points));
   }

@@ -310,8 +310,8 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
 }
 
-// Other instructions give the very same relief; the bound for other compilers and targets is 1e-5 of the height, which
-// scripts/compare-builds measures.
+// Other instructions of the processor give the same bits. For other compilers and targets,
+// scripts/compare-builds allows differences of 1e-5 of the height.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
   for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
     ReliefOptions options;

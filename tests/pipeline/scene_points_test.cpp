@@ -239,7 +239,8 @@ TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
   expect_same_for_any_threads([&] { return write_stl(value_of(make_relief(scene, options)).solid); });
 }
 
-// A ball before another: the jump between them is no wall, and each keeps its own shape.
+// One ball stands before another. The relief has no wall at the jump between them, and both keep their
+// shapes.
 TEST(SceneRelief, NoWallStandsBetweenModels) {
   const Scene scene{
       {model_of(test::sphere(60000, 1), at(0, 0, 0)), model_of(test::sphere(60000, 1), at(.9, 0, -8))}};

@@ -31,7 +31,7 @@ TEST(PlaceModels, TurnsScalesAndMirrorsAboutTheMiddleOfTheBox) {
   // The turn about x comes before that about z: it takes y to z, which a turn about z keeps.
   EXPECT_TRUE(image({{90, 0, 90}}, {1, 1, 0}).isApprox(Vec3(0, 1, 1), tiny));
   EXPECT_TRUE(image({Vec3::Zero(), Vec3(10, 20, 30), 2}, {1, 2, 3}).isApprox(Vec3(12, 24, 36), tiny));
-  // The mirror comes first: x to -x, and that is turned to -y.
+  // The mirror comes first: it takes x to -x, and the turn takes this to -y.
   EXPECT_TRUE(image({{0, 0, 90}, {}, 1, true}, {1, 0, 3}).isApprox(Vec3(0, -1, 3), tiny));
 }
 

@@ -1,4 +1,4 @@
-// Sessions while their model is turned.
+// Tests sessions while their model is turned.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -100,7 +100,7 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
 
 TEST(Forms, ColoursDarkenALithophane) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) { return p.y() > 0 ? 255 : 200; }));
-  // Grey 200 passes 57.8 % of the light: 4 ln(1 / .578) / ln 10 = .95 mm more.
+  // Grey 200 stands for 57.8 % of the light, which needs 4 ln(1 / .578) / ln 10 = .95 mm more.
   EXPECT_NEAR(height_around(front, {-1, -.5}, .4) - height_around(front, {-1, .5}, .4), .95, .15);
 }
 

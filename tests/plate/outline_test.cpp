@@ -89,7 +89,7 @@ double worst_of(const std::vector<Vec2>& polygon, Off off) {
   return worst;
 }
 
-// A coin of 30 mm was 30.019 mm across, with 88 sides.
+// Once, a coin of 30 mm was 30.019 mm wide, with 88 sides.
 TEST(OutlineAround, ACirclesPolygonLiesWithinAMicrometreOfIt) {
   for (const double diameter : {1., 30., 80., 900.}) {
     const std::vector<Vec2> point = {{70, -3}};
@@ -297,7 +297,8 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
   EXPECT_NEAR(flat_area(simpler.solid), flat_area(full.solid), 1e-6);
 }
 
-// Half cells at the rim: their diagonals need not be Delaunay's choice, for the corners lie on a circle.
+// At its rim, the relief may contain half a cell only. The corners of a cell lie on a circle, so that
+// Delaunay may cut it along the other diagonal.
 TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const int n = 24;
   HeightFieldMesh front =

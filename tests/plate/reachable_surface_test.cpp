@@ -52,7 +52,8 @@ TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
   }
 }
 
-// The ball of radius 1 touches a wall of slope 12 and the ground: between the two places the surface has its shape.
+// The ball of radius 1 touches a wall of slope 12 and the ground. In between, the surface has the shape of
+// the ball.
 TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
   const Solid solid = test::plate_of(block(), with_tool());
   const Vec2 foot(5 + 30, 5 + 10);

@@ -72,7 +72,7 @@ TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
     return Vec2f(std::tan(.05F * static_cast<float>(x - 32)) + .02F * static_cast<float>(x % 2), 0);
   });
   EXPECT_LT(quartered(sample_squares(grain, angle)), 64 * 10);
-  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // creases
+  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // such turns count as creases
 }
 
 TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {

@@ -66,8 +66,8 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// Points of a silhouette that are almost on one line leave a slit between it and thin triangles beyond it.
-// The outer triangle connects two sides, and then the inner one does, until both are removed.
+// Points of a silhouette are almost on one line, with two thin triangles beyond it and a slit between them
+// and the wide ones. The outer thin triangle connects two sides, and after its removal so does the inner one.
 TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
                                  {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};
@@ -79,8 +79,8 @@ TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   EXPECT_EQ(solid.triangles, wide);
 }
 
-// The silhouette's points, and those of the hull, where the plate's ring begins, are almost on one line, and are so again
-// in another unit.
+// The points of the silhouette, and those of the hull, where the plate's ring begins, are almost on one line,
+// also after a change of the unit.
 TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
   const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
   for (const Outline outline : {Outline::none, Outline::rectangle})

@@ -140,7 +140,7 @@ TEST(WrapPlate, IsWatertightForEveryBodyAndOutline) {
     }
 }
 
-// The front and the back lie at their radii, between their corners, too.
+// The front and the back lie at their radii, even between the corners of triangles.
 TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
   const HeightFieldMesh front = test::flat_front({56, 36, 4, 4});
   const PlateOptions options = plate_around("cylinder:diameter=60");

@@ -63,7 +63,7 @@ TEST(SurfaceMeasures, FrayAtAJumpGrowsWithNoise) {
   const SurfaceMeasures measures(sheets);
   std::vector<double> z;
   for (const Vec3& p : sheets.points) z.push_back(.2 * (p + sheets.centre).head<2>().norm());
-  EXPECT_GT(measures.fray(z).jump_deg, 0);  // chords of the circle
+  EXPECT_GT(measures.fray(z).jump_deg, 0);  // due to the chords of the circle
   EXPECT_LT(measures.fray(z).jump_deg, .5);
   test::Random random(5);
   std::vector<double> noisy = z;

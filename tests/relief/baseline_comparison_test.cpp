@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-// A comparison, with the objects that it views.
+// A comparison, and the objects that it refers to.
 struct Figure {
   explicit Figure(const Cloud& cloud) : surface(find_surface(cloud, {}).value()) {}
 

@@ -153,7 +153,7 @@ TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
   EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);
 }
 
-// Two gentle slopes with an empty range of depths between them.
+// The cloud has two gentle slopes with an empty range of depths between them.
 TEST(Equalise, ShrinksDepthsThatNothingHas) {
   const Cloud cloud = test::joined(
       test::height_field(
@@ -184,7 +184,7 @@ TEST(BaseAndDetail, WithoutAmplificationIsLinear) {
   EXPECT_LE(test::largest_difference(base.heights, linear.heights), 1e-9);
 }
 
-// A fine wave on a coarse one: the Gaussian leaves the coarse one and takes the fine one away.
+// The surface is a fine wave on a coarse one. The Gaussian keeps the coarse wave and removes the fine one.
 TEST(BaseAndDetail, AmplifiesWhatIsFine) {
   const auto z = [](double x, double) { return .2 * std::cos(3 * x) + .004 * std::cos(60 * x); };
   const auto gradient = [](double x, double) {

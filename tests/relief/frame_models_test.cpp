@@ -54,7 +54,8 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   }
 }
 
-// Combines heights, as shares of L_d, with saturations, as sliders do. Frames report heights out of reach.
+// Combines heights, as shares of L_d, with saturations, as sliders do. Frames report heights that are out of
+// reach.
 TEST_P(FrameOfModel, KeepsALockedHeight) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);

@@ -85,7 +85,8 @@ TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
   EXPECT_LT(worst, .08 * most);
 }
 
-// A correction that is lifted inside is farther from 0 on the silhouette the less stiffly it is tied there.
+// If a correction is lifted inside, the less stiff its ties on the silhouette are, the farther it is from 0
+// there.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
   const HeightCorrection correction(surface, jump_weights(surface));

@@ -88,7 +88,7 @@ TEST(JumpLift, LevelsInvertedJumpsAtEveryHeight) {
     EXPECT_LT(inversion_left(flap_before_sheet, shape_at(u)), .12) << u;
 }
 
-// The fields are found for the default detail.
+// The fields are computed for the default detail only.
 TEST(JumpLift, LessensInversionsAtOtherDetails) {
   const Prepared flap_before_sheet(flap());
   for (const double gamma : {0.0, .02, .06})

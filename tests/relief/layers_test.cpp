@@ -88,7 +88,7 @@ TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
   EXPECT_LT(faded_xy(Vec3f(.8F, 0, -.6F)).norm(), 1e-9F);
 }
 
-// Each of the eight numbers has a weight of its own that no other sum of them gives.
+// The numbers and weights are chosen so that any exchange of them changes the sum.
 TEST(WeightedSum, WeighsEachLayer) {
   const PointLayers layers{Vec2f(.5F, .25F), Vec2f(-.25F, .125F), Vec2f(1, -.5F), Vec2f(-.125F, 1.5F)};
   const LayerWeights w{.1F, .35F, .7F, .9F, .5F};

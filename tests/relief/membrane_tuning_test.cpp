@@ -45,7 +45,7 @@ void expect_to_keep_what_compression_keeps(const ReliefModel& m) {
   }
 }
 
-// The purpose of the tuning, measured by the full metrics.
+// This is the purpose of the tuning, measured by the full metrics.
 TEST(MembraneTuning, KeepsDetailAndOrderOfGradientDomainCompression) {
   expect_to_keep_what_compression_keeps(model());
 }

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Squares on one another, seen from above, each half as wide as the one below. Their depths are no multiples of one
-// another.
+// The depths of three squares on one another, seen from above, each half as wide as the one below. The depths
+// are no multiples of one another.
 constexpr std::array<double, 3> depths = {0, .3, .7};
 
 std::size_t terrace_of(const Vec3& p) {

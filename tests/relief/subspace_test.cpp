@@ -211,7 +211,7 @@ TEST(RegionSamples, StandForEqualAreas) {
     test::add(crowded, {x, random.uniform(-1, 1), 0}, {0, 0, 1});
   }
   const Surface surface = surface_of(crowded);
-  // One control point for all: its region is everything.
+  // There is one control point, whose region is everything.
   const ControlPoints control{{0}, 0, 10};
   const std::vector<Index> samples = sample_regions(surface, control, 1000);
   ASSERT_EQ(samples.size(), 1000U);

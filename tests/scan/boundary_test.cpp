@@ -30,7 +30,7 @@ struct FlatCase {
 
 TEST(Boundary, OfASquareIsItsRimOnePointThick) {
   const FlatCase square(test::sheet(40000, 1, 0));
-  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points stop short of the rim
+  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points do not reach the rim
   const double rho = square.rho;
   std::size_t count = 0;
   for (std::size_t i = 0; i < square.points.size(); ++i) {

@@ -13,7 +13,8 @@ std::shared_ptr<const MeasuredCloud> measured(const Cloud& cloud, const View& vi
   return MeasuredCloud::measure(cloud, view).value();
 }
 
-// Measures of all views give the surface that a measure of this view alone gives, up to rounding.
+// A cloud that is measured once gives, up to rounding, the same surface in each view as a cloud measured for
+// that view.
 TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
   const Cloud cloud = test::torus(20'000, 1, .4);
   const auto once = measured(cloud);

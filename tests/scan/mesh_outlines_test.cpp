@@ -125,7 +125,7 @@ TEST_P(MeshOutlines, OfAGearKeepItsCorners) {
 }
 
 TEST_P(MeshOutlines, LeaveNotchesOpen) {
-  // A gap between two sheets that is closed where clouds are scattered.
+  // The gap between two sheets is so narrow that it would be closed in a cloud.
   const auto sheet = [](double left, double right) {
     return Mesh{{{left, -1, 0}, {right, -1, 0}, {right, 1, 0}, {left, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   };
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, MeshOutlines, testing::Values(20000, 100000));
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, MeshOutlines, testing::Values(1000000));
 
 TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
-  // A square before another whose left half it covers.
+  // One square covers the left half of another behind it.
   const auto square = [](double left, double z) {
     return Mesh{{{left, -1, z}, {left + 2, -1, z}, {left + 2, 1, z}, {left, 1, z}}, {{0, 1, 2}, {0, 2, 3}}};
   };

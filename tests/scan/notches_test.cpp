@@ -27,7 +27,7 @@ Cloud lips(std::size_t n) {
   return cloud;
 }
 
-// Returns the largest x of the places between the lips, on the middle line, that lie in a triangle inside.
+// Returns the largest x of the places on the middle line between the lips that lie in a triangle inside.
 double end_of_notch(const Surface& surface) {
   double end = -1;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {

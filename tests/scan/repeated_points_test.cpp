@@ -132,7 +132,7 @@ TEST(RepeatedPoints, AreNotSeenAmongScatteredOnes) {
   }
 }
 
-// Marching cubes put up to three vertices beside each corner of their grid that the surface passes.
+// Marching cubes put up to three vertices near each corner of the grid that is near the surface.
 TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   test::Random random(3);
   Cloud mesh;
@@ -146,7 +146,7 @@ TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   EXPECT_EQ(without_repeated_points(mesh).size(), mesh.size());
 }
 
-// Patches of 30 points that are farther from each other than points are connected.
+// The patches of 30 points are too far from each other to be connected.
 TEST(LostFigure, IsRefused) {
   Cloud shreds;
   for (int row = 0; row < 300; ++row)

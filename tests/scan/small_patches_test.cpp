@@ -37,8 +37,8 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall is visible
 }
 
-// A patch beside a wall, behind its edge: the gap of 3.5 spacings between them hides that they are apart, because the
-// patch is so steep that it could lead up to the wall.
+// A patch lies beside a wall and behind its edge, with a gap of 3.5 spacings. The patch is so steep that it
+// could lead up to the wall, which hides that both are apart.
 TEST(SmallPatches, BeyondAGapAreLeftOut) {
   Cloud cloud = window(0, 0);
   const double edge = .495, step = .01;

@@ -94,7 +94,7 @@ TEST(SupportPlane, IsLeftOutUnlessTheViewHasIt) {
   Box box;
   for (const Vec3& p : without.points) {
     box.extend(p);
-    EXPECT_NEAR((p - centre).norm(), 1, .06);  // points on outlines are set between those of the scan
+    EXPECT_NEAR((p - centre).norm(), 1, .06);  // points on outlines are placed between those of the scan
   }
   EXPECT_NEAR(box.size().x(), 2, 2 * without.rho);
 }
@@ -114,7 +114,8 @@ TEST(SupportPlane, IsLeftOutWithItsRidges) {
   for (const Vec3& p : without.points) EXPECT_NEAR((p - centre).norm(), 1, .06);
 }
 
-// A small ball beside the sphere is seen with the table, and is debris without it; one with enough points is a figure.
+// A small ball beside the sphere is visible if the table is kept. Without the table it is debris, or a figure
+// if it has enough points.
 TEST(SupportPlane, IsLeftOutWithDebris) {
   const Vec3 normal = tilted(50), place = 1.7 * Vec3::UnitX() + .5 * normal;
   for (const std::size_t points : {500, 4000}) {

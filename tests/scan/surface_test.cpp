@@ -37,7 +37,7 @@ TEST(Surface, RefusesNumbersThatAreNone) {
   EXPECT_TRUE(failure(cloud).contains("found 999"));
 }
 
-// The sheet's area of 4 is covered but for its edge, though most points crowd in a hundredth of it.
+// The sheet's area of 4 is covered except at its edge, though most points lie in a hundredth of the area.
 TEST(Surface, CoversSparsePartsToo) {
   const Surface surface =
       test::surface_of(test::joined(test::sheet(50000, .1, 0, 11), test::sheet(3000, 1, 0, 12)));

@@ -106,7 +106,7 @@ std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   return sizes;
 }
 
-// Expects that exactly the cells are covered for which is_covered() is true, and that they are counted.
+// Expects that exactly the cells for which is_covered() is true are covered, and that they are counted.
 template <typename F>
 void expect_covered(const FrontCells& front, F&& is_covered) {
   std::size_t covered = 0;

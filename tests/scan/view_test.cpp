@@ -114,7 +114,7 @@ TEST(Crop, KeepsThePointsInsideInTheirOrder) {
   for (const Vec3& p : cloud.points)
     if (p.y() >= 0 && p.x() >= .5) expected.push_back(p);
   EXPECT_NEAR(static_cast<double>(part.size()), static_cast<double>(expected.size()),
-              5);  // the box is a little less
+              5);  // the points' box is a little smaller than the sphere's
   EXPECT_EQ(part.normals.size(), part.size());
   for (const Vec3& p : part.points) EXPECT_GT(std::min(p.y(), p.x() - .5), -.01);
   view.crop = {};

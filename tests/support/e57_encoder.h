@@ -20,7 +20,7 @@ struct E57Column {
 
 struct E57TestScan {
   std::vector<E57Column> columns;
-  std::string xml = {};  // more children of the scan
+  std::string xml = {};  // other children of the scan's element
 };
 
 inline E57Column e57_doubles(const std::string& name, const std::vector<double>& values) {

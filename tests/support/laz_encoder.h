@@ -88,7 +88,7 @@ class LazTestEncoder {
   void add(std::uint64_t start, std::uint64_t length) {
     base_ += start;
     if (base_ >> 32 != 0)
-      for (std::size_t i = bytes_.size(); ++bytes_[--i] == 0;) continue;  // carries
+      for (std::size_t i = bytes_.size(); ++bytes_[--i] == 0;) continue;  // carries into the bytes before
     base_ &= 0xFFFFFFFF;
     for (length_ = length; length_ < 1 << 24; length_ <<= 8, base_ = base_ << 8 & 0xFFFFFFFF)
       bytes_ += static_cast<char>(base_ >> 24);

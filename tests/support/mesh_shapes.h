@@ -9,8 +9,8 @@
 
 namespace relievo::test {
 
-// Returns the mesh of a surface over two parameters in [0, 1] that both return to their beginning or end in a point;
-// `counts` are the numbers of its triangles' sides along them.
+// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter the surface is closed, or
+// ends in a point. `u_count` and `v_count` are the numbers of sides along the parameters.
 inline Mesh parametric_mesh(const std::function<Vec3(double, double)>& at, int u_count, int v_count) {
   Mesh mesh;
   for (int v = 0; v <= v_count; ++v)
@@ -35,7 +35,7 @@ inline Mesh sphere_mesh(double radius, int sides) {
       sides, sides / 2);
 }
 
-// Returns a torus about the z axis; R to the middle of the tube, r the tube's radius.
+// Returns a torus about the z axis; R is the distance to the middle of the tube, r the tube's radius.
 inline Mesh torus_mesh(double R, double r, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {

@@ -1,6 +1,6 @@
 // Computes how alike two pictures look: the structural similarity of Wang, Bovik, Sheikh and Simoncelli (2004) of their
-// luminance, with its usual constants, as the mean over the places that either of them shows in another shade
-// than the plate around.
+// luminance, with its usual constants, as the mean over the windows in which at least one picture shows
+// details.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ inline double structural_similarity(const Image8& one, const Image8& other) {
   for (int y = 2 * reach; y < a.height - 2 * reach; ++y)
     for (int x = 2 * reach; x < a.width - 2 * reach; ++x) {
       const double ua = ma.at(x, y), ub = mb.at(x, y), va = aa.at(x, y) - ua * ua, vb = bb.at(x, y) - ub * ub;
-      constexpr double level = .25;  // variance of a window that shows nothing
+      constexpr double level = .25;  // variance of a window without details
       if (va < level && vb < level) continue;
       sum += (2 * ua * ub + c1) * (2 * (ab.at(x, y) - ua * ub) + c2) /
              ((ua * ua + ub * ub + c1) * (va + vb + c2));

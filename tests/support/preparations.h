@@ -1,4 +1,4 @@
-// Preparations for tests of sessions.
+// Makes preparations for tests of sessions.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@ inline Preparation preparation_of(std::size_t points = 5000) {
   }};
 }
 
-// A preparation whose points come only when it has been cancelled.
+// A preparation that gives its points only after it has been cancelled.
 struct Stuck {
   std::binary_semaphore has_begun{0};
   std::atomic<bool> has_ended = false;

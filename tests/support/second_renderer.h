@@ -45,7 +45,7 @@ struct RayTriangle {
   Vec2 lowest() const { return a.head<2>() + u.cwiseMin(v).cwiseMin(0).head<2>(); }
   Vec2 highest() const { return a.head<2>() + u.cwiseMax(v).cwiseMax(0).head<2>(); }
 
-  // Returns how near the triangle is to the viewer at a place; minus infinity beside it.
+  // Returns how near the triangle is to the viewer at a place; minus infinity beside the triangle.
   double depth_at(double x, double y) const {
     const double px = x - a.x(), py = y - a.y();
     const double s = (px * v.y() - py * v.x()) / area(), t = (u.x() * py - u.y() * px) / area();

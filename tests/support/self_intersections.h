@@ -48,7 +48,7 @@ inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
   return orient3d(p, q, r, above);
 }
 
-// Returns whether the triangles' interiors, in one plane, have a place in common.
+// Returns whether the interiors of two triangles in one plane have a place in common.
 inline bool overlap_in_plane(const Corners& s, const Corners& t) {
   int drop = 0;
   while (orient2d(s[0], s[1], s[2], drop) == 0) ++drop;
@@ -76,8 +76,8 @@ inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   return least >= 0 || most <= 0;
 }
 
-// Returns whether an edge of s meets t. Edges that end in a common corner do not count: if they go on into t,
-// the edge opposite the corner, in s or in t, meets the other triangle, too.
+// Returns whether an edge of s meets t. Edges that end in a common corner do not count: if they cross t, the
+// edge opposite the corner, in s or in t, meets the other triangle, too.
 inline bool edge_meets(const Corners& s, const Corners& t) {
   const auto is_common = [&](const Vec3& p) { return std::ranges::find(t, p) != t.end(); };
   for (std::size_t i = 0; i < 3; ++i) {

@@ -53,7 +53,8 @@ inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t
   return cloud;
 }
 
-// Returns points distributed uniformly on a torus about the z axis; R to the middle of the tube, r the tube's radius.
+// Returns points distributed uniformly on a torus about the z axis; R is the distance to the tube's middle, r
+// its radius.
 inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   Random random(seed);
   Cloud cloud;

@@ -16,8 +16,8 @@ inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
   return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, mode));
 }
 
-// Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, an inner hole. Both have that
-// many points.
+// Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, an inner hole.
+// Bumps and ring have `n` points each.
 inline Cloud bumps_behind_a_ring(std::size_t n = 30000) {
   const Cloud bumps = height_field(
       n, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },

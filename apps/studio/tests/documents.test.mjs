@@ -48,7 +48,7 @@ test("keeps a document for each scan, and the newer state of each", async () => 
 test("neither replaces a document that it cannot read, nor removes a scan then", async () => {
   let other = await studioIn("unread");
   const input = await dropped(other, "b.xyz", "0 0 0\n"), {document} = await other.json("document", {input});
-  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true}); // no file
+  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true}); // a folder, not a file
   const told = await other.post("document", {input}), kept = await keep(other, document, stateOf(input, 1, 1));
   assert.match(String(told.body), /expected a folder of the studio that can be read: /);
   assert.deepEqual([told.status, kept.status], [500, 500]);
@@ -129,7 +129,7 @@ async function killAtRandom(place, times) {
     const {confirmed} = page;
     await page.engine.stop("SIGKILL");
     await dragging;
-    const kept = JSON.parse(readFileSync(file, "utf8")); // whole, whenever the engine was killed
+    const kept = JSON.parse(readFileSync(file, "utf8")); // the file is whole, whenever the engine was killed
     assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
     while (page.keeper.isSending) await sleep(5); // then the newest change has been sent, or stays in the browser
     const copy = JSON.parse(storage.getItem(document) ?? "{}");

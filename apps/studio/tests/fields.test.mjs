@@ -104,7 +104,7 @@ test("keeps the figure's size on another plate, as long as it fits", async () =>
   await page.getByText("The figure was too large for its plate: now it is as large as fits.").waitFor();
   await untilPiece("60.00 × 50.00");
   await soon.ok(async () => (await longer()) < 50);
-  await enter(shift, "45,0"); // farther than half of the plate
+  await enter(shift, "45,0"); // farther than the plate's edge
   await page.getByText("The plate has no room for the figure there: it stays where it is.").waitFor();
   await soon.equal(() => shift.inputValue(), "");
   await undo(2);

@@ -295,9 +295,9 @@ test("crops the scan by a frame on the picture", async () => {
   });
   await dragIn([0.2, 0.2], [0.7, 0.8]); // draws a frame
   await untilCrop(0.2, 0.2, 0.7, 0.8);
-  await dragIn([0.7, 0.5], [0.9, 0.5]); // takes a side
+  await dragIn([0.7, 0.5], [0.9, 0.5]); // moves a side
   await untilCrop(0.2, 0.2, 0.9, 0.8);
-  await dragIn([0.2, 0.2], [0.1, 0.3]); // takes a corner
+  await dragIn([0.2, 0.2], [0.1, 0.3]); // moves a corner
   await untilCrop(0.1, 0.3, 0.9, 0.8);
   await dragIn([0.5, 0.5], [0.6, 0.4]); // moves the frame
   await untilCrop(0.2, 0.2, 1, 0.7);
@@ -471,7 +471,7 @@ function anyNormal(random) {
   return [r * Math.cos(angle), r * Math.sin(angle), z];
 }
 
-// Writes points with normals, {place, normal} each.
+// Writes points with normals; each point is {place, normal}.
 function writePoints(file, points) {
   const names = ["x", "y", "z", "nx", "ny", "nz"].map((name) => `property float ${name}`).join("\n");
   const header = `ply\nformat ascii 1.0\nelement vertex ${points.length}\n${names}\nend_header\n`;

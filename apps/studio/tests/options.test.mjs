@@ -109,7 +109,7 @@ for (const [name, {value, first = {}, kind}] of cases)
     if (name === "alpha") await reaches((frame) => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
     else if (name === "tone") await reaches((frame) => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
     else await reaches((frame) => frame.options[name] === value);
-    await undoAll(); // back to the beginning
+    await undoAll(); // restores the defaults
     await untilReady(page);
   });
 
@@ -205,7 +205,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
   await baseImage().getByText("map.tif").waitFor();
 
-  await baseImage().locator("input").setInputFiles(scan); // no image: refused, and nothing changes
+  await baseImage().locator("input").setInputFiles(scan); // a scan is no image, so it is refused and nothing changes
   await page.getByText("expected a PNG or TIFF picture of depths").waitFor();
   await soon.match(async () => (await sent()).options["base-image"], /map\.tif$/);
   await baseImage().getByRole("button", {name: "Remove the base image"}).click();

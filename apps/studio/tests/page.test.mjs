@@ -30,7 +30,7 @@ async function pressKey(locator, key, times) {
   for (let i = 0; i < times; ++i) await locator.press(key);
 }
 
-// Returns the bytes of the relief's picture, once it stands still.
+// Returns the bytes of the relief's picture when it no longer changes.
 async function picture() {
   const read = () => stage().locator("canvas").first().evaluate((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -313,7 +313,7 @@ test("turns, lights, cuts and compares", async () => {
   await drag([box.x + x2, box.y + y2], middle); // moves that end, and leaves the other where it is
   await eventually(async () => {
     const [[x, y], [x3]] = await ends();
-    assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // pictures have a whole number of pixels
+    assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // pixels round the place
     assert.ok(Math.abs(x3 - box.width / 2) < 2, `${x3} of ${x2}`);
   });
   await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();

@@ -84,7 +84,7 @@ export async function undo(times = 1, of = page) {
   for (let i = 0; i < times; ++i) await button("Undo", of).click();
 }
 
-// Undoes until nothing is left, or `isEnough` says so. The button may be disabled meanwhile.
+// Undoes steps until none is left, or isEnough() is true. The button may be disabled meanwhile.
 export async function undoAll(of = page, isEnough = () => false) {
   const once = button("Undo", of);
   while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
@@ -174,7 +174,7 @@ export async function openExport(of = page) {
   await of.locator("#export-size").getByText(/triangles$/).waitFor();
 }
 
-// Exports by a dialog that is open. Returns {name, bytes} of each file.
+// Exports by the dialog, which must be open. Returns {name, bytes} of each file.
 export async function exportFiles(count = 1, of = page) {
   await of.locator("#export-size").getByText(/triangles$/).waitFor();
   const saved = await savedFiles(found, of, count, () => of.locator("#export-go").click());

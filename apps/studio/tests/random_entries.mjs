@@ -120,7 +120,7 @@ export class RandomEntries {
     this.typed = {};
   }
 
-  // Presses a button until it is disabled, at most that many times. Returns how often it was pressed.
+  // Presses a button until it is disabled, at most `most` times. Returns how often it was pressed.
   async pressAll(name, most = Infinity) {
     const pressed = button(name, this.page);
     let steps = 0;
@@ -198,15 +198,15 @@ export class RandomEntries {
 export async function showSmallScan() {
   const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
   writeSample("green_man", 2000, scan);
-  const browser = await found.launch(), screen = {width: 900, height: 600}; // so that pictures are drawn quickly, too
+  const browser = await found.launch(), screen = {width: 900, height: 600}; // small pictures are drawn quickly
   const {engine, page} = await showScan(browser, {state, scan, screen});
   await openPanels(page);
   await page.waitForFunction(areKindsDrawn);
   await enter(page.locator("#resolution"), "1");
   for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
   await untilReady(page);
-  // The steps up to here are no part of a sequence. They are kept as a single step, with which the page goes on when it
-  // is opened anew.
+  // The steps up to here are no part of a sequence. They are replaced by a single step, which the page shows when it is
+  // opened again.
   const begun = await eventually(async () => {
     const step = await engine.newestStep(scan);
     assert.equal(step.options.width, 30);

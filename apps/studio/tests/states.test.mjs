@@ -1,4 +1,4 @@
-// Each state of the page fits each screen, has all its controls within reach, and no findings of axe.
+// Each state of the page fits each screen, has all its controls within reach, and breaks no rule of axe.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, soon, startEngine, test,
   withBrowser} from "./page_suite.mjs";

@@ -219,7 +219,7 @@ export async function type(field, text) {
       !input.disabled && input.selectionEnd - input.selectionStart === input.value.length);
     if (!isSelected) throw new Error(`not selected: ${field}`);
   });
-  // Keys of the page, not of the field: Playwright takes the selection away from a field of a page without the focus.
+  // Keys are sent to the page, not to the field, as Playwright clears the selection of fields on a page without focus.
   const {keyboard} = field.page();
   await (text === "" ? keyboard.press("Delete") : keyboard.type(text));
 }
