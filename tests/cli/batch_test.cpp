@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// A workshop whose outputs are made at once. The solid's content is the arguments.
+// Runs jobs without making reliefs: the content of each solid is the arguments of its job.
 class BatchRun : public CliFolder {
  protected:
   void SetUp() override {

@@ -1,4 +1,4 @@
-// The program as its users misuse it: exit codes, one line about what is wrong, nothing left behind.
+// Errors of the program's users: each ends with an exit code and one line, and leaves no file behind.
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"

@@ -1,4 +1,4 @@
-// The program as its users run it: what it makes, what it says and where.
+// The program as its users run it: its outputs, and its messages and reports.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>

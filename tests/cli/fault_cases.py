@@ -51,7 +51,7 @@ def end_by_signal(process, number, was_running):
 
 
 def check_end(kind, code, errors):
-    """Requires that a program ended as its user may expect."""
+    """Requires that a program ended with an exit code and a message that are allowed for this fault."""
     require(code in (0, 1) or kind == "kill", "exit code", code, errors[:2000])
     lines = errors.splitlines()
     require(code != 1 or len(lines) >= 1, "no message")

@@ -40,7 +40,7 @@ Solid solid_with_front(const test::ReadSolid& file, double ground_mm) {
   return solid;
 }
 
-// A height map of a hill beside a hollow.
+// Returns a height map of a hill beside a hollow.
 std::shared_ptr<const Image<float>> hill_and_hollow() {
   Image<float> image = filled_image(64, 48, 0.F);
   for (int y = 0; y < image.height; ++y)
@@ -67,8 +67,8 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
-// Returns the correlation of the picture's green with the cosines where the piece is, and expects that it is drawn there
-// and nowhere else, but for pixels of its outline.
+// Returns the correlation of the picture's green with the cosines over the piece. Expects that the piece is
+// drawn there and nowhere else, except for pixels of its outline.
 double agreement(const Image8& picture, const Image<double>& cosines) {
   Image<float> drawn = filled_image(picture.width, picture.height, 0.F), expected = drawn;
   PixelMask both;

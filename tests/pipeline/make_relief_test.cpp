@@ -268,7 +268,7 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-// Two sheets, one before the other: a form without slopes.
+// Two sheets, one before the other, have no slopes.
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;

@@ -133,7 +133,7 @@ TEST(Heights, MinimiseEquationNine) {
   expect_least_squares(DiscCase(40, 20).uneven());
 }
 
-// A second disc beside the first: their triangulation with the triangles between them left out.
+// Two discs side by side: their triangulation without the triangles between them.
 struct TwoDiscs {
   std::vector<Vec2> points;
   Triangulation mesh;

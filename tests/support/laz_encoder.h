@@ -168,7 +168,7 @@ inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
   return points;
 }
 
-// A file of chunks of any size, of format 0, or layered of format 6. Coordinates are whole numbers.
+// Returns a file of chunks of any size, of format 0, or layered of format 6. Coordinates are whole numbers.
 inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, bool is_layered) {
   std::string file(375, '\0'), data;
   LazTestEncoder table;
