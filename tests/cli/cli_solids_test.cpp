@@ -57,8 +57,7 @@ TEST_F(CliSolids, Writes3mfAndTiff) {
   EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);
 }
 
-// A die fills what the relief leaves of the block around both. A
-// lithophane stands on .8 mm.
+// Relief and die together fill a block. A lithophane stands on .8 mm.
 TEST_F(CliSolids, MakesEveryForm) {
   const auto made = [&](const std::string& form) {
     const std::string file = form + ".stl";

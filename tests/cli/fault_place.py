@@ -152,12 +152,12 @@ class Place:
         return process
 
     def is_writing(self):
-        """Returns whether a process has a temporary file of the outputs open."""
+        """Returns whether a process has an open temporary file of the outputs."""
         for process in (process for group in self.groups for process in processes_of(group)):
             try:
                 files = [os.readlink(file) for file in Path(f"/proc/{process}/fd").iterdir()]
             except OSError:
-                continue  # it has ended
+                continue  # the process has ended
             if any(file.startswith((f"{self.out}/#", f"{self.out}/a.")) for file in files):
                 return True
         return False

@@ -225,7 +225,7 @@ def studio(workshop, kind, chance, number):
         require(state["changed"] in (kept, kept + 1), "studio: kept", state["changed"], "after", kept)
         require(state["changed"] == 0 or state["text"] == "x" * ((state["changed"] - 1) % 5 * 9000), "studio: what it kept is not whole")
         if kind == "kill":
-            page.keep(page.open("shell"))  # what a killed program leaves is removed when its file is next written
+            page.keep(page.open("shell"))  # this removes files that a killed program left
         require(not temporaries(place.state), "studio: left", temporaries(place.state))
         page.process.terminate()
         finish(page.process)

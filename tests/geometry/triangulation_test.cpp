@@ -78,8 +78,8 @@ Points few_integer_points(int most, int limit) {
   return points;
 }
 
-// The check of all other tests finds what is wrong. In general position the triangulation is unique, so any other number
-// anywhere is wrong.
+// delaunay_fault(), by which all other tests check, finds every fault. In general position the triangulation
+// is unique, so any other number anywhere is wrong.
 TEST(DelaunayCheck, RejectsAnyChangedNumber) {
   const Points points = random_points(60);
   const Triangulation right = delaunay(points);
@@ -117,7 +117,7 @@ TEST(DelaunayCheck, RejectsWhatFailsOneCheckAlone) {
   EXPECT_EQ(delaunay_fault(kite, twin), "points");
   EXPECT_EQ(delaunay_fault(Points{{-5, 0}, {0, 1}, {5, 0}, {0, 9}}, good), "turns") << "a notch at point 1";
 
-  // Five triangles about a centre, each with its corners 144 degrees apart: only the border goes round twice.
+  // Five triangles about a centre span 144 degrees each. Their only fault is a border that goes round twice.
   Points star = circle_points(5);
   star.emplace_back(0, 0);
   Triangulation t;

@@ -78,7 +78,7 @@ std::string whole_tiff() {
   return tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
 }
 
-// A file in which these fields, counted from 0, have another value.
+// A file in which these fields, counted from 0, have other values.
 std::string with_field(std::string file, std::initializer_list<std::size_t> fields, std::uint32_t value) {
   for (const std::size_t i : fields) file = patched(file, 10 + 12 * i + 8, value);
   return file;

@@ -75,7 +75,7 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   options = {};
   options.rim_mm = options.rim_bevel_mm = 2;
   options.outline = Outline::ellipse;
-  options.plate_mm = Vec2(200, 89);  // with 5 mm of margin, and the bevel as wide as the rim
+  options.plate_mm = Vec2(200, 89);  // the margin is 5 mm, and the bevel is as wide as the rim
   options.shift_mm = Vec2(5, 0);
   EXPECT_EQ(complaint(options), "");
 }

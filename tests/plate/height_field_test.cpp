@@ -13,7 +13,8 @@ namespace {
 
 using test::grid_front, test::plate_of;
 
-// Expects the heights of the front above its lowest point, found by trying all triangles; 0 where there are none.
+// Expects the heights of the front above its lowest point, which are found by trying all triangles; 0 where
+// there are none.
 void expect_heights_of(const Solid& solid) {
   const HeightField field = measure_height_field(solid, 97);
   ASSERT_FALSE(field.z.empty());

@@ -316,8 +316,8 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // the whole area is 254
 }
 
-// The transform of the report puts each point of the outline on a corner of the solid, however it is cut out and formed and
-// wherever the scan lies, and the lowest one on the ground.
+// The transform of the report maps each point of the outline onto a corner of the solid, for all outlines and
+// forms and for a scan far from the origin. It maps the lowest point onto the ground.
 TEST(Outlines, TheReportTellsWhereTheScanLies) {
   Cloud cloud = two_pieces();
   for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);

@@ -34,7 +34,7 @@ inline void write_all(const fs::path& path, std::span<const std::byte> bytes) {
   write_all(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-// The line of a listing that begins with `label`, without it and the spaces after it.
+// Returns the rest of the line of a listing that begins with `label` and spaces.
 inline std::string line_of(const std::string& listing, const std::string& label) {
   const std::size_t at = ("\n" + listing).find("\n" + label + " ");
   if (at == std::string::npos) return {};

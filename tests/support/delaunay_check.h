@@ -49,7 +49,8 @@ inline std::string fault_of_edges(std::span<const Vec2> points, const Triangulat
   return on_border.size() == it.hull.size() ? "" : "hull";
 }
 
-// A closed polygon that only turns left goes around once if its direction changes from downwards to upwards once.
+// Returns whether a closed polygon only turns left and goes around once: its direction then changes from
+// downwards to upwards only once.
 inline bool goes_round_once(std::span<const Vec2> points, const std::vector<Index>& hull) {
   const auto corner = [&](std::size_t k) -> const Vec2& { return points[hull[k % hull.size()]]; };
   const auto is_upwards = [&](std::size_t k) {
@@ -64,7 +65,7 @@ inline bool goes_round_once(std::span<const Vec2> points, const std::vector<Inde
   return turns == 1;
 }
 
-// Returns what is wrong in a triangulation with triangles, which may contain any numbers, or an empty string.
+// Returns the fault of a triangulation, or an empty string. The triangulation may contain any numbers.
 inline std::string delaunay_fault(std::span<const Vec2> points, const Triangulation& it) {
   if (!std::ranges::all_of(points, is_exact_point)) return "coordinates";
   if (it.triangles.empty() || it.neighbours.size() != it.triangles.size()) return "sizes";

@@ -152,7 +152,7 @@ inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_la
          z_bytes;
 }
 
-// Points as laz_chunk() needs them: every other step in x and y is 0.
+// Returns points as laz_chunk() needs them: every other step in x and y is 0.
 inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<LazTestPoint> points = {{-1000, 2000, 500}};

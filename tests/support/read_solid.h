@@ -53,7 +53,7 @@ struct ReadSolid {
   }
 };
 
-// Joins corners of equal coordinates.
+// Merges corners of equal coordinates.
 inline Solid solid_of(const ReadSolid& read) {
   Solid solid;
   std::map<std::array<float, 3>, Index> numbers;
