@@ -41,7 +41,7 @@ def run_with_fault(place, kind, chance, command, name):
 
 
 def end_by_signal(process, number, was_running):
-    """Ends a program by a signal: it must end at once without a message. Returns the same values as run_with_fault()."""
+    """Ends a program by a signal: it must end at once without a message. Returns the values of run_with_fault()."""
     process.send_signal(number)
     sent = time.monotonic()
     code, _, errors = finish(process)
