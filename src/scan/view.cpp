@@ -132,12 +132,6 @@ Cloud cropped(const Cloud& cloud, const View& view) {
   return part;
 }
 
-// Computes equation (1): R = R_y R_x.
-View view_from_euler(double theta_x, double theta_y) {
-  const Eigen::AngleAxisd rx(theta_x, Vec3::UnitX()), ry(theta_y, Vec3::UnitY());
-  return {(ry * rx).toRotationMatrix()};
-}
-
 Cloud in_view(const Cloud& cloud, const View& view) {
   const Vec3 centre = bounds(cloud).centre();
   const Eigen::Matrix3f rotation = view.R_view_model.cast<float>();

@@ -5,6 +5,7 @@
 #include <semaphore>
 #include <thread>
 
+#include "relievo/core/text.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
 #include "relievo/session.h"
@@ -199,7 +200,7 @@ TEST(Session, ManyThreadsMayTurn) {
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([&, t] {
       for (int i = 0; i < 8; ++i) {
-        View view = view_from_euler(.1 * i, .2 * t);
+        View view = *parse_view(cat(.1 * i, ",", .2 * t, ",1"));
         if (i == 3) session.open(preparation_of(2000 + static_cast<std::size_t>(t)));
         const auto made = session.turn(view);
         turned += made.has_value();

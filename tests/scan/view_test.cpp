@@ -67,14 +67,6 @@ TEST(View, TheBestSideIsChosenLaterAndTakesNoUp) {
   EXPECT_EQ(parse_view("auto", "0,0,1").error().input, "up");
 }
 
-TEST(View, EulerAnglesAreEquationOne) {
-  const double x = .3, y = -.8;
-  Mat3 Rx, Ry;
-  Rx << 1, 0, 0, 0, std::cos(x), -std::sin(x), 0, std::sin(x), std::cos(x);
-  Ry << std::cos(y), 0, std::sin(y), 0, 1, 0, -std::sin(y), 0, std::cos(y);
-  EXPECT_TRUE(view_from_euler(x, y).R_view_model.isApprox(Ry * Rx));
-}
-
 TEST(View, TurnsPointsAboutTheBoxCentreAndNormalsWithThem) {
   const Cloud cloud{{Vec3(1e6, 5, 0), Vec3(1e6 + 2, 5, 0)}, {Vec3f::UnitX(), Vec3f::UnitZ()}};
   const Cloud seen_cloud = in_view(cloud, *parse_view("right"));

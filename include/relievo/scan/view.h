@@ -61,10 +61,6 @@ Result<std::optional<double>> parse_denoise(std::string_view text);
 // Returns the points of a cloud that the view's crop shows, in their order.
 Cloud cropped(const Cloud& cloud, const View& view);
 
-// Returns the paper's equation (1): a rotation by theta_x about X, then by theta_y about Y, in radians. The
-// programs take a direction instead; this one is for comparisons with the paper.
-View view_from_euler(double theta_x, double theta_y);
-
 // Returns the cloud in view coordinates: R_view_model (p - c), where c is the centre of its box in the
 // model's frame.
 Cloud in_view(const Cloud& cloud, const View& view);
