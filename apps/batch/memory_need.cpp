@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "common/read_inputs.h"
-#include "relievo/io/scan_size.h"
+#include "relievo/io/read.h"
 
 namespace relievo::app::batch {
 namespace {

@@ -3,8 +3,8 @@
 #include "common/export_file.h"
 #include "common/files.h"
 #include "relievo/io/write.h"
+#include "relievo/picture/height_map.h"
 #include "relievo/picture/preview.h"
-#include "relievo/picture/reach_picture.h"
 #include "relievo/plate/draft_in_file.h"
 #include "relievo/relief/draft.h"
 

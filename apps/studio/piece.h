@@ -11,6 +11,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/progress.h"
 #include "relievo/make_relief.h"
+#include "relievo/picture/preview.h"
 
 namespace relievo::app::studio {
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/number.h"
+#include "relievo/core/choice.h"
 
 namespace relievo {
 
@@ -54,6 +55,18 @@ std::optional<Vec3> parse_triple(std::string_view text) {
   const auto numbers = parse_numbers(text);
   if (!numbers || numbers->size() != 3) return std::nullopt;
   return Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+}
+
+std::string either(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += cat(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
+  return text;
+}
+
+std::unexpected<Error> not_one_of(std::string_view option, const std::vector<std::string_view>& names,
+                                  std::string_view found) {
+  return option_error(std::string(option), cat("expected one of ", either(names), ", found '", found, "'"));
 }
 
 }  // namespace relievo

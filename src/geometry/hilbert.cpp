@@ -1,8 +1,13 @@
 #include "geometry/hilbert.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <tuple>
+
+#include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
@@ -56,6 +61,25 @@ bool sort_along_curve(std::span<const Vec2> points, Entries entries) {
   return true;
 }
 
+// Returns 16 bits of a coordinate in [0, 1], with a zero between any two of them.
+std::uint64_t spread(float coordinate) {
+  auto x = static_cast<std::uint64_t>(std::clamp(coordinate, 0.0F, 1.0F) * 65535);
+  x = (x | x << 8) & 0x00FF00FF;
+  x = (x | x << 4) & 0x0F0F0F0F;
+  x = (x | x << 2) & 0x33333333;
+  return (x | x << 1) & 0x55555555;
+}
+
+// Returns the 21 low bits of v with two zeros after each.
+std::uint64_t spread(std::uint64_t v) {
+  v = (v | v << 32) & 0x1F00000000FFFF;
+  v = (v | v << 16) & 0x1F0000FF0000FF;
+  v = (v | v << 8) & 0x100F00F00F00F00F;
+  v = (v | v << 4) & 0x10C30C30C30C30C3;
+  v = (v | v << 2) & 0x1249249249249249;
+  return v;
+}
+
 }  // namespace
 
 std::vector<Index> hilbert_order(std::span<const Vec2> points) {
@@ -80,6 +104,56 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
 
   std::vector<Index> order(points.size());
   std::transform(entries.begin(), entries.end(), order.begin(), number);
+  return order;
+}
+
+std::vector<Eigen::Vector2f> in_unit_square(std::span<const Vec2> points) {
+  Eigen::AlignedBox2d box;
+  for (const Vec2& p : points)
+    if (p.allFinite()) box.extend(p);
+  const double size = box.isEmpty() ? 0 : box.sizes().maxCoeff();
+  const double scale = size > 0 && std::isfinite(1 / size) ? 1 / size : 0;
+  std::vector<Eigen::Vector2f> result(points.size(), Eigen::Vector2f::Zero());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (points[i].allFinite() && scale > 0) result[i] = ((points[i] - box.min()) * scale).cast<float>();
+  return result;
+}
+
+std::vector<Index> plane_order(std::span<const Eigen::Vector2f> points) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keys.push_back((spread(points[i].x()) | spread(points[i].y()) << 1) << 32 | i);
+  std::sort(keys.begin(), keys.end());
+  std::vector<Index> order;
+  order.reserve(points.size());
+  for (const std::uint64_t key : keys) order.push_back(static_cast<Index>(key));
+  return order;
+}
+
+std::vector<Index> space_curve_order(std::span<const Vec3> points) {
+  const Box box = Box::of(points);
+  const double cells = (1 << 21) - 1;
+  const double scale = cells / std::max(box.size().maxCoeff(), 1e-300);
+  struct Key {
+    std::uint64_t code;
+    Index point;
+  };
+  std::vector<Key> keys(points.size());
+  parallel_for(points.size(), [&](std::size_t i) {
+    const Vec3 cell = scale * (points[i] - box.min);
+    std::uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) code |= spread(static_cast<std::uint64_t>(cell[axis])) << axis;
+    keys[i] = {code, static_cast<Index>(i)};
+  });
+  const auto coordinates = [&](Index i) {
+    return std::tuple(points[i].x(), points[i].y(), points[i].z(), i);
+  };
+  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    return a.code != b.code ? a.code < b.code : coordinates(a.point) < coordinates(b.point);
+  });
+  std::vector<Index> order(points.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.point; });
   return order;
 }
 

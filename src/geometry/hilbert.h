@@ -13,4 +13,17 @@ namespace relievo {
 // be finite.
 std::vector<Index> hilbert_order(std::span<const Vec2> points);
 
+// Returns the points moved and scaled into the unit square, so that single precision resolves them. Points
+// with a coordinate that is not finite become (0, 0).
+std::vector<Eigen::Vector2f> in_unit_square(std::span<const Vec2> points);
+
+// Returns the numbers of the points in Z-order on a grid of 65536 x 65536 cells over the unit square; points
+// in one cell are in the order of their numbers.
+std::vector<Index> plane_order(std::span<const Eigen::Vector2f> points);
+
+// Returns the numbers of the points in Z-order within their box; points in the same of its 2^63 cells are
+// ordered by their coordinates. The sequence of positions does not depend on the order in which the points
+// are given.
+std::vector<Index> space_curve_order(std::span<const Vec3> points);
+
 }  // namespace relievo

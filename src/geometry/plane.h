@@ -13,8 +13,23 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Returns the gradients of a triangle's three hat functions; each is 1 at its corner, 0 at the others and
-// linear in between. `twice_area` is that of the triangle, signed.
+struct Circle {
+  Vec2 centre;
+  double radius;
+};
+
+// Returns the circle through the corners of a triangle, which must have an area.
+inline Circle circle_through(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 p = b - a, q = c - a;
+  const double twice = 2 * cross(p, q);
+  const Vec2 to_centre = Vec2(q.y() * p.squaredNorm() - p.y() * q.squaredNorm(),
+                              p.x() * q.squaredNorm() - q.x() * p.squaredNorm()) /
+                         twice;
+  return {a + to_centre, to_centre.norm()};
+}
+
+// Returns the gradients of a triangle's three hat functions; each is 1 at its corner, 0 at the others and linear
+// in between. `twice_area` is that of the triangle, signed.
 inline std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& corners, double twice_area) {
   std::array<Vec2, 3> gradients;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,19 +1,109 @@
+#include <tiff.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "io/pictures.h"
 #include "io/text.h"
 #include "io/tiff_bytes.h"
-#include "io/tiff_samples.h"
 #include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
 
-constexpr std::uint32_t gdal_no_data = 42113;  // tag of the value for missing depths, as text
+enum class SampleKind { whole, signed_whole, fraction };
+
+struct SampleFormat {
+  SampleKind kind = SampleKind::whole;
+  unsigned bits = 1;
+};
+
+// A row as libtiff returns it, of which every `step`-th sample is read, from the sample `first` on.
+struct SampleRow {
+  const unsigned char* bytes = nullptr;
+  std::size_t first = 0, step = 1;
+};
+
+std::uint64_t little_endian(const unsigned char* first, unsigned bits) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, first, bits / 8);
+  return value;
+}
+
+std::uint64_t packed(const unsigned char* row, std::size_t first_bit, unsigned bits) {
+  std::uint64_t value = 0;
+  for (std::size_t bit = first_bit; bit < first_bit + bits; ++bit)
+    value = value << 1 | (row[bit / 8] >> (7 - bit % 8) & 1U);
+  return value;
+}
+
+// Converts IEEE 754's numbers of 16 bits.
+float half(std::uint64_t bits) {
+  const auto exponent = static_cast<int>(bits >> 10 & 31), fraction = static_cast<int>(bits & 1023);
+  const float sign = bits >> 15 & 1 ? -1.F : 1.F;
+  if (exponent == 31) return fraction ? std::nanf("") : sign * HUGE_VALF;
+  if (exponent == 0) return sign * std::ldexp(static_cast<float>(fraction), -24);
+  return sign * std::ldexp(static_cast<float>(1024 + fraction), exponent - 25);
+}
+
+float as_fraction(std::uint64_t bits, unsigned size) {
+  if (size == 16) return half(bits);
+  if (size == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+  return static_cast<float>(std::bit_cast<double>(bits));
+}
+
+float as_signed(std::uint64_t bits, unsigned size) {
+  const unsigned unused = 64 - size;
+  return static_cast<float>(static_cast<std::int64_t>(bits << unused) >> unused);
+}
+
+// Returns the format of the tags SampleFormat and BitsPerSample if it is read: whole numbers of 1 to 32 and
+// of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are taken as
+// whole numbers.
+std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits) {
+  const auto is_one_of = [&](auto... sizes) { return ((bits == sizes) || ...); };
+  if (sample_format == SAMPLEFORMAT_UINT || sample_format == SAMPLEFORMAT_VOID) {
+    if ((bits >= 1 && bits <= 32) || bits == 64) return SampleFormat{SampleKind::whole, bits};
+  } else if (sample_format == SAMPLEFORMAT_INT) {
+    if (is_one_of(8U, 16U, 32U, 64U)) return SampleFormat{SampleKind::signed_whole, bits};
+  } else if (sample_format == SAMPLEFORMAT_IEEEFP) {
+    if (is_one_of(16U, 32U, 64U)) return SampleFormat{SampleKind::fraction, bits};
+  }
+  return std::nullopt;
+}
+
+// Returns what a picture has instead, for messages: "4-bit whole numbers".
+std::string describe_samples(unsigned sample_format, unsigned bits) {
+  constexpr std::array names = {"numbers", "whole numbers", "signed numbers", "fractions",
+                                "undefined numbers"};
+  const std::size_t known = sample_format < names.size() ? sample_format : 0;
+  return std::to_string(bits) + "-bit " + (sample_format > 4 ? "complex numbers" : names[known]);
+}
+
+// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the
+// machine's byte order, which is little-endian, and all others packed, the most significant bit first.
+void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to) {
+  const unsigned bits = format.bits;
+  const bool is_packed = bits % 8 != 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t sample = row.first + i * row.step;
+    const std::uint64_t value = is_packed ? packed(row.bytes, sample * bits, bits)
+                                          : little_endian(row.bytes + sample * (bits / 8), bits);
+    if (format.kind == SampleKind::whole) to[i] = static_cast<float>(value);
+    if (format.kind == SampleKind::signed_whole) to[i] = as_signed(value, bits);
+    if (format.kind == SampleKind::fraction) to[i] = as_fraction(value, bits);
+  }
+}
+
+constexpr std::uint32_t gdal_no_data = 42113;  // the tag of the value that stands for none, as text
 
 struct Layout {
   std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;

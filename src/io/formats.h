@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/numbers.h"
 #include "io/readers.h"
-#include "io/records.h"
 
 namespace relievo::io {
 

@@ -1,11 +1,17 @@
-// Decodes columns of binary numbers to double.
+// Decodes columns of binary numbers to double, and points in rows of equal size, as in binary PLY, PCD and LAS, of
+// which any block can be decoded by itself.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <string>
 #include <tuple>
+
+#include "relievo/scan/cloud.h"
 
 namespace relievo::io {
 
@@ -37,5 +43,41 @@ template <typename T>
 T little(const char* from) {
   return number_at<T, std::endian::native == std::endian::big>(from);
 }
+
+struct RecordColumn {
+  NumberType type = NumberType::float32;
+  std::size_t at = 0;           // byte offset within a row
+  double scale = 1, shift = 0;  // the value is scale * number + shift
+};
+
+struct Records {
+  std::uint64_t offset = 0;  // of the first row in the file
+  std::uint64_t count = 0;   // of rows
+  std::size_t stride = 0;    // bytes from row to row
+  bool is_big_endian = false;
+  std::array<RecordColumn, 3> position;
+  std::optional<std::array<RecordColumn, 3>> normal, colour;  // colours scaled to [0, 255]
+};
+
+// The rows of a file that can be read piece by piece.
+struct StreamRecords {
+  Records records;
+  std::string format;              // for people
+  std::uint64_t faces = 0;         // of a mesh over the points, which is not read so
+  bool may_end_early = false;      // the rows that are there are read, if the file has fewer than it promises
+  std::uint64_t missing_rows = 0;  // promised, beyond the end of the file
+};
+
+// Returns a cloud of `points` points, with normals and colours if the records have them; all values are
+// unset.
+Cloud sized_cloud(const Records& records, std::size_t points);
+
+// Decodes `rows` rows from `first` on into the cloud from point `begin` on. Normals are as unit_normal()
+// returns them.
+void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
+                 std::size_t begin);
+
+// Decodes all rows, concurrently, from `first` on.
+Cloud decode_all(const Records& records, const char* first);
 
 }  // namespace relievo::io

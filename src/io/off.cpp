@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/faces.h"
 #include "io/formats.h"
+#include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

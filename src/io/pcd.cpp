@@ -1,18 +1,34 @@
-// Reads PCD 0.7 and earlier versions: ascii, binary, and binary_compressed (LZF, one field after the other).
-#include "io/pcd.h"
-
+// PCD 0.7 and its forerunners: ascii, binary, and binary_compressed (LZF, one field after the other).
 #include <lzf.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <vector>
 
 #include "io/formats.h"
+#include "io/numbers.h"
+#include "io/readers.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
+
+// The header of a PCD file, which states where the numbers of a point are.
+enum class PcdData { ascii, binary, compressed };
+
+struct PcdHeader {
+  PcdData data = PcdData::ascii;
+  Records records;                       // of the points; `count` also for ascii ones
+  std::vector<std::size_t> field_sizes;  // bytes of each field of a point
+  std::size_t lines = 0;                 // of the header
+  // The indices of the words of an ascii row, and their number.
+  std::size_t columns = 0;
+  std::array<std::size_t, 3> position_columns = {}, normal_columns = {};
+  std::size_t colour_column = 0;
+  bool is_colour_float = false;  // the colour is in its bits, not in its value
+};
 
 struct Field {
   std::string_view name;
@@ -291,19 +307,15 @@ bool is_pcd(const Source& source) {
   return text.starts_with("# .PCD") || text.starts_with("VERSION 0.7") || text.starts_with("VERSION .7");
 }
 
-Result<PcdHeader> read_pcd_header(const Source& source) {
-  return PcdHeaderReader(source).read();
-}
-
 Result<StreamRecords> find_pcd_rows(const Source& head) {
-  RELIEVO_TRY(const auto header, read_pcd_header(head));
+  RELIEVO_TRY(const auto header, PcdHeaderReader(head).read());
   if (header.data != PcdData::binary)
     return head.error({}, "expected binary points, to be read piece by piece");
   return StreamRecords{header.records, "PCD binary"};
 }
 
 Result<RawCloud> read_pcd(const Source& source) {
-  RELIEVO_TRY(const auto header, read_pcd_header(source));
+  RELIEVO_TRY(const auto header, PcdHeaderReader(source).read());
   constexpr std::array readers = {read_ascii, read_binary, read_compressed};
   constexpr std::array<std::string_view, 3> names = {"PCD ascii", "PCD binary", "PCD binary compressed"};
   const auto kind = static_cast<std::size_t>(header.data);

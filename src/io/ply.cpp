@@ -80,14 +80,6 @@ bool is_ply(const Source& source) {
          std::string_view(" \t\r\n").find(text[magic.size()]) != std::string_view::npos;
 }
 
-Cloud sized_cloud(std::size_t points, const VertexColumns& columns) {
-  Cloud cloud;
-  cloud.points.resize(points);
-  if (columns.has_normals()) cloud.normals.resize(points);
-  if (columns.has_colours()) cloud.colours.resize(points);
-  return cloud;
-}
-
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& wanted) {
   Records records;
   records.count = vertex.count;

@@ -1,19 +1,56 @@
-// The body of a PLY file: the rows of the vertices and the faces, ascii or binary.
+// A PLY file: its header, and its body, the rows of the vertices and the faces, ascii or binary.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "io/faces.h"
-#include "io/ply_header.h"
-#include "io/records.h"
+#include "io/numbers.h"
+#include "io/polygon.h"
+#include "io/readers.h"
 #include "relievo/core/text.h"
 
 namespace relievo::io {
+
+// The header of a PLY file, which states the elements that follow and the layout of their rows.
+struct PlyProperty {
+  std::string_view name;
+  NumberType type;                       // of the value, or of each value of the list
+  std::optional<NumberType> count_type;  // an integer type, for lists only
+
+  bool is_list() const { return count_type.has_value(); }
+};
+
+struct PlyElement {
+  std::string_view name;
+  std::uint64_t count = 0;  // as stated in the header, which may be wrong
+  std::vector<PlyProperty> properties;
+  std::size_t line = 0;  // of its declaration
+};
+
+// Returns the smallest size of a binary row in bytes, with all lists empty.
+std::size_t least_row_size(const PlyElement& element);
+
+// Returns true if any property is a list, so that the rows' sizes differ.
+bool has_lists(const PlyElement& element);
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+// Views point into the source.
+struct PlyHeader {
+  PlyFormat format = PlyFormat::ascii;
+  std::vector<PlyElement> elements;
+  std::size_t data_offset = 0;  // byte after the header
+  std::size_t lines = 0;        // of the header
+};
+
+// Returns the header. Errors name the line.
+Result<PlyHeader> read_ply_header(const Source& source);
 
 // The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
 // exist.
@@ -49,9 +86,6 @@ Result<PlyContent> read_binary_body(const PlyBody& body);
 // Returns the rows of vertices without lists as records; their offset is left 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
-// Returns a cloud of that many points, with normals and colours if `columns` has them.
-Cloud sized_cloud(std::size_t points, const VertexColumns& columns);
-
 // Returns the factor that scales colours of that type to [0, 255].
 double colour_scale(NumberType type);
 
@@ -62,38 +96,5 @@ struct FaceList {
 };
 // Returns the list property of an element; nothing if it has none.
 std::optional<FaceList> find_face_list(const PlyElement& element);
-
-template <typename Rows>
-Result<void> read_faces(const PlyElement& element, const FaceList& list, Rows& rows, PlyContent& content) {
-  RELIEVO_CHECK(rows.begin(element));
-  std::vector<std::int64_t> corners;
-  for (std::uint64_t row = 0; row < element.count; ++row) {
-    corners.clear();
-    RELIEVO_CHECK(rows.read_face(element, list, corners));
-    if (!add_face(corners, list.kind, content.cloud.points, content.triangles))
-      return rows.fail(cat(expected_corners(corners, content.cloud.points), " in row ", row, " of element ",
-                           printable(element.name)));
-  }
-  return {};
-}
-
-// Reads a body through `rows`, ascii or binary. Faces that precede the vertices are read after them.
-template <typename Rows>
-Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
-  std::vector<std::pair<const PlyElement*, Rows>> early_faces;
-  for (const PlyElement& element : body.before) {
-    if (find_face_list(element)) early_faces.emplace_back(&element, rows);
-    RELIEVO_CHECK(rows.skip(element));
-  }
-  PlyContent content;
-  RELIEVO_CHECK(read_vertices(body, rows, content.cloud));
-  for (auto& [element, at] : early_faces)
-    RELIEVO_CHECK(read_faces(*element, *find_face_list(*element), at, content));
-  for (const PlyElement& element : body.after) {
-    const auto list = find_face_list(element);
-    RELIEVO_CHECK(list ? read_faces(element, *list, rows, content) : rows.skip(element));
-  }
-  return content;
-}
 
 }  // namespace relievo::io

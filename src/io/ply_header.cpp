@@ -1,4 +1,4 @@
-#include "io/ply_header.h"
+#include "io/ply.h"
 
 #include <algorithm>
 #include <array>

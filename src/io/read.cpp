@@ -1,6 +1,11 @@
 #include "relievo/io/read.h"
-#include "core/keep_where.h"
+
+#include <algorithm>
+
+#include "core/lists.h"
 #include "io/formats.h"
+#include "io/pictures.h"
+#include "io/ply.h"
 #include "io/text.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -70,6 +75,48 @@ void drop_unusable(CloudFile& file) {
   keep_where(cloud.colours, is_kept);
 }
 
+constexpr std::uint64_t stl_header_bytes = 84, stl_triangle_bytes = 50;
+
+std::uint64_t big_endian_32(std::string_view bytes, std::size_t at) {
+  std::uint64_t value = 0;
+  for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+// A text of three coordinates has at least 6 bytes per point, usually 20 to 30; an OBJ with two triangles per
+// vertex has about 60 bytes per vertex, a glTF 36. 20 bytes per point overestimate rather than underestimate.
+ScanSize estimate(const io::Source& head, std::uint64_t file_bytes) {
+  constexpr std::uint64_t bytes_per_point = 20;
+  ScanSize size{file_bytes / bytes_per_point, 0, 0};
+  for (const io::Format& format : io::formats) {
+    if (!format.is_format(head)) continue;
+    if (format.content != io::Content::points) size.triangles = 2 * size.points;
+    break;
+  }
+  return size;
+}
+
+ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
+  ScanSize size{0, 0, 0, true};
+  for (const io::PlyElement& element : header.elements) {
+    const bool is_text = header.format == io::PlyFormat::ascii;
+    const std::uint64_t row_bytes =
+        std::max<std::uint64_t>(1, is_text ? 2 * element.properties.size() : least_row_size(element));
+    const std::uint64_t rows = std::min(element.count, file_bytes / row_bytes);
+    if (element.name == "vertex") size.points += rows;
+    if (element.name == "face") size.triangles += rows;
+  }
+  return size;
+}
+
+// Returns the pixels of a PNG, whose first chunk states them. TIFF may state them anywhere in the file: there
+// is at least one byte for each pixel, unless they are compressed to less.
+ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
+  if (!io::is_png(head) || head.bytes.size() < 24) return {0, 0, file_bytes};
+  const std::uint64_t pixels = big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);
+  return {0, 0, std::min({pixels, file_bytes * io::best_packing, std::uint64_t{io::most_pixels}}), true};
+}
+
 }  // namespace
 
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
@@ -89,6 +136,28 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
                                 : cat("expected points, found none with finite coordinates among ", points));
   }
   return file;
+}
+
+ScanSize scan_size(std::span<const std::byte> head, std::string_view name, std::uint64_t file_bytes) {
+  const io::Source source{{reinterpret_cast<const char*>(head.data()), head.size()}, name};
+  if (is_picture(head)) return picture_size(source, file_bytes);
+  if (io::is_ply(source)) {
+    if (const auto header = io::read_ply_header(source)) return ply_size(*header, file_bytes);
+    return estimate(source, file_bytes);
+  }
+  for (const io::Format& format : io::formats) {
+    if (!format.find_rows || !format.is_format(source)) continue;
+    const auto found = format.find_rows(source);
+    if (!found) break;
+    const std::uint64_t room = file_bytes / std::max<std::size_t>(1, found->records.stride);
+    return {std::min(found->records.count, room), 0, 0, true};
+  }
+  const bool is_binary_stl = io::is_stl(source) && io::has_control_bytes(source.bytes);
+  if (is_binary_stl && file_bytes > stl_header_bytes) {
+    const std::uint64_t triangles = (file_bytes - stl_header_bytes) / stl_triangle_bytes;
+    return {triangles / 2, triangles, 0, true};
+  }
+  return estimate(source, file_bytes);
 }
 
 }  // namespace relievo

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "geometry/weld.h"
-#include "io/faces.h"
 #include "io/formats.h"
 #include "io/numbers.h"
+#include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

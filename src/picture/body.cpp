@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/compact.h"
+#include "geometry/weld.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/mesh.h"
 

@@ -3,18 +3,90 @@
 #include <algorithm>
 #include <cmath>
 
-#include "picture/drop_shadow.h"
-#include "picture/light_map.h"
+#include "geometry/image_filters.h"
 #include "picture/reach_tint.h"
 #include "picture/shading.h"
+#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
+#include "relievo/core/types.h"
 #include "relievo/picture/render.h"
 
 namespace relievo {
 namespace {
 
-// Samples per pixel of fine pictures, in each direction: with 3 x 3 samples, steps along slanting edges are
-// no longer visible.
+// The soft shadow of a body on what lies behind it.
+
+// Soft shadows need few pixels: a coarser grid's longer side has at most so many.
+constexpr int most_cells = 160;
+
+// Opacity of the full shadow: as grey as a table under a lamp and a bright room.
+constexpr float shadow_opacity = .4F;
+
+// Radius of the shadow's edge and how far it falls beside the body, in cells: a body as thick as a plate.
+constexpr int softness = 2;
+constexpr float farthest = 2;
+
+class DropShadow {
+ public:
+  DropShadow(const Image8& picture, const Vec3f& to_lamp) {
+    while (std::max(picture.width, picture.height) >> shift_ > most_cells) ++shift_;
+    away_ = -farthest * Vec2f(to_lamp.x(), -to_lamp.y());
+    const int step = 1 << shift_;
+    shade_ = filled_image((picture.width >> shift_) + 2, (picture.height >> shift_) + 2, 0.F);
+    for (int y = 0; y * step < picture.height; ++y)
+      for (int x = 0; x * step < picture.width; ++x)
+        shade_.at(x, y) = static_cast<float>(picture.pixels[picture.index(x * step, y * step) + 3]) / 255;
+    for (float& shade : shade_.pixels) shade *= shadow_opacity;
+    blur(shade_, softness);
+  }
+
+  // Opacity of the shadow at a pixel, between cells interpolated.
+  float at(int x, int y) const {
+    const float share = 1 / static_cast<float>(1 << shift_);
+    const float u = clamped(static_cast<float>(x) * share - away_.x(), shade_.width),
+                v = clamped(static_cast<float>(y) * share - away_.y(), shade_.height);
+    const int column = static_cast<int>(u), row = static_cast<int>(v);
+    const float s = u - static_cast<float>(column), t = v - static_cast<float>(row);
+    const auto between = [&](int r) {
+      const float left = shade_.at(column, r);
+      return left + s * (shade_.at(column + 1, r) - left);
+    };
+    return between(row) + t * (between(row + 1) - between(row));
+  }
+
+ private:
+  static float clamped(float cell, int cells) {
+    return std::clamp(cell, 0.F, static_cast<float>(cells) - 1.001F);
+  }
+
+  int shift_ = 0;
+  Vec2f away_;  // in cells
+  Image<float> shade_;
+};
+
+// Lays a pixel over black of that opacity.
+void lay_over(std::uint8_t* rgba, float shade) {
+  const float coverage = static_cast<float>(rgba[3]) / 255, opacity = coverage + (1 - coverage) * shade;
+  if (opacity <= 0) return;
+  for (int i = 0; i < 3; ++i)
+    rgba[i] = static_cast<std::uint8_t>(static_cast<float>(rgba[i]) * (coverage / opacity) + .5F);
+  rgba[3] = static_cast<std::uint8_t>(opacity * 255 + .5F);
+}
+
+// Adds the shadow of the opaque pixels to the others of a picture with 4 channels, as black of some opacity.
+// `to_lamp` is the direction towards the lamp in the picture, y upwards, with length 1.
+void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
+  const DropShadow shadow(picture, to_lamp);
+  const auto add_to_row = [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    std::uint8_t* rgba = &picture.at(0, y);
+    for (int x = 0; x < picture.width; ++x, rgba += 4)
+      if (rgba[3] < 255) lay_over(rgba, shadow.at(x, y));
+  };
+  parallel_for(static_cast<std::size_t>(picture.height), add_to_row, 8);
+}
+
+// Samples per pixel of fine pictures, in both directions: with 3 x 3 of them steps along slanting edges are not seen any more.
 constexpr int fine_samples = 3;
 constexpr int most_samples = fine_samples * fine_samples;
 

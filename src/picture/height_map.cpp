@@ -1,9 +1,84 @@
 #include <algorithm>
+#include <cmath>
 
 #include "plate/height_field.h"
+#include "relievo/core/image.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/types.h"
 #include "relievo/picture/height_map.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
+namespace {
+
+constexpr float background = 236, darkest = 40, brightest = 225;
+const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // of little and of much that is left
+
+// One pixel's share of the samples: a square of them, averaged.
+struct Averaged {
+  Vec3f colour = Vec3f::Zero();
+  int samples = 0;
+};
+
+// Light from the upper left on a surface of these slopes, in sample steps to the right and down.
+float grey(float right, float down) {
+  const Vec3f lamp = Vec3f(-1, 1, 1.2F).normalized();
+  const float facing = Vec3f(-right, down, 1).normalized().dot(lamp);
+  return darkest + (brightest - darkest) * std::clamp(.15F + .85F * facing, 0.F, 1.F);
+}
+
+class ReachPainter {
+ public:
+  explicit ReachPainter(const ToolReach& reach) : reach_(reach) {}
+
+  Vec3f colour(int x, int y) const {
+    const float z = height(x, y);
+    if (z != z) return Vec3f::Constant(background);
+    const auto step = static_cast<float>(2 * reach_.mm_per_sample);
+    const auto slope = [&](float a, float b) { return a == a && b == b ? (b - a) / step : 0; };
+    const float light =
+        grey(slope(height(x - 1, y), height(x + 1, y)), slope(height(x, y - 1), height(x, y + 1)));
+    const float left = reach_.residual_mm.at(x, y);
+    if (static_cast<double>(left) <= reach_.tolerance_mm) return Vec3f::Constant(light);
+    const float share = left / static_cast<float>(reach_.largest_residual_mm);
+    return (.35F + .65F * light / brightest) * (mild + std::sqrt(share) * (strong - mild));
+  }
+
+ private:
+  float height(int x, int y) const {
+    const Image<float>& heights = reach_.heights_mm;
+    return heights.at(std::clamp(x, 0, heights.width - 1), std::clamp(y, 0, heights.height - 1));
+  }
+
+  const ToolReach& reach_;
+};
+
+}  // namespace
+
+Image8 render_reach(const ToolReach& reach, int longer_side_px) {
+  const int width = reach.heights_mm.width, height = reach.heights_mm.height;
+  if (width < 1 || height < 1 || longer_side_px < 1) return {};
+  const int side = std::max(1, (std::max(width, height) + longer_side_px - 1) / longer_side_px);
+  Image8 image = filled_image((width + side - 1) / side, (height + side - 1) / side, std::uint8_t{0}, 3);
+  const ReachPainter painter(reach);
+  parallel_for(
+      static_cast<std::size_t>(image.height),
+      [&](std::size_t row) {
+        std::uint8_t* pixel = &image.at(0, static_cast<int>(row));
+        for (int column = 0; column < image.width; ++column) {
+          Averaged sum;
+          const int top = static_cast<int>(row) * side, left = column * side;
+          for (int y = top; y < std::min(top + side, height); ++y)
+            for (int x = left; x < std::min(left + side, width); ++x, ++sum.samples)
+              sum.colour += painter.colour(x, y);
+          for (const float value : sum.colour)
+            *pixel++ =
+                static_cast<std::uint8_t>(std::clamp(value / static_cast<float>(sum.samples), 0.F, 255.F));
+        }
+      },
+      8);
+  return image;
+}
 
 HeightMap make_height_map(const Solid& solid, int longer_side_px) {
   const HeightField field = measure_height_field(solid, longer_side_px);

@@ -1,9 +1,9 @@
-#include "picture/light_map.h"
+#include "picture/shading.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/blur.h"
+#include "geometry/image_filters.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {

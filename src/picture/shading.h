@@ -1,16 +1,37 @@
-// Converts light to colour: the lamp, the sky and the materials of all pictures.
+// From light to colour: the lamp, the sky, shadows that the relief casts on itself, and the materials of all pictures.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "picture/light_map.h"
+#include "plate/height_field.h"
 #include "relievo/picture/material.h"
 
 namespace relievo {
 
-// A point of a body with the light on it.
+// Light that arrives at a place: from the lamp, and from the sky around it.
+struct Light {
+  float lamp = 0, sky = 0;
+};
+
+// Shares in [0, 1] over the front's plane; 1 is unhindered. They belong to the place, not to the viewer, so
+// that all views of a plate show the same light.
+class LightMap {
+ public:
+  // `to_lamp` has length 1. A field without pixels gives a map of ones.
+  LightMap(const HeightField& field, const Vec3f& to_lamp);
+
+  // At a point of the front, between pixels interpolated.
+  Light at(const Vec3f& point) const;
+
+ private:
+  Image<Light> light_;
+  Vec2f origin_ = Vec2f::Zero();  // pixel of the place (0, 0)
+  float pixels_per_mm_ = 1;
+};
+
+// A place of a body, lit.
 struct Lit {
   Vec3f normal;
   Light light;                        // shares of light that reach the point

@@ -1,4 +1,4 @@
-#include "picture/visibility.h"
+#include "picture/draw_body.h"
 
 #include "relievo/core/parallel.h"
 

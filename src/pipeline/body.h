@@ -1,9 +1,11 @@
-// Makes the plate and the body that the options of a relief describe.
+// The front, the plate and the body that the options of a relief ask for.
 #pragma once
 
+#include "relievo/core/progress.h"
 #include "relievo/options.h"
 #include "relievo/plate/simplify.h"
 #include "relievo/plate/solid.h"
+#include "relievo/relief/relief.h"
 
 namespace relievo {
 
@@ -42,5 +44,36 @@ struct Body {
 // Returns the body with that front; `relief_mm` is the relief's height. Errors: kind option for a rim that
 // does not lean as the draft asks; those of make_plate(), enforce_draft_in_float() and wrap_plate().
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options);
+
+struct FormedFront {
+  HeightFieldMesh front;
+  double height_mm = 0;                // lowest to highest point
+  double simplification_error_mm = 0;  // largest difference to the front with all samples
+  std::size_t full_triangles = 0;      // of that
+};
+
+// Returns the points at these heights, in millimetres, on the surface's triangles.
+HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
+
+// Returns the front with all its samples in the form that the options ask for. Errors: `cancelled`.
+Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                               const Progress* progress);
+
+// Returns the front as simple as the options ask for, unless make_plate() is to simplify; of outline `none` what of it is
+// relief. Errors: those of simplify().
+Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress);
+
+// Returns how far the lowest point of the front lies below the ground: 0 or more.
+double depth_below_ground(const HeightFieldMesh& front);
+
+// The solid of a front, with no more triangles than are asked for.
+struct FormedBody {
+  FormedFront formed;
+  Body body;
+};
+
+// Returns the body with that front, which is simplified as the options ask. Errors: those of simplified_front() and
+// make_body(); kind option for fewer triangles than the solid needs for its outline and its walls.
+Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 }  // namespace relievo

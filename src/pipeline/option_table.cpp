@@ -10,13 +10,7 @@ namespace {
 
 using enum OptionStage;
 
-std::vector<std::string_view> all_method_names() {
-  std::vector<std::string_view> names;
-  for (const MethodInfo& info : methods) names.push_back(info.name);
-  return names;
-}
-
-// These wrappers have the text as their only argument.
+// These functions take a second argument besides the text.
 Result<Method> method_of(std::string_view text) {
   return parse_method(text);
 }
@@ -70,7 +64,7 @@ std::vector<OptionRow> shape_rows() {
        .help = "the paper's gamma, the strength of detail; with method layered, how much coarse shapes are attenuated",
        .is_stated = true,
        .access = number<&ReliefOptions::detail, &ReliefOptions::effective_detail>},
-      {.name = "method", .unit = "NAME", .stage = shape, .choices = all_method_names(),
+      {.name = "method", .unit = "NAME", .stage = shape, .choices = names_of(methods),
        .help = "method that compresses the depths", .otherwise = "paper with an alpha, else layered",
        .in_studio = "layered", .is_stated = true, .access = text<&ReliefOptions::method, method_of>},
   };

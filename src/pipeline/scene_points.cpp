@@ -6,9 +6,9 @@
 #include "relievo/core/text.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
+#include "scan/coarse_visibility.h"
 #include "scan/front_mesh.h"
-#include "scan/merging/subsample.h"
-#include "scan/orient_normals.h"
+#include "scan/merging/repeated_points.h"
 
 namespace relievo {
 namespace {

@@ -1,16 +1,27 @@
 #include "relievo/plate/base.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/angle.h"
-#include "plate/base_image.h"
 #include "plate/shape_text.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
 namespace {
+
+using Weights = std::array<double, 4>;
+
+// Returns the cubic B-spline's weights of the four values around a place that lies `t` of the way between the
+// two in the middle.
+Weights weights_at(double t) {
+  const double s = 1 - t;
+  return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
+          t * t * t / 6};
+}
 
 constexpr double steepest = 5.671;  // tan 80 degrees: the relief on a steeper base would face sideways
 constexpr double least_mm = 1e-3, most_mm = 1e6;
@@ -42,7 +53,71 @@ Vec2 across(double direction_deg) {
   return {std::cos(to_radians(turn)), std::sin(to_radians(turn))};
 }
 
+std::vector<ShapeNumber> numbers_of(BaseOptions& base, std::optional<double>& direction) {
+  const ShapeNumber height{"height", &base.height_mm}, along{"direction", &direction, ShapeUnit::degrees};
+  switch (base.kind) {
+    case BaseKind::plane:
+      return {};
+    case BaseKind::fold:
+      return {height, {"angle", &base.angle_deg, ShapeUnit::degrees}, along};
+    case BaseKind::wave:
+      return {height, {"length", &base.length_mm}, along};
+    case BaseKind::cylinder:
+      return {height, {"diameter", &base.diameter_mm}, along};
+    case BaseKind::dome:
+      return {height, {"diameter", &base.diameter_mm}};
+    case BaseKind::image:
+      return {height};
+  }
+  return {};
+}
+
 }  // namespace
+
+// The cubic B-spline whose control points are the map's values: it is smooth, stays between the values around
+// a place, and so levels the steps that rounding left. Beyond the border the outermost values continue.
+class Base::ImageSurface {
+ public:
+  // Centres the map on a plate of that size and scales it until it covers the plate; its highest value lies
+  // `height_mm` above its lowest.
+  ImageSurface(std::shared_ptr<const Image<float>> grid, const Vec2& plate_mm, double height_mm)
+      : grid_(std::move(grid)) {
+    pixel_mm_ = std::max(plate_mm.x() / grid_->width, plate_mm.y() / grid_->height);
+    const auto [lowest, highest] = std::ranges::minmax(grid_->pixels);
+    const double span = static_cast<double>(highest) - static_cast<double>(lowest);
+    mm_per_value_ = span > 0 ? height_mm / span : 0;
+    middle_ = value(Vec2::Zero());
+  }
+
+  double pixel_mm() const { return pixel_mm_; }
+  double height(const Vec2& from_middle) const { return mm_per_value_ * (value(from_middle) - middle_); }
+
+ private:
+  // Returns the spline at a place, in the map's unit.
+  double value(const Vec2& from_middle) const {
+    const double x = from_middle.x() / pixel_mm_ + (grid_->width - 1) / 2.0,
+                 y = (grid_->height - 1) / 2.0 - from_middle.y() / pixel_mm_;
+    const int column = static_cast<int>(std::floor(std::clamp(x, -2.0, grid_->width + 2.0))),
+              row = static_cast<int>(std::floor(std::clamp(y, -2.0, grid_->height + 2.0)));
+    const Weights across = weights_at(std::clamp(x - column, 0.0, 1.0)),
+                  down = weights_at(std::clamp(y - row, 0.0, 1.0));
+    double total = 0;
+    for (int j = 0; j < 4; ++j) {
+      const int r = std::clamp(row + j - 1, 0, grid_->height - 1);
+      double line = 0;
+      for (int i = 0; i < 4; ++i) {
+        const int c = std::clamp(column + i - 1, 0, grid_->width - 1);
+        line += across[i] * static_cast<double>(grid_->at(c, r));
+      }
+      total += down[j] * line;
+    }
+    return total;
+  }
+
+  std::shared_ptr<const Image<float>> grid_;
+  double pixel_mm_ = 1, mm_per_value_ = 0;
+  double middle_ = 0;  // the value in the plate's middle
+};
 
 Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outline) {
   RELIEVO_CHECK(check_numbers(options));
@@ -177,6 +252,18 @@ std::optional<double> Base::ridge_between(const Vec2& a, const Vec2& b) const {
   const bool is_crossed = (s < 0 && t > 0) || (s > 0 && t < 0);
   if (!is_crossed) return std::nullopt;
   return s / (s - t);
+}
+
+Result<BaseOptions> parse_base(std::string_view text) {
+  RELIEVO_TRY(const BaseKind kind, parse_choice("base", shape_kind(text), base_choices));
+  BaseOptions base;
+  base.kind = kind;
+  std::optional<double> direction;
+  std::vector<ShapeWord> words;
+  if (base.kind != BaseKind::plane) words.push_back({"hollow", &base.is_hollow});
+  RELIEVO_CHECK(read_shape(text, "base", numbers_of(base, direction), words));
+  base.direction_deg = direction.value_or(base.direction_deg);
+  return base;
 }
 
 }  // namespace relievo

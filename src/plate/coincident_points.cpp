@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/compact.h"
+#include "geometry/weld.h"
 
 namespace relievo {
 namespace {

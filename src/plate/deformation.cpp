@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "plate/plate_ground.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {

@@ -5,11 +5,14 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <vector>
 
-#include "plate/plate_rings.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {
+
+// A convex polygon of the solid's points, counter-clockwise seen from +Z.
+using IndexPolygon = std::vector<Index>;
 
 // A map of the points of a flat body to those of a curved one. All functions may be called concurrently.
 struct Deformation {

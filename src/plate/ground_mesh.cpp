@@ -1,13 +1,13 @@
-#include "plate/ground_mesh.h"
+#include "plate/plate_ground.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "geometry/compact.h"
 #include "geometry/convex_polygon.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
+#include "geometry/weld.h"
 #include "plate/front/silhouette.h"
 #include "relievo/geometry/triangulation.h"
 
@@ -85,20 +85,6 @@ class StaggeredLattice {
   Image8 is_free_;
 };
 
-struct Circle {
-  Vec2 centre;
-  double radius;
-};
-
-Circle circle_around(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 p = b - a, q = c - a;
-  const double twice = 2 * cross(p, q);
-  const Vec2 to_centre = Vec2(q.y() * p.squaredNorm() - p.y() * q.squaredNorm(),
-                              p.x() * q.squaredNorm() - q.x() * p.squaredNorm()) /
-                         twice;
-  return {a + to_centre, to_centre.norm()};
-}
-
 std::vector<Triangle> relief_of(const Solid& front) {
   std::vector<Triangle> relief;
   for (std::size_t t = 0; t < front.triangles.size(); ++t)
@@ -141,7 +127,7 @@ bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& t
   each_edge(triangles, [&](std::span<const TriangleSide> sides) {
     if (sides.size() < 2) return;
     const auto [least, most] = std::ranges::minmax(sides, {}, &TriangleSide::apex);
-    const Circle circle = circle_around(at(least.low()), at(least.high()), at(least.apex));
+    const Circle circle = circle_through(at(least.low()), at(least.high()), at(least.apex));
     is_delaunay &= !((at(most.apex) - circle.centre).norm() < (1 - 1e-6) * circle.radius);
   });
   return is_delaunay;
@@ -224,7 +210,7 @@ IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<
   StaggeredLattice lattice(ground, spacing);
   for (const auto& [a, b, c] : relief) {
     const Circle circle =
-        circle_around(front.points[a].head<2>(), front.points[b].head<2>(), front.points[c].head<2>());
+        circle_through(front.points[a].head<2>(), front.points[b].head<2>(), front.points[c].head<2>());
     if (std::isfinite(circle.radius)) lattice.clear(circle.centre, circle.radius);
   }
   const std::vector<Vec2> inner = lattice.points_within(ground);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/compact.h"
 #include "geometry/raster.h"
+#include "geometry/weld.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {

@@ -2,9 +2,14 @@
 // tests/plate/height_field_test.cpp.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "relievo/core/image.h"
 #include "relievo/core/types.h"
 #include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
@@ -38,5 +43,23 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px);
 // draw_height_field() rounds corners to 1/256 pixel, which can change a height at a wall by as much as the
 // wall is high. The field has no pixels in the same cases as flat_height_field(); `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, int longer_side_px);
+
+// Returns the number of samples along the longer side: a twelfth of the tool's radius apart, in [2048, 4096].
+inline int samples_for(const Tool& tool, double longer_mm) {
+  constexpr int least_samples = 2048, most_samples = 4096;
+  constexpr double samples_per_radius = 12;
+  const double radius = (tool.kind == Tool::Kind::v ? tool.tip_mm : tool.diameter_mm) / 2;
+  if (!(radius > 0)) return least_samples;
+  const double wanted = longer_mm / radius * samples_per_radius;
+  return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
+}
+
+// Returns the heights of a solid's front, whose box is given; NaN beside it, where nothing hinders the tool.
+inline HeightField front_samples(const Solid& solid, const Box& box, const Tool& tool) {
+  HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
+  for (std::size_t i = 0; i < field.z.pixels.size(); ++i)
+    if (field.is_beside.pixels[i] != 0) field.z.pixels[i] = std::numeric_limits<float>::quiet_NaN();
+  return field;
+}
 
 }  // namespace relievo

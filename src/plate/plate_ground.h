@@ -1,14 +1,52 @@
-// The ground of a plate: from the front's hull out to the outline, with its rim.
-// Tested by plate_rim_test and outline_test.
+// The ground around a relief: rings between convex polygons, and flat ground in even triangles, fine enough to follow a
+// deformation. Tested by solid_test and plate_base_test.
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "plate/plate_rings.h"
+#include "plate/deformation.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {
+
+// Returns the spacing in mm of points at height z within the convex polygon at which their triangles,
+// deformed, are about within the tolerance. It makes at most about 200,000 points, and is at most a quarter
+// of the diagonal of the polygon's box.
+double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
+                      double tolerance_mm);
+
+// Returns the convex polygon with points between its corners, at most `spacing` apart. They are moved
+// outwards by up to 0.00001 mm, see convexity_offset(), so that all are corners.
+std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing);
+
+// Fills the convex polygon with flat triangles that face down, through points `spacing` apart.
+void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing);
+
+// Adds the corners of the convex polygon `rim_inner` to the placed front, and points between it and the
+// relief, `spacing` apart, at the height of the ground, and triangulates all within the polygon. The relief's
+// triangles stay unless points on one circle leave a choice that does not fit; the rest becomes ground.
+// `front` is the same front before it was placed. Returns the polygon's points; none, with nothing changed,
+// if the relief's triangles are not a Delaunay triangulation.
+IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_inner,
+                         double spacing);
+
+// Adds the polygon's corners to the solid's points at height z; returns them.
+IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double z);
+
+// Fills the ring between two convex polygons, the inner one strictly inside the outer, with triangles that
+// cover it once. Each has an area, even where corners are collinear or edges are parallel.
+void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer);
+
+// Returns how far to move a point that lies `share` of the way along a polygon's side outwards so that it
+// becomes a corner: sides become arcs of one circle, 0.00001 mm off their middle where they are 100 mm long.
+// Collinear corners would leave triangles without an area, and to a Delaunay triangulation a choice of the
+// hull.
+inline Vec2 convexity_offset(const Vec2& side, double share) {
+  const double curvature = 8e-9;  // per mm
+  return share * (1 - share) / 2 * curvature * side.norm() * Vec2(side.y(), -side.x());
+}
 
 // The outline of a plate with ground. The lower left corner of its box is the origin.
 struct PlateOutline {

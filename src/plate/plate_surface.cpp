@@ -9,9 +9,7 @@
 
 #include "geometry/convex_polygon.h"
 #include "plate/deformation.h"
-#include "plate/ground_mesh.h"
 #include "plate/plate_ground.h"
-#include "plate/reachable_surface.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/simplify.h"
 

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "geometry/compact.h"
-#include "plate/plate_rings.h"
+#include "geometry/weld.h"
+#include "plate/plate_ground.h"
 #include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
@@ -32,5 +34,14 @@ Result<Base> base_under(const HeightFieldMesh& front, const PlateOptions& option
 // Errors: those of Wrap::around() and simplify().
 Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base& base,
                                         const PlateOptions& options);
+
+// Checks lengths and the front. Errors: those of make_plate().
+Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& options);
+
+// Replaces the surface by the one that the tool leaves above it: see close_by_tool(). Points that the tool reaches stay,
+// others give way to samples of its own shape, which are dense where that is steep; level ground gets none. `edges` are
+// those of the rim, in the surface's coordinates; points along them keep them sharp. A surface without ground keeps its
+// triangles, and its points are lifted.
+void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
 
 }  // namespace relievo

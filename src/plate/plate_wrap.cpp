@@ -3,10 +3,9 @@
 #include <tuple>
 #include <utility>
 
-#include "geometry/compact.h"
+#include "geometry/weld.h"
 #include "plate/coincident_points.h"
 #include "plate/deformation.h"
-#include "plate/plate_checks.h"
 #include "plate/plate_surface.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"

@@ -1,11 +1,11 @@
-#include "plate/reachable_surface.h"
+#include "plate/plate_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "plate/ground_mesh.h"
-#include "plate/tool_samples.h"
+#include "plate/height_field.h"
+#include "plate/plate_ground.h"
 #include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"

@@ -8,7 +8,8 @@
 
 #include "core/angle.h"
 #include "core/number.h"
-#include "geometry/dilation.h"
+#include "geometry/image_filters.h"
+#include "geometry/weld.h"
 #include "plate/height_field.h"
 #include "relievo/core/image.h"
 #include "relievo/core/length.h"
@@ -61,6 +62,39 @@ Span span_of(const std::vector<float>& heights) {
   for (const float z : heights)
     if (z == z) span.lowest = std::min(span.lowest, z), span.highest = std::max(span.highest, z);
   return span;
+}
+
+constexpr double least_reach_tolerance_mm = .01;
+
+// Sums over samples, block by block.
+struct Count {
+  std::size_t front = 0, reached = 0;
+  float largest = 0;
+};
+
+Count count_reached(const Image<float>& residual, double tolerance_mm) {
+  return parallel_reduce(
+      residual.pixels.size(), Count{},
+      [&](std::size_t begin, std::size_t end) {
+        Count count;
+        for (std::size_t i = begin; i < end; ++i) {
+          const float left = residual.pixels[i];
+          if (left != left) continue;
+          ++count.front;
+          count.reached += static_cast<double>(left) <= tolerance_mm;
+          count.largest = std::max(count.largest, left);
+        }
+        return count;
+      },
+      [](const Count& a, const Count& b) {
+        return Count{a.front + b.front, a.reached + b.reached, std::max(a.largest, b.largest)};
+      });
+}
+
+Image<float> difference(const Image<float>& a, const Image<float>& b) {
+  Image<float> out = a;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] -= b.pixels[i];
+  return out;
 }
 
 }  // namespace
@@ -126,6 +160,23 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
   for (std::size_t i = 0; i < closed.pixels.size(); ++i)
     if (closed.pixels[i] == closed.pixels[i]) closed.pixels[i] = std::max(closed.pixels[i], -left.pixels[i]);
   return closed;
+}
+
+ToolReach measure_reach(const Solid& solid, const Tool& tool) {
+  const Box box = used_box(solid.points, std::span(solid.triangles).first(solid.front_triangles));
+  ToolReach reach;
+  if (box.is_empty()) return reach;
+  HeightField field = front_samples(solid, box, tool);
+  reach.mm_per_sample = field.mm_per_pixel;
+  reach.tolerance_mm = std::max(least_reach_tolerance_mm, field.mm_per_pixel / 8);
+  reach.heights_mm = std::move(field.z);
+  reach.residual_mm =
+      difference(close_by_tool(reach.heights_mm, reach.mm_per_sample, tool), reach.heights_mm);
+  const Count count = count_reached(reach.residual_mm, reach.tolerance_mm);
+  reach.largest_residual_mm = static_cast<double>(count.largest);
+  if (count.front > 0)
+    reach.reached_share = static_cast<double>(count.reached) / static_cast<double>(count.front);
+  return reach;
 }
 
 }  // namespace relievo

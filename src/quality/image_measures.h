@@ -4,10 +4,23 @@
 #include <array>
 #include <vector>
 
-#include "quality/image_filters.h"
+#include "relievo/core/image.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
+
+// A Gaussian of that standard deviation in pixels, cut at `radius` pixels. The border continues outside.
+class GaussianFilter {
+ public:
+  GaussianFilter(double sigma, int radius);
+  void apply(Image<float>& image) const;
+
+ private:
+  std::vector<float> weights_;  // of the centre and of each distance from it
+};
+
+// Returns 1 where some pixel of the square of 2 `radius` + 1 pixels around is not 0, else 0.
+Image8 dilated(const Image8& mask, int radius);
 
 // Some pixels of an image: those that are measured.
 struct PixelMask {

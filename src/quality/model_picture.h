@@ -1,10 +1,55 @@
 // Images of a model against which reliefs are measured: its normals and depths, and the pixels to measure.
 #pragma once
 
-#include "quality/barycentric_map.h"
+#include <span>
+
 #include "quality/image_measures.h"
+#include "relievo/core/image.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
+// The triangle that covers each pixel's centre, and the weights of its corners there. It depends on where the
+// points are in the plane alone, so that pictures of many reliefs of one surface are drawn with it.
+class BarycentricMap {
+ public:
+  // The longer side of the points' box gets `longer_side_px` pixels, with `margin_px` more on each side.
+  BarycentricMap(std::span<const Vec3> points, const Triangulation& triangulation, int longer_side_px,
+                 int margin_px);
+
+  int width() const { return places_.width; }
+  int height() const { return places_.height; }
+  std::size_t pixels() const { return places_.size(); }
+  double units_per_pixel() const { return units_per_pixel_; }
+
+  // Returns where a point lies in the picture: x to the right, y down, the first pixel's centre at (0.5, 0.5).
+  Vec2 to_pixels(const Vec3& point) const {
+    const Vec3 p = (point - centre_) / units_per_pixel_;
+    return {width() / 2.0 + p.x(), height() / 2.0 - p.y()};
+  }
+
+  // Returns no_index where the pixel is outside the hull.
+  Index triangle(std::size_t pixel) const { return places_[pixel].triangle; }
+
+  // Returns values given per point, interpolated; `outside` where no triangle is.
+  template <typename Value>
+  float at(std::size_t pixel, Value&& value, float outside) const {
+    const Place& p = places_[pixel];
+    if (p.triangle == no_index) return outside;
+    return p.weights[0] * value(p.corners[0]) + p.weights[1] * value(p.corners[1]) +
+           p.weights[2] * value(p.corners[2]);
+  }
+
+ private:
+  struct Place {
+    Index triangle = no_index;
+    Triangle corners{};
+    Vec3f weights = Vec3f::Zero();
+  };
+
+  double units_per_pixel_ = 0;
+  Vec3 centre_ = Vec3::Zero();
+  Image<Place> places_;
+};
 
 struct NormalMap {
   Image<float> x, y, z;

@@ -8,9 +8,8 @@
 
 #include "relief/height_search.h"
 #include "relief/jump_lift.h"
-#include "relief/step_heights.h"
+#include "relief/sliced_ell_matrix.h"
 #include "relief/style.h"
-#include "relief/vertex_normals.h"
 #include "relief/weight_table.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/heights.h"

@@ -1,8 +1,252 @@
 #include "relievo/relief/heights.h"
 
-#include "relief/height_equations.h"
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "core/groups.h"
+#include "geometry/plane.h"
+#include "relief/edge_weight.h"
+#include "relief/sliced_ell_matrix.h"
+#include "relievo/core/parallel.h"
+#include "relievo/geometry/triangulation.h"
+#include "relievo/scan/boundary.h"
 
 namespace relievo {
+namespace {
+
+// Returns per point its corners of triangles inside: 3 t + i for corner i of triangle t, in ascending order.
+Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& triangles,
+                             const Boundary& boundary) {
+  return grouped<Index>(points, [&](auto&& add) {
+    for (Index t = 0; t < triangles.size(); ++t)
+      for (Index i = 0; i < 3 && boundary.is_inside[t]; ++i) add(triangles[t][i], 3 * t + i);
+  });
+}
+
+// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in ascending
+// order, and add(entries) appends the entries of that row.
+template <typename Entry, typename Make>
+Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
+  Groups<Entry> all{std::vector<Index>(rows + 1), {}};
+  std::vector<std::vector<Entry>> parts((rows + default_grain - 1) / default_grain);
+  parallel_ranges(rows, default_grain, [&](std::size_t first, std::size_t end) {
+    std::vector<Entry>& part = parts[first / default_grain];
+    part.reserve(8 * (end - first));
+    make(first, end, [&](std::size_t i, auto&& add) {
+      const std::size_t before = part.size();
+      add(part);
+      all.begin[i + 1] = static_cast<Index>(part.size() - before);
+    });
+  });
+  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
+  all.items.reserve(all.begin.back());
+  for (std::vector<Entry>& part : parts) {
+    all.items.insert(all.items.end(), part.begin(), part.end());
+    part = {};
+  }
+  return all;
+}
+
+// Equation (9) written out for fixed points: the matrix, and the coefficients of the right-hand side.
+struct HeightEquations {
+  std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
+  Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
+  // The edges of each point, in ascending order of the other points. Every point has one to itself, too, so that
+  // vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times the step from
+  // the other point; 0 at boundary points, whose heights are 0. The right-hand side is SlicedEllMatrix::divergence().
+  Groups<MatrixEntry> edges;
+};
+
+struct WeightedEdge {
+  Index to;
+  float weight;
+};
+
+// The edges of each point, in ascending order of the other points.
+using Adjacency = Groups<WeightedEdge>;
+
+// Equation (9): the edges of points, one point after the other. A corner is 3 t + i for corner i of triangle t.
+class EdgeRows {
+ public:
+  EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
+      : points_(points), triangles_(triangles) {}
+
+  // Adds the edges of a point to `edges`: the sums of one term for each triangle.
+  void add(std::span<const Index> corners, std::vector<WeightedEdge>& edges) {
+    terms_.clear();
+    for (const Index corner : corners) {
+      const Triangle& t = triangles_[corner / 3];
+      const Index own = t[corner % 3], next = t[(corner + 1) % 3], last = t[(corner + 2) % 3];
+      insert({next, half_weight(last, own, next)});
+      insert({last, half_weight(next, last, own)});
+    }
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      if (i > 0 && terms_[i].to == terms_[i - 1].to)
+        edges.back().weight += terms_[i].weight;
+      else
+        edges.push_back(terms_[i]);
+  }
+
+ private:
+  float half_weight(Index apex, Index a, Index b) const {
+    return static_cast<float>(half_edge_weight(points_[apex], points_[a], points_[b]));
+  }
+
+  // Keeps the terms sorted; those of one edge stay in the order in which they came.
+  void insert(const WeightedEdge& term) {
+    terms_.insert(std::ranges::upper_bound(terms_, term.to, {}, &WeightedEdge::to), term);
+  }
+
+  std::span<const Vec2> points_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<WeightedEdge> terms_;
+};
+
+// Returns the edges of triangles inside. Edges at depth jumps count for their jump_share().
+Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
+                       const Boundary& boundary, std::span<const float> weights) {
+  const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
+  return rows_in_order<WeightedEdge>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
+    EdgeRows rows(points, triangles);
+    for (std::size_t i = first; i < end; ++i)
+      row(i, [&](std::vector<WeightedEdge>& edges) {
+        const std::size_t before = edges.size();
+        rows.add(corners[i], edges);
+        for (std::size_t e = before; e < edges.size(); ++e) {
+          edges[e].weight = edge_weight(edges[e].weight);
+          if (!weights.empty())
+            edges[e].weight *= jump_share(boundary, weights, static_cast<Index>(i), edges[e].to);
+        }
+      });
+  });
+}
+
+// Equation (9): the matrix of its normal equations, a weighted Laplacian; boundary points, at 0, drop out.
+Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
+                                      std::span<const Index> free_points) {
+  const auto n = static_cast<int>(free_points.size());
+  Eigen::SparseMatrix<double> A(n, n);
+  const auto is_below = [&](const WeightedEdge& edge, std::size_t column) {
+    return unknown[edge.to] != no_index && unknown[edge.to] > column;
+  };
+  int* const begin = A.outerIndexPtr();
+  parallel_for(free_points.size(), [&](std::size_t f) {
+    const auto edges = adjacency[free_points[f]];
+    begin[f + 1] =
+        1 + static_cast<int>(std::ranges::count_if(edges, [&](const auto& e) { return is_below(e, f); }));
+  });
+  std::partial_sum(begin, begin + n + 1, begin);
+  A.resizeNonZeros(begin[n]);
+  parallel_for(free_points.size(), [&](std::size_t f) {
+    int at = begin[f];
+    double& diagonal = A.valuePtr()[at];
+    A.innerIndexPtr()[at++] = static_cast<int>(f);
+    diagonal = 0;
+    for (const WeightedEdge& edge : adjacency[free_points[f]]) {
+      diagonal += static_cast<double>(edge.weight);
+      if (!is_below(edge, f)) continue;
+      A.innerIndexPtr()[at] = static_cast<int>(unknown[edge.to]);
+      A.valuePtr()[at++] = -static_cast<double>(edge.weight);
+    }
+  });
+  return A;
+}
+
+// Equation (9): the right-hand side of a point is the sum over its edges of weight / 2 (s_p + s_q) . (p - q).
+Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
+                                    std::span<const Index> unknown) {
+  const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {
+    const bool is_free = unknown[i] != no_index;
+    bool has_itself = is_free;
+    for (const auto& [other, weight] : adjacency[i]) {
+      if (!has_itself && other > i) entries.push_back({i}), has_itself = true;
+      const double half = is_free ? .5 * static_cast<double>(weight) : 0;
+      const Vec2 coefficient = half * (points[i] - points[other]);
+      entries.push_back({other, coefficient.cast<float>()});
+    }
+    if (!has_itself) entries.push_back({i});
+  };
+  return rows_in_order<MatrixEntry>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
+    for (std::size_t i = first; i < end; ++i)
+      row(i, [&](std::vector<MatrixEntry>& entries) { add(static_cast<Index>(i), entries); });
+  });
+}
+
+// Returns the equations. `weights` as for HeightSystem::build().
+HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
+                                 const Boundary& boundary, std::span<const float> weights) {
+  HeightEquations equations;
+  std::vector<Index> unknown(points.size(), no_index);
+  for (Index i = 0; i < points.size(); ++i) {
+    if (boundary.is_boundary[i]) continue;
+    unknown[i] = static_cast<Index>(equations.free_points.size());
+    equations.free_points.push_back(i);
+  }
+  const Adjacency adjacency = adjacency_of(points, triangulation.triangles, boundary, weights);
+  equations.A = laplacian(adjacency, unknown, equations.free_points);
+  equations.edges = coefficients_of(points, adjacency, unknown);
+  return equations;
+}
+
+struct Term {
+  Index other;
+  Vec2 coefficient;
+};
+
+double twice_area(std::span<const Vec2> points, const Triangle& t) {
+  return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
+}
+
+// Makes rows of the matrix one after the other. A corner is 3 t + i for corner i of triangle t.
+class NormalRows {
+ public:
+  NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
+      : points_(points), triangles_(triangles) {}
+
+  // Adds the row of a point to `entries`: the derivatives of the sum of the triangles' cross products there by heights,
+  // over z of that sum, which does not depend on heights.
+  void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
+    terms_.clear();
+    double z = 0;
+    for (const Index corner : corners) {
+      add_terms(triangles_[corner / 3], corner % 3);
+      z += twice_area(points_, triangles_[corner / 3]);
+    }
+    for (auto term = terms_.begin(); term != terms_.end();) {
+      Vec2 coefficient = Vec2::Zero();
+      const Index other = term->other;
+      for (; term != terms_.end() && term->other == other; ++term) coefficient += term->coefficient;
+      // The point's own height cancels where triangles close around it.
+      const bool cancels = coefficient.norm() <= 1e-12 * std::sqrt(z);
+      if (!cancels && z > 0) entries.push_back({other, (coefficient / z).cast<float>()});
+    }
+  }
+
+ private:
+  // Adds the derivatives of the cross product at `a`, (b - a) x (c - a), by the height of each corner.
+  void add_terms(const Triangle& t, Index corner) {
+    const Index a = t[corner], b = t[(corner + 1) % 3], c = t[(corner + 2) % 3];
+    const Vec2 ab = points_[b] - points_[a], ac = points_[c] - points_[a], bc = points_[c] - points_[b];
+    insert({a, {bc.y(), -bc.x()}});
+    insert({b, {-ac.y(), ac.x()}});
+    insert({c, {ab.y(), -ab.x()}});
+  }
+
+  // Keeps the terms sorted; those of one point stay in the order in which they came.
+  void insert(const Term& term) {
+    terms_.insert(std::ranges::upper_bound(terms_, term.other, {}, &Term::other), term);
+  }
+
+  std::span<const Vec2> points_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<Term> terms_;
+};
+
+}  // namespace
 
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
                                          const Boundary& boundary, std::span<const float> weights) {
@@ -48,6 +292,19 @@ void HeightSystem::solve_in_place(std::span<double> heights) const {
 
 void HeightSystem::solve_in_place(std::span<float> heights, Workspace& workspace) const {
   factor_.solve(heights, heights, workspace);
+}
+
+SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,
+                                     const Boundary& boundary, const SlicedEllMatrix* like) {
+  const std::vector<Triangle>& triangles = triangulation.triangles;
+  const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
+  const auto entries =
+      rows_in_order<MatrixEntry>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
+        NormalRows rows(points, triangles);
+        for (std::size_t i = first; i < end; ++i)
+          row(i, [&](std::vector<MatrixEntry>& added) { rows.add(corners[i], added); });
+      });
+  return like ? SlicedEllMatrix(entries, *like) : SlicedEllMatrix(entries);
 }
 
 }  // namespace relievo

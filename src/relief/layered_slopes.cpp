@@ -1,7 +1,13 @@
 #include "relief/layered_slopes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "relief/style.h"
 #include "relief/weight_table.h"
+#include "relievo/core/parallel.h"
+#include "relievo/relief/layers.h"
+#include "scan/surface_blur.h"
 
 namespace relievo {
 namespace {
@@ -36,6 +42,16 @@ RELIEVO_INLINE void write_eights(const SlopeParams& params, std::size_t first, s
   for (std::size_t i = first; i + points_at_once <= end; i += points_at_once) write_eight(params, i, slopes);
 }
 
+// Standard deviations of the Gaussians between the layers, as shares of the longer side. docs/method.md
+// has the formula, docs/decisions/layers.md the reason.
+constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
+// The slope, 85 degrees, at which half of a normal's x and y is left.
+constexpr double half_kept_slope = 12;
+
+// The attenuation of a layer is exp(-25 detail share): at the default detail of 0.04 the exponent is the share
+// itself. docs/method.md, "Slopes".
+constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
+
 }  // namespace
 
 void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
@@ -47,6 +63,41 @@ void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, c
     for (std::size_t i = begin + (end - begin) / points_at_once * points_at_once; i < end; ++i)
       slopes[i] = style.slope(input, i, weight(input.k[i]), input.boundary_weight[i]);
   });
+}
+
+Vec2f faded_xy(const Vec3f& normal) {
+  const double slope =
+      static_cast<double>(normal.head<2>().norm()) / std::max(static_cast<double>(normal.z()), 1e-3);
+  return static_cast<float>(-1 / (1 + std::pow(slope / half_kept_slope, 8))) * normal.head<2>();
+}
+
+std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals) {
+  std::vector<PointLayers> layers(points.size());
+  const double longer_side = Box::of(points).longer_side();
+  if (!(longer_side > 0)) return layers;
+  std::vector<Vec2f> kept(points.size());
+  parallel_for(kept.size(), [&](std::size_t i) { kept[i] = faded_xy(normals[i]); });
+  const auto blurred = [&](std::vector<Vec2f> values, double sigma) {
+    SurfaceBlur(points, sigma * longer_side).apply(values);
+    return values;
+  };
+  const std::vector<Vec2f> smooth = blurred(kept, fine_sigma), smoother = blurred(smooth, middle_sigma),
+                           smoothest = blurred(smoother, coarse_sigma);
+  parallel_for(layers.size(), [&](std::size_t i) {
+    layers[i] = {Vec2f(kept[i] - smooth[i]), Vec2f(smooth[i] - smoother[i]),
+                 Vec2f(smoother[i] - smoothest[i]), smoothest[i]};
+  });
+  return layers;
+}
+
+// Equation (6), layer by layer.
+LayerWeights LayerWeights::of(double u, double detail, double height_share) {
+  const auto kept = [&](double share) {
+    return static_cast<float>(
+        u > 0 ? (height_share - 2) * std::expm1(-u * std::exp(-attenuation * detail * share)) : 0);
+  };
+  return {kept(0), kept(middle_share), kept(coarse_share), kept(broad_share),
+          static_cast<float>(height_share)};
 }
 
 }  // namespace relievo

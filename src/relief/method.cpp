@@ -19,9 +19,7 @@ const MethodInfo& info_of(Method method) {
 Result<Method> parse_method(std::string_view name, std::string_view option) {
   const auto found = std::ranges::find(methods, name, &MethodInfo::name);
   if (found != methods.end()) return found->method;
-  std::vector<std::string_view> names;
-  for (const MethodInfo& info : methods) names.push_back(info.name);
-  return not_one_of(option, names, name);
+  return not_one_of(option, names_of(methods), name);
 }
 
 std::string method_names() {

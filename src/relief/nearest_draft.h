@@ -4,17 +4,56 @@
 #include <span>
 #include <vector>
 
-#include "relief/triangle_slopes.h"
+#include "relievo/geometry/triangulation.h"
 #include "relievo/relief/heights.h"
+#include "relievo/scan/boundary.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
 
-// Minimises, over triangles, the squares of (slope - given slope) under |slope + slope of the base| <= limit.
-// It does so by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
-// Eckstein, 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a
-// system that is factored once, and a dual variable carries over the part that each projection removed, until
-// both agree. Each call starts from the result of the last one. Not for concurrent use.
+// The triangles inside a relief that have a corner which is not on the boundary. Slopes are (dz/dx, dz/dy).
+class TriangleSlopes {
+ public:
+  TriangleSlopes(std::span<const Vec2> points, const Triangulation& triangulation, const Boundary& boundary);
+
+  // Number of triangles.
+  std::size_t size() const { return triangles_.size(); }
+
+  // Returns the slope of triangle t under heights, one per point.
+  template <typename Real>
+  Eigen::Vector2<Real> slope(std::size_t t, std::span<const Real> heights) const {
+    const auto& [corners, first, second] = triangles_[t];
+    const Real last = heights[corners[2]];
+    return (heights[corners[0]] - last) * first.template cast<Real>() +
+           (heights[corners[1]] - last) * second.template cast<Real>();
+  }
+
+  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat function;
+  // 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without jump
+  // weights.
+  void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
+
+ private:
+  struct Corners {
+    Triangle corners;
+    Vec2f first = Vec2f::Zero(),
+          second = Vec2f::Zero();  // gradients of the hat functions of the first two corners
+  };
+  struct Share {
+    Index triangle = 0;
+    Vec2f weight = Vec2f::Zero();  // area times gradient
+  };
+
+  std::vector<Corners> triangles_;
+  std::vector<Index> begin_;  // shares of point i: shares_[begin_[i]] up to shares_[begin_[i + 1]]
+  std::vector<Share> shares_;
+};
+
+// Solves, over triangles, the least squares of (slope - slope given) under |slope + slope of the base| <=
+// limit by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and Eckstein,
+// 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a system that
+// is factored once, and a dual variable carries over what each projection took until both agree. A call starts
+// from where the last one ended. Not for concurrent use.
 class NearestDraft {
  public:
   // `system` is that of the surface, without jump weights; both must outlive this. `base` has a height per

@@ -9,7 +9,6 @@
 #include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
 #include "relief/membrane/membrane_tuning.h"
-#include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"

@@ -1,5 +1,5 @@
-// A sparse matrix of 2-vectors over points and their neighbours, and the two products with it that a frame
-// needs.
+// A sparse matrix of 2-vectors over points and their neighbours, and its two products that a frame needs: the
+// right-hand side of equation (9), and vertex normals (stage 13).
 #pragma once
 
 #include <array>
@@ -9,6 +9,8 @@
 
 #include "core/groups.h"
 #include "relievo/core/types.h"
+#include "relievo/geometry/triangulation.h"
+#include "relievo/scan/boundary.h"
 
 namespace relievo {
 
@@ -69,5 +71,13 @@ class SlicedEllMatrix {
   std::vector<Coefficients> coefficients_;  // by slot
   bool owns_pattern_ = true;
 };
+
+// Returns the matrix for SlicedEllMatrix::normals(): the unit normal of each point is that of the sum of the cross
+// products of the triangles around it, (0, 0, 1) at points in no triangle. The sum is linear in the heights
+// where x and y are fixed. Only triangles inside the relief count.
+//
+// `like`, if given, has entries for neighbours in ascending order; its pattern is reused.
+SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,
+                                     const Boundary& boundary, const SlicedEllMatrix* like = nullptr);
 
 }  // namespace relievo

@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "samples/sample_leaf.h"
+#include "samples/sample_shapes.h"
 
 namespace relievo::field {
 namespace {

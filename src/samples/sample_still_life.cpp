@@ -1,7 +1,7 @@
 #include <array>
 #include <functional>
 
-#include "samples/sample_leaf.h"
+#include "samples/sample_shapes.h"
 
 namespace relievo::field {
 namespace {

@@ -1,4 +1,4 @@
-#include "scan/depth_smooth.h"
+#include "scan/depth_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -6,14 +6,13 @@
 #include <limits>
 #include <optional>
 
-#include "core/keep_where.h"
-#include "geometry/space_curve.h"
+#include "core/lists.h"
+#include "geometry/hilbert.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
 #include "scan/measure_with_tree.h"
 #include "scan/merging/repeated_points.h"
 #include "scan/noise/noise.h"
-#include "scan/pick.h"
 
 namespace relievo {
 namespace {

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "geometry/compact.h"
 #include "geometry/raster.h"
+#include "geometry/weld.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "scan/outlines/mesh_outlines.h"

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.h"
+#include "core/groups.h"
+#include "geometry/weld.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/mesh.h"
 
@@ -50,6 +53,24 @@ void add(const Mesh& mesh, const std::array<Vec3f, 3>& normals, std::size_t t, c
   if (!mesh.colours.empty()) to.colours.push_back({byte(0), byte(1), byte(2)});
 }
 
+// Thousands of triangles may meet at the apex of a cone. An even sample of this size gives the same normal;
+// comparing each with all the others would take quadratic time.
+constexpr std::size_t enough_members = 512;
+
+double angle_at(const Mesh& mesh, const Triangle& t, std::size_t corner) {
+  const Vec3& p = mesh.points[t[corner]];
+  const Vec3 a = mesh.points[t[(corner + 1) % 3]] - p, b = mesh.points[t[(corner + 2) % 3]] - p;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// Returns the corners at each position: 3 t + c for corner c of triangle t.
+Groups<Index, std::size_t> corners_at(const Mesh& mesh, const std::vector<Index>& place) {
+  return grouped<Index, std::size_t>(mesh.points.size(), [&](auto&& add) {
+    for (Index t = 0; t < mesh.triangles.size(); ++t)
+      for (Index c = 0; c < 3; ++c) add(place[mesh.triangles[t][c]], 3 * t + c);
+  });
+}
+
 }  // namespace
 
 Cloud scatter(const Mesh& mesh, std::size_t points) {
@@ -68,6 +89,35 @@ Cloud scatter(const Mesh& mesh, std::size_t points) {
     for (; taken < due; ++taken) add(mesh, normals[t], t, spread_weights(taken), cloud);
   }
   return cloud;
+}
+
+std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg) {
+  const double least_cosine = std::cos(to_radians(sharpest_deg));
+  const std::vector<Index> place = first_coincident(mesh.points);
+  const auto corners = corners_at(mesh, place);
+  std::vector<Vec3f> flat(mesh.triangles.size());
+  std::vector<std::array<float, 3>> angles(flat.size());
+  parallel_for(flat.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
+    flat[t] = p.cross(q).stableNormalized().cast<float>();
+    for (std::size_t i = 0; i < 3; ++i)
+      angles[t][i] = static_cast<float>(angle_at(mesh, mesh.triangles[t], i));
+  });
+  std::vector<std::array<Vec3f, 3>> normals(flat.size());
+  parallel_for(normals.size(), [&](std::size_t t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto around = corners[place[mesh.triangles[t][c]]];
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t m = 0; m < around.size(); m += 1 + around.size() / enough_members) {
+        const Index other = around[m] / 3;
+        if (static_cast<double>(flat[other].dot(flat[t])) < least_cosine) continue;
+        sum += static_cast<double>(angles[other][around[m] % 3]) * flat[other].cast<double>();
+      }
+      normals[t][c] = sum.stableNormalized().cast<float>();
+    }
+  });
+  return normals;
 }
 
 }  // namespace relievo

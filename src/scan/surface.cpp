@@ -2,22 +2,98 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
+#include <vector>
 
+#include "core/disjoint_sets.h"
+#include "core/lists.h"
 #include "core/memory.h"
 #include "geometry/hilbert.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
+#include "relievo/scan/cloud.h"
 #include "relievo/scan/normals.h"
-#include "scan/leave_out_plane.h"
+#include "relievo/scan/spacing.h"
+#include "relievo/scan/support_plane.h"
+#include "scan/coarse_visibility.h"
 #include "scan/measured_cloud.h"
 #include "scan/noise/noise.h"
-#include "scan/orient_normals.h"
 #include "scan/outlines/outline_points.h"
 #include "scan/outlines/small_patches.h"
-#include "scan/pick.h"
 
 namespace relievo {
 namespace {
+
+// The numbers of a cloud's points that are shown.
+struct ShownPoints {
+  std::vector<Index>& visible;
+  std::vector<Index>& hole_fill;
+};
+
+// A piece is a set of connected points that is left of a scan without its plane. It has the box of all its points, and
+// the number of those that stand high over the plane.
+struct LeftPiece {
+  Box box;
+  std::size_t high = 0;
+};
+
+// Leaves out what is left of a plane: pieces that stay low over it, for their size, as a depth camera bends tables, and
+// boards have ridges; and debris, which is small beside the largest piece and hung on what is gone.
+void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
+                     std::vector<Index>& visible) {
+  constexpr double low = 4;             // in tolerances
+  constexpr double flat = .05;          // of the diagonal of their box
+  constexpr double connected = 3;       // in local spacings, as for floating noise: see visible.cpp
+  constexpr double high_share = .1;     // of a figure's points
+  constexpr double debris_share = .03;  // of the points of the largest piece
+  std::vector<std::uint8_t> is_left(cloud.size(), 0);
+  for (const Index i : visible) is_left[i] = 1;
+  DisjointSets sets(cloud.size());
+  for (const Index i : visible)
+    for (const Index j : spacing.nearest[i])
+      if (j != no_index && is_left[j] &&
+          (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
+        sets.join(i, j);
+  std::vector<LeftPiece> pieces;
+  std::vector<Index> numbers(cloud.size(), no_index);  // of the pieces, by their representatives
+  const auto piece_of = [&](Index i) -> LeftPiece& {
+    Index& number = numbers[sets.find(i)];
+    if (number == no_index) {
+      number = static_cast<Index>(pieces.size());
+      pieces.emplace_back();
+    }
+    return pieces[number];
+  };
+  for (const Index i : visible) piece_of(i).box.extend(cloud.points[i]);
+  for (const Index i : visible) {
+    LeftPiece& piece = piece_of(i);
+    const double height = plane.normal.dot(cloud.points[i]) - plane.offset;
+    piece.high += height > std::max(low * plane.tolerance, flat * piece.box.diagonal());
+  }
+  std::vector<Index> rest;
+  for (const Index i : visible)
+    if (static_cast<double>(piece_of(i).high) >= high_share * static_cast<double>(sets.size_of(i)))
+      rest.push_back(i);
+  std::size_t largest = 0;
+  for (const Index i : rest) largest = std::max(largest, sets.size_of(i));
+  const double least = debris_share * static_cast<double>(largest);
+  std::erase_if(rest, [&](Index i) { return static_cast<double>(sets.size_of(i)) < least; });
+  if (!rest.empty()) visible = std::move(rest);
+}
+
+// Removes the plane's points, and the pieces that stay low over it, from the points that are shown, and the outlines in
+// the plane from the cloud.
+void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
+                     const ShownPoints& shown) {
+  const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };
+  std::erase_if(shown.visible, is_taken);
+  std::erase_if(shown.hole_fill, is_taken);
+  const Vec3f normal = plane.normal.cast<float>();
+  std::erase_if(cloud.outlines, [&](const OutlineSegment& s) {
+    return plane.takes(s.from, normal) && plane.takes(s.to, normal);
+  });
+  drop_low_pieces(plane, cloud, spacing, shown.visible);
+}
 
 void scatter(const std::vector<double>& values, std::span<const Index> places, std::vector<double>& to) {
   for (std::size_t i = 0; i < places.size(); ++i) to[places[i]] = values[i];

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/disjoint_sets.h"
-#include "core/keep_where.h"
+#include "core/lists.h"
 #include "geometry/neighbours.h"
 #include "geometry/point_set.h"
 #include "relievo/core/parallel.h"

@@ -1,4 +1,4 @@
-#include "solver/bisection.h"
+#include "solver/dissection.h"
 
 #include <algorithm>
 #include <cmath>

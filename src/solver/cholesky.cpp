@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/memory.h"
-#include "geometry/plane_order.h"
+#include "geometry/hilbert.h"
 #include "relievo/core/text.h"
 #include "solver/cholesky_factor.h"
 #include "solver/dissection.h"

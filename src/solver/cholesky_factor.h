@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "core/large_array.h"
+#include "core/memory.h"
 #include "relievo/core/types.h"
 #include "relievo/solver/cholesky.h"
 #include "solver/supernode_panel.h"

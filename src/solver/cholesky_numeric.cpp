@@ -8,7 +8,6 @@
 
 #include "relievo/core/parallel.h"
 #include "solver/cholesky_factor.h"
-#include "solver/frontal_matrix.h"
 #include "solver/supernode_panel.h"
 
 namespace relievo::solver {

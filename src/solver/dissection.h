@@ -1,14 +1,68 @@
-// Elimination order of planar graphs by geometric nested dissection.
+// Elimination order of planar graphs by geometric nested dissection: graphs, their cuts in two along a short line of
+// vertices, and the minimum separators inside a band by maximum flow. Tested by tests/solver/dissection_test.cpp and
+// tests/solver/vertex_separator_test.cpp.
 #pragma once
 
-#include "solver/graph.h"
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
 
 namespace relievo::solver {
 
-// Returns the vertices in an elimination order that causes little fill. The order is made recursively:
-// separators come last, after the two sides; small parts are ordered by minimum degree. `positions` (finite,
-// one per vertex) only guide the search: bad ones cost fill, never correctness. The search is faster if
-// nearby vertices have similar numbers. The result is the same for any number of threads.
+// An undirected graph in compressed sparse rows: the neighbours of vertex v are to[begin[v]] up to, not
+// including, to[begin[v + 1]]. Every edge is stored at both of its ends; no edge joins a vertex to itself.
+// `begin` has one element more than there are vertices.
+struct Graph {
+  std::vector<Index> begin = {0};
+  std::vector<Index> to;
+
+  Index size() const { return static_cast<Index>(begin.size() - 1); }
+  std::span<const Index> neighbours(Index v) const {
+    return {to.data() + begin[v], to.data() + begin[v + 1]};
+  }
+};
+
+enum class Side : std::uint8_t { first, second, separator };
+
+// The part of a graph in which a separator is sought. Vertices marked in `touches_first` have neighbours on
+// the first side of the band, those marked in `touches_second` on the second side. The search takes linear
+// time if the positions draw the graph without crossings and each vertex lists its neighbours
+// counter-clockwise; otherwise the result is the same, but the search takes longer.
+struct SeparatorBand {
+  Graph graph;
+  std::vector<Eigen::Vector2f> positions;
+  Eigen::Vector2f direction;  // from the first side to the second
+  std::vector<std::uint8_t> touches_first, touches_second;
+};
+
+// Two separators, each with the smallest possible number of vertices: the one nearest to the first side and
+// the one nearest to the second. Each gives one side per vertex of the band.
+struct MinimumSeparators {
+  std::vector<Side> near_first, near_second;
+};
+
+// Returns the minimum separators of the band. By Menger's theorem their size is the largest number of
+// vertex-disjoint paths between the sides. In the plane, repeatedly taking the uppermost remaining path finds
+// nearly all of these paths; augmenting paths (Dinic 1970) find the rest.
+MinimumSeparators minimum_separators(const SeparatorBand& band);
+
+struct Bisection {
+  std::vector<Side> side;                      // per vertex; no edge joins the first side to the second
+  Index first = 0, second = 0, separator = 0;  // numbers of vertices
+};
+
+// Returns a bisection with few vertices in the separator and sides of similar size. `positions`, one per
+// vertex, only guide the search: the shortest separator is found in a straight band across the direction in
+// which they spread most. If they are of no use (coincident points, positions unrelated to the graph),
+// distances in the graph replace them. A side may be empty if nothing better was found.
+Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions);
+
+// Returns the vertices in an elimination order that causes little fill: recursively, separators last and the
+// two sides before them; small pieces by minimum degree. `positions` (finite, one per vertex) only guide the
+// search: bad ones cost fill, never correctness. It is faster if nearby vertices have similar numbers. The
+// result is the same for any number of threads.
 std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
 }  // namespace relievo::solver

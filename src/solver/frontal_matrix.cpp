@@ -1,4 +1,4 @@
-#include "solver/frontal_matrix.h"
+#include "solver/supernode_panel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
-// Storage of a supernode's panel, the dense part of W that belongs to it, and the products with a panel that
-// make up a substitution. Tested by tests/solver/cholesky_test.cpp.
+// Dense arithmetic on the frontal matrices of a multifrontal factorisation; storage of a supernode's panel, the dense
+// part of W that belongs to it; and the products with a panel that make up a substitution. Tested by
+// tests/solver/cholesky_test.cpp.
 //
 // A panel consists of strips of eight columns, each from its own first row down, since the columns of a
 // supernode are lower triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are
@@ -7,9 +8,34 @@
 // Forward substitution reads the values from front to back, backward substitution from back to front.
 #pragma once
 
-#include "solver/frontal_matrix.h"
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
 
 namespace relievo::solver {
+
+// The lower triangle of a symmetric matrix of `rows` rows, stored by columns that begin `stride` elements
+// apart. Each column ends with at least three elements of padding, all 0, so that it can be processed in
+// vectors of four. Elements above the diagonal are never read for a result.
+struct FrontalMatrix {
+  Index rows = 0, stride = 0;
+  std::vector<double> data;
+
+  double* column(Index c) { return data.data() + std::size_t{stride} * c; }
+  // Makes it a zero matrix of that many rows.
+  void reset(Index new_rows);
+};
+
+// Factors the first `width` columns, A = L L^T, and subtracts their outer product from the other columns,
+// which become the Schur complement. Returns no_index, or the first column whose pivot is not above its
+// element of `smallest_pivot`; the contents are then meaningless.
+Index eliminate_columns(FrontalMatrix& front, Index width, std::span<const double> smallest_pivot);
+
+// Replaces the first `width` columns [L1; L2] by W = [L1^-1; -L2 L1^-1], so that substitution with L becomes
+// a product with W.
+void invert_columns(FrontalMatrix& front, Index width);
 
 inline constexpr Index strip_width = 8;
 

@@ -2,7 +2,7 @@
 // fill. Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 
-#include "solver/graph.h"
+#include "solver/dissection.h"
 
 namespace relievo::solver {
 

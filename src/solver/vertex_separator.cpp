@@ -1,4 +1,4 @@
-#include "solver/vertex_separator.h"
+#include "solver/dissection.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "geometry/compact.h"
+#include "geometry/weld.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "geometry/space_curve.h"
+#include "geometry/hilbert.h"
 #include "geometry/weld.h"
 #include "support/shapes.h"
 

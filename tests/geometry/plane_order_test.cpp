@@ -1,4 +1,4 @@
-#include "geometry/plane_order.h"
+#include "geometry/hilbert.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "geometry/blur.h"
-#include "support/shapes.h"
+#include "geometry/image_filters.h"
 
 namespace relievo {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <random>
 
-#include "io/las/integer_decoder.h"
-#include "io/las/point_layers.h"
+#include "io/las/arithmetic_decoder.h"
+#include "io/las/point_items.h"
 #include "support/laz_encoder.h"
 #include "support/read_text.h"
 

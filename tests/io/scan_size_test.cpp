@@ -1,4 +1,3 @@
-#include "relievo/io/scan_size.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include "picture/draw_body.h"
 #include "picture/plate_mesh.h"
 #include "relievo/picture/preview.h"
-#include "relievo/picture/solid_renderer.h"
 #include "support/surfaces.h"
 
 namespace relievo {

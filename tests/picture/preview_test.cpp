@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "relievo/make_relief.h"
-#include "relievo/picture/solid_renderer.h"
 #include "support/plate_fronts.h"
 #include "support/same_bits.h"
 #include "support/shapes.h"

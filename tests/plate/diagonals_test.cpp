@@ -1,4 +1,4 @@
-#include "plate/front/diagonals.h"
+#include "plate/front/sample_squares.h"
 
 #include <gtest/gtest.h>
 

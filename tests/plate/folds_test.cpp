@@ -1,4 +1,4 @@
-#include "plate/front/folds.h"
+#include "plate/front/thin_triangles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "plate/reachable_surface.h"
+#include "plate/plate_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "relievo/plate/tool.h"
 #include "relievo/core/image.h"
-#include "relievo/picture/reach_picture.h"
+#include "relievo/picture/height_map.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

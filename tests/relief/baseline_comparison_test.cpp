@@ -1,4 +1,4 @@
-#include "relief/membrane/baseline_comparison.h"
+#include "relief/membrane/membrane_tuning.h"
 
 #include <gtest/gtest.h>
 

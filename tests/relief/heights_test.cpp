@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "relief/vertex_normals.h"
+#include "relief/sliced_ell_matrix.h"
 #include "support/differences.h"
 #include "support/results.h"
 #include "support/shapes.h"

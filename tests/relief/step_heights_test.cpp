@@ -1,4 +1,4 @@
-#include "relief/step_heights.h"
+#include "relief/jump_lift.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "relief/subspace/control_mesh.h"
-#include "relief/subspace/region_samples.h"
 #include "relievo/io/read.h"
 #include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"

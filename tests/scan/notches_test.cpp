@@ -1,4 +1,4 @@
-#include "scan/outlines/notches.h"
+#include "scan/outlines/outline_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scan/merging/subsample.h"
+#include "scan/merging/repeated_points.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "geometry/plane_order.h"
-#include "solver/bisection.h"
+#include "geometry/hilbert.h"
 #include "support/planar_systems.h"
 
 namespace relievo::solver {

@@ -1,4 +1,4 @@
-#include "solver/vertex_separator.h"
+#include "solver/dissection.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "solver/graph.h"
+#include "solver/dissection.h"
 #include "support/shapes.h"
 
 namespace relievo::test {

@@ -25,11 +25,11 @@ std::string either(const std::vector<std::string_view>& names);
 std::unexpected<Error> not_one_of(std::string_view option, const std::vector<std::string_view>& names,
                                   std::string_view found);
 
-// Returns the words in the table's order.
-template <typename E, std::size_t n>
-std::vector<std::string_view> names_of(const std::array<Choice<E>, n>& choices) {
+// Returns the words of a table, in its order. Each row has a `name`.
+template <typename Table>
+std::vector<std::string_view> names_of(const Table& choices) {
   std::vector<std::string_view> names;
-  for (const Choice<E>& choice : choices) names.push_back(choice.name);
+  for (const auto& choice : choices) names.push_back(choice.name);
   return names;
 }
 

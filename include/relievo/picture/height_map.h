@@ -5,6 +5,7 @@
 
 #include "relievo/core/image.h"
 #include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
@@ -29,5 +30,9 @@ struct HeightsMm {
 
 // Returns the front of a solid as heights, see make_height_map().
 HeightsMm make_heights_mm(const Solid& solid, int longer_side_px);
+
+// Returns the front from above, shaded, with what the tool leaves standing in orange to red: by share of the
+// largest residual. No pixels if there are no samples.
+Image8 render_reach(const ToolReach& reach, int longer_side_px);
 
 }  // namespace relievo

@@ -1,11 +1,14 @@
-// Shaded pictures of a finished body, drawn on the CPU.
+// Shaded pictures of a finished body, from two sides or any, drawn on the CPU.
 #pragma once
 
 #include <limits>
+#include <memory>
 
 #include "relievo/core/image.h"
 #include "relievo/picture/material.h"
+#include "relievo/picture/render.h"
 #include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
@@ -28,5 +31,27 @@ struct PreviewOptions {
 // the plate, so both views show the same shading. Level triangles are shaded flat. The result has no pixels
 // for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles on two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
+
+// Draws one solid as render_preview() does, on nothing (opacity 0) but its soft shadow. Not for concurrent use.
+class SolidRenderer {
+ public:
+  // Shares the solid, which has at least one triangle.
+  explicit SolidRenderer(std::shared_ptr<const Solid> solid);
+
+  // Colours what the tool leaves standing on the solid, from orange to red. Shares its reach.
+  SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach);
+  SolidRenderer(SolidRenderer&&) noexcept;
+  ~SolidRenderer();
+
+  // Overwrites the picture; leaves it without pixels for a size out of range. Zoom 1 fits the solid into the picture; the
+  // middle of its box, at the height of its ground, is what the camera turns around. Lengths in the options
+  // (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is cancelled is left
+  // unfinished.
+  void render(const RenderOptions& options, Picture& picture, const Progress* progress = nullptr);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace relievo

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "io/faces.h"
 #include "io/formats.h"
+#include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

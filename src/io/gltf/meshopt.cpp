@@ -8,8 +8,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "io/gltf/meshopt_reader.h"
-
 namespace relievo::io {
 namespace {
 
@@ -133,6 +131,90 @@ bool apply(MeshoptFilter filter, std::size_t stride, Bytes& bytes) {
   return false;
 }
 
+using Index = std::uint32_t;
+
+// The last 16 values; number 0 is the newest.
+template <typename Value>
+class Recent {
+ public:
+  const Value& operator[](std::size_t i) const { return values_[(newest_ - i) % values_.size()]; }
+  void push(const Value& value) { values_[++newest_ % values_.size()] = value; }
+
+ private:
+  std::array<Value, 16> values_{};
+  std::size_t newest_ = 16;
+};
+
+struct Edge {
+  Index a = 0, b = 0;
+};
+
+// Decodes mode 1 of EXT_meshopt_compression. A triangle is mostly one byte, which names an edge and a vertex among
+// those that were met last.
+class TriangleDecoder {
+ public:
+  TriangleDecoder(MeshoptBytes data, std::string_view table) : data_(data), table_(table) {}
+
+  void next(unsigned code, Index* corners) {
+    const unsigned high = code >> 4, low = code & 15;
+    if (high < 15)
+      follow_edge(high, low, corners);
+    else
+      take_three(low, corners);
+  }
+
+  bool is_at_end() const { return data_.is_at_end(); }
+
+ private:
+  Index explicit_index() { return last_ += without_zigzag(data_.next_number()); }
+
+  // A triangle at a recent edge.
+  void follow_edge(unsigned number, unsigned what, Index* corners) {
+    const Edge edge = edges_[number];
+    Index c = 0;
+    if (what == 0)
+      c = next_++;
+    else if (what < 13)
+      c = vertices_[what];
+    else if (what < 15)
+      c = last_ += what == 13 ? ~Index{0} : Index{1};  // the one before, or after
+    else
+      c = explicit_index();
+    if (what == 0 || what >= 13) vertices_.push(c);
+    edges_.push({c, edge.b});
+    edges_.push({edge.a, c});
+    corners[0] = edge.a, corners[1] = edge.b, corners[2] = c;
+  }
+
+  // A triangle whose corners are new, recent or explicit.
+  void take_three(unsigned what, Index* corners) {
+    const bool is_in_table = what < 14;
+    const unsigned pair = is_in_table ? static_cast<unsigned char>(table_[what]) : data_.next();
+    const unsigned high = pair >> 4, low = pair & 15;
+    if (!is_in_table && pair == 0) next_ = 0;
+    const Index a = what == 15 ? explicit_index() : next_++;
+    const Index b = corner(high), c = corner(low);
+    edges_.push({b, a});
+    edges_.push({c, b});
+    edges_.push({a, c});
+    vertices_.push(a);
+    if (high == 0 || high == 15) vertices_.push(b);
+    if (low == 0 || low == 15) vertices_.push(c);
+    corners[0] = a, corners[1] = b, corners[2] = c;
+  }
+
+  Index corner(unsigned what) {
+    if (what == 0) return next_++;
+    return what < 15 ? vertices_[what - 1] : explicit_index();
+  }
+
+  MeshoptBytes data_;
+  std::string_view table_;  // pairs of corners that are frequent
+  Index next_ = 0, last_ = 0;
+  Recent<Edge> edges_;
+  Recent<Index> vertices_;
+};
+
 }  // namespace
 
 std::optional<MeshoptMode> meshopt_mode(std::string_view name) {
@@ -160,6 +242,13 @@ std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed
   if (layout.filter != MeshoptFilter::none || (layout.stride != 2 && layout.stride != 4)) return std::nullopt;
   return layout.mode == MeshoptMode::triangles ? decode_triangles(compressed, layout)
                                                : decode_indices(compressed, layout);
+}
+
+bool decode_meshopt_triangles(MeshoptBytes codes, MeshoptBytes data, std::string_view table,
+                              std::uint32_t* indices, std::size_t triangles) {
+  TriangleDecoder decoder(data, table);
+  for (std::size_t i = 0; i < triangles; ++i) decoder.next(codes.next(), indices + 3 * i);
+  return decoder.is_at_end();
 }
 
 }  // namespace relievo::io

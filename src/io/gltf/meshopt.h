@@ -4,11 +4,63 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 namespace relievo::io {
+
+// Reads compressed bytes one by one. Beyond the end it returns zeros, and remembers that it did.
+class MeshoptBytes {
+ public:
+  explicit MeshoptBytes(std::string_view bytes) : bytes_(bytes) {}
+
+  std::uint8_t next() {
+    if (at_ < bytes_.size()) return static_cast<std::uint8_t>(bytes_[at_++]);
+    is_beyond_ = true;
+    return 0;
+  }
+
+  // Returns a number of which each byte has seven bits, the lowest first (LEB128).
+  std::uint32_t next_number() {
+    std::uint32_t number = 0;
+    for (unsigned shift = 0; shift < 35; shift += 7) {
+      const std::uint32_t byte = next();
+      number |= (byte & 127) << shift;
+      if (byte < 128) return number;
+    }
+    is_beyond_ = true;
+    return 0;
+  }
+
+  bool is_beyond() const { return is_beyond_; }
+
+  // Returns true if all bytes have been read, and none beyond them.
+  bool is_at_end() const { return at_ == bytes_.size() && !is_beyond_; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  bool is_beyond_ = false;
+};
+
+// Returns the signed number that was stored without sign: 0, -1, 1, -2, 2 are stored as 0, 1, 2, 3, 4. It is returned
+// modulo 2^8, 2^16 or 2^32.
+template <typename Unsigned>
+constexpr Unsigned without_zigzag(Unsigned stored) {
+  const auto half = static_cast<Unsigned>(stored >> 1);
+  return (stored & 1) != 0 ? static_cast<Unsigned>(~half) : half;
+}
+
+// Decodes `count` elements of `stride` bytes each; nothing if the stream, with its header, does not have them.
+std::optional<std::vector<std::byte>> decode_meshopt_attributes(std::string_view stream, std::size_t count,
+                                                                std::size_t stride);
+
+// Decodes three indices of each triangle. `codes` has a byte of each, `table` has 16 bytes; false if `data`, which has the
+// rest, does not end with the last triangle.
+bool decode_meshopt_triangles(MeshoptBytes codes, MeshoptBytes data, std::string_view table,
+                              std::uint32_t* indices, std::size_t triangles);
 
 enum class MeshoptMode { attributes, triangles, indices };
 

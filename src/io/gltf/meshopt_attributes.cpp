@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "io/gltf/meshopt_reader.h"
+#include "io/gltf/meshopt.h"
 
 namespace relievo::io {
 namespace {

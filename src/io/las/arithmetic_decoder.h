@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -86,5 +87,48 @@ inline std::uint32_t ArithmeticDecoder::symbol(SymbolModel& model) {
   if (--model.until_update_ == 0) model.update();
   return low;
 }
+
+// Decodes integers of that many bits, 2 to 32. Which of the contexts a number belongs to is known beforehand; the sizes
+// of the differences have a model for each.
+class IntegerDecoder {
+ public:
+  IntegerDecoder(unsigned bits, std::uint32_t contexts);
+
+  std::int32_t next(ArithmeticDecoder& decoder, std::int32_t prediction, std::uint32_t context = 0);
+
+  // Returns the number of bits of the last difference.
+  std::uint32_t last_bits() const { return last_bits_; }
+
+ private:
+  std::uint32_t difference(ArithmeticDecoder& decoder);
+
+  unsigned bits_;
+  std::uint32_t last_bits_ = 0;
+  std::vector<SymbolModel> sizes_;                     // by context
+  BitModel small_;                                     // of the differences 0 and 1
+  std::vector<std::optional<SymbolModel>> high_bits_;  // of others, by size; made when needed first
+};
+
+// Returns a + b modulo 2^32.
+inline std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+
+// Returns the context of a difference whose predecessor, along another axis, had that many bits: there is one for
+// every two bits, up to `most`.
+inline std::uint32_t size_context(std::uint32_t bits, std::uint32_t most) {
+  return bits < most ? bits & ~1U : most;
+}
+
+// The median of the last five numbers, approximately: each new one replaces the highest or lowest in turn.
+class RunningMedian {
+ public:
+  std::int32_t get() const { return values_[2]; }
+  void add(std::int32_t value);
+
+ private:
+  std::int32_t values_[5] = {};  // ascending
+  bool replaces_highest_ = true;
+};
 
 }  // namespace relievo::io

@@ -1,8 +1,8 @@
 // The header of LAS and LAZ files.
 #pragma once
 
+#include "io/numbers.h"
 #include "io/readers.h"
-#include "io/records.h"
 
 namespace relievo::io {
 

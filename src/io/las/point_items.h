@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <vector>
 
-#include "io/las/integer_decoder.h"
+#include "io/las/arithmetic_decoder.h"
 
 namespace relievo::io {
 
@@ -133,6 +135,60 @@ class ExtraBytesItem : public PointItem {
 
  private:
   std::vector<SymbolModel> models_;
+};
+
+// Points of the formats 6 to 10: coordinates and colours of a chunk have layers of their own, each with its decoder.
+// Layers of no use are skipped.
+
+// The layers that are read. Z and colours are empty if they are those of the first point in the whole chunk.
+struct PointLayers {
+  std::string_view xy, z, colours;
+  // In version 3, a scanner's colours follow those of another in places; later versions have it right.
+  bool are_colours_mixed = false;
+};
+
+class LayeredPoint {
+ public:
+  // `first` is the first point, not compressed: 30 bytes; `colour`, its colour, may be null.
+  LayeredPoint(const PointLayers& layers, const char* first, const char* colour);
+  void next();
+
+  const std::array<std::int32_t, 3>& position() const { return channels_[channel_]->position; }
+  const LazColour& colour() const { return colour_; }
+  bool is_beyond_end() const {
+    return xy_.is_beyond_end() || (z_ && z_->is_beyond_end()) || (colours_ && colours_->is_beyond_end());
+  }
+
+ private:
+  // Points of a file are of up to four scanners, whose models are separate.
+  struct Channel {
+    std::array<std::int32_t, 3> position{};
+    std::uint32_t return_number = 0, return_count = 0;
+    bool has_new_time = false;
+    std::array<RunningMedian, 12> median_x, median_y;
+    std::array<std::int32_t, 8> heights{};
+    std::vector<SymbolModel> changes{8, SymbolModel(128)};
+    SymbolModel channel_step{3}, return_step{13};
+    std::array<std::optional<SymbolModel>, 16> return_counts, return_numbers;
+    IntegerDecoder x{32, 2}, y{32, 22}, z{32, 20};
+  };
+  struct ColourChannel {
+    LazColour last{};
+    ColourModels models;
+  };
+
+  std::uint32_t decode_changes();
+  void decode_returns(Channel& channel, std::uint32_t changes);
+  void decode_position(Channel& channel);
+  void decode_colour(bool changes_scanner);
+
+  ArithmeticDecoder xy_;
+  std::optional<ArithmeticDecoder> z_, colours_;
+  bool are_colours_mixed_;
+  std::size_t channel_ = 0, colour_channel_ = 0;
+  std::array<std::unique_ptr<Channel>, 4> channels_;
+  std::array<std::unique_ptr<ColourChannel>, 4> colour_channels_;
+  LazColour colour_{};
 };
 
 }  // namespace relievo::io

@@ -5,22 +5,59 @@
 #include <limits>
 #include <optional>
 
-#include "core/keep_where.h"
+#include "core/lists.h"
 #include "geometry/edges.h"
 #include "geometry/point_set.h"
+#include "geometry/raster.h"
 #include "geometry/segment_grid.h"
 #include "geometry/smooth_surface.h"
-#include "plate/front/diagonals.h"
-#include "plate/front/sample_grid.h"
 #include "plate/front/sample_squares.h"
 #include "plate/front/silhouette.h"
+#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 namespace {
 
-constexpr int band_rings = 3;  // rings of triangles beside creases that keep their points
+// The places of a grid over the front, and which triangle each lies in.
+struct SampleGrid {
+  double step = 0;
+  Vec2 corner;  // upper left
+  RasterInput input;
+  Image<Index> triangle;  // no_index beside the front
+
+  Vec2 place(int x, int y) const { return {corner.x() + (x + .5) * step, corner.y() - (y + .5) * step}; }
+  Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
+};
+
+// Returns a grid whose squares have sides of `step` or, of a large front, more; `block` divides its width and height.
+SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
+  const Box box = Box::of(front.points);
+  SampleGrid grid;
+  grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
+  // Sides are often whole numbers of steps: what is added leaves no decision to rounding.
+  const auto cells = [&](double mm) { return (static_cast<int>(mm / grid.step + .37) / block + 1) * block; };
+  grid.corner = {box.min.x(), box.max.y()};
+  grid.input.width = cells(box.size().x());
+  grid.input.height = cells(box.size().y());
+  grid.input.triangles = front.triangles;
+  for (const Vec3& p : front.points) {
+    const Vec2 place = grid.pixel(p.head<2>());
+    grid.input.points.emplace_back(place.x(), place.y(), 0);
+  }
+  // In pictures y points down, which turns triangles over.
+  grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
+  draw_bands(grid.input, 32, [&](const RowBand& band) {
+    const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
+    std::ranges::transform(band.fragments.pixels, grid.triangle.pixels.begin() + first,
+                           [](const Fragment& f) { return f.triangle; });
+  });
+  return grid;
+}
+
+constexpr int band_rings = 3;  // of triangles beside creases that keep their points
 constexpr int most_divisions = 16;
 // Smallest distances, in steps: between samples and points of the band (half of it in quarters of squares),
 // and between points of the band that are not on creases.

@@ -1,10 +1,12 @@
 // The squares by which a surface is sampled. Tested by tests/plate/sample_squares_test.cpp.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "relievo/core/image.h"
 #include "relievo/core/types.h"
+#include "relievo/geometry/triangulation.h"
 
 namespace relievo {
 
@@ -21,5 +23,10 @@ constexpr int largest_square = 8;
 // surface turns by at most about `facet_angle`, in radians; a cell is quartered where the surface turns
 // evenly by more. Apart from quarters, the neighbours of a square have at least half its side.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
+
+// The diagonals of rectangles in a Delaunay triangulation are arbitrary, and those across a ridge are teeth. Of each
+// rectangle whose corners have slopes that are numbers, takes the diagonal along which the slope changes less. Changes
+// the triangles alone: neighbours are no longer right.
+void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

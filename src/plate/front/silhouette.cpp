@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "core/disjoint_sets.h"
-#include "core/keep_where.h"
-#include "geometry/compact.h"
+#include "core/lists.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
+#include "geometry/weld.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {

@@ -4,18 +4,63 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <optional>
+#include <span>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
-#include "core/keep_where.h"
-#include "geometry/compact.h"
+#include "core/groups.h"
+#include "core/lists.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
-#include "plate/front/fans.h"
+#include "geometry/weld.h"
 #include "plate/plate_surface.h"
+#include "relievo/core/types.h"
 
 namespace relievo {
 namespace {
+
+// The triangles around each point of a mesh that changes in a few places.
+class Fans {
+ public:
+  // The triangles must stay where they are.
+  Fans(std::size_t points, std::span<const Triangle> triangles)
+      : triangles_(triangles), first_(grouped<Index>(points, [&](auto&& add) {
+          for (Index t = 0; t < triangles.size(); ++t)
+            for (const Index i : triangles[t]) add(i, t);
+        })) {}
+
+  // Returns the triangles around a point, which stay until the mesh is changed.
+  std::span<const Index> around(Index point) const {
+    const auto found = changed_.find(point);
+    return found == changed_.end() ? first_[point] : std::span<const Index>(found->second);
+  }
+
+  // Returns the triangle to the left of the edge; no_index if there is none.
+  Index left_of(Index from, Index to) const {
+    for (const Index t : around(from)) {
+      const auto& [a, b, c] = triangles_[t];
+      if ((a == from && b == to) || (b == from && c == to) || (c == from && a == to)) return t;
+    }
+    return no_index;
+  }
+
+  void add(Index point, Index triangle) { changing(point).push_back(triangle); }
+  void remove(Index point, Index triangle) { std::erase(changing(point), triangle); }
+
+ private:
+  std::vector<Index>& changing(Index point) {
+    const auto [found, is_new] = changed_.try_emplace(point);
+    if (is_new) found->second.assign(first_[point].begin(), first_[point].end());
+    return found->second;
+  }
+
+  std::span<const Triangle> triangles_;
+  Groups<Index> first_;
+  std::unordered_map<Index, std::vector<Index>> changed_;
+};
 
 // Height of a triangle as a share of the front's size: 8 to 16 units in the last place of its coordinates.
 constexpr double thinnest = 0x1p-20;
@@ -164,10 +209,129 @@ class Flipper {
   std::vector<std::uint8_t> is_removed_;
 };
 
+constexpr int most_steps = 6;  // units in the last place by which a point is moved
+constexpr int most_passes = 8;
+
+// The places of points as files hold them. The floats are stored first, because g++ 12 drops the rounding of
+// double(float(x)) when it vectorises.
+std::vector<Vec2> stored_places(const Solid& solid) {
+  std::vector<Vec2f> stored;
+  stored.reserve(solid.points.size());
+  for (const Vec3& p : solid.points) stored.push_back(p.head<2>().cast<float>());
+  std::vector<Vec2> places;
+  places.reserve(stored.size());
+  for (const Vec2f& p : stored) places.push_back(p.cast<double>());
+  return places;
+}
+
+bool is_folded(std::span<const Vec2> places, const Triangle& t) {
+  return orient2d(places[t[0]], places[t[1]], places[t[2]]) <= 0;
+}
+
+std::span<const Triangle> front_of(const Solid& solid) {
+  return std::span(solid.triangles).first(solid.front_triangles);
+}
+
+std::vector<Index> folds_among(const Solid& solid, std::span<const Vec2> places) {
+  std::vector<Index> folds;
+  for (Index t = 0; t < front_of(solid).size(); ++t)
+    if (is_folded(places, solid.triangles[t])) folds.push_back(t);
+  return folds;
+}
+
+class Unfolder {
+ public:
+  Unfolder(Solid& solid, std::span<const Index> outline)
+      : solid_(solid), places_(stored_places(solid)), is_fixed_(solid.points.size(), 0) {
+    for (const Index i : outline) is_fixed_[i] = 1;
+  }
+
+  void run() {
+    std::vector<Index> folds = folds_among(solid_, places_);
+    if (folds.empty()) return;
+    prepare();
+    for (int pass = 0; pass < most_passes && !folds.empty(); ++pass) {
+      for (const Index t : folds)
+        if (is_folded(places_, solid_.triangles[t])) mend(solid_.triangles[t]);
+      folds = folds_among(solid_, places_);
+    }
+  }
+
+ private:
+  void prepare() {
+    fans_.emplace(solid_.points.size(), front_of(solid_));
+    const Box box = used_box(solid_.points, solid_.triangles);
+    for (std::size_t i = 0; i < is_fixed_.size(); ++i) {
+      const Vec3& p = solid_.points[i];
+      is_fixed_[i] |= ((p - box.min).head<2>().minCoeff() <= 0 || (box.max - p).head<2>().minCoeff() <= 0);
+    }
+    const auto largest = static_cast<float>(
+        std::max(box.max.head<2>().cwiseAbs().maxCoeff(), box.min.head<2>().cwiseAbs().maxCoeff()));
+    step_ = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
+    const bool has_walls = solid_.front_triangles < solid_.triangles.size();
+    for (Index i = 0; has_walls && i < solid_.points.size(); ++i)
+      at_place_.emplace(std::pair(solid_.points[i].x(), solid_.points[i].y()), i);
+  }
+
+  std::size_t folds_around(Index point) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        fans_->around(point), [&](Index t) { return is_folded(places_, solid_.triangles[t]); }));
+  }
+
+  // Moves a corner of a folded triangle so that fewer triangles around it are folded, if there is such a place.
+  void mend(const Triangle& t) {
+    for (int steps = 1; steps <= most_steps; ++steps)
+      for (const Index corner : t)
+        for (const Vec2& direction : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1), Vec2(1, 1),
+                                      Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)})
+          if (!is_fixed_[corner] && improves(corner, steps * step_ * direction)) return;
+  }
+
+  bool improves(Index corner, const Vec2& move) {
+    const std::size_t before = folds_around(corner);
+    const Vec2f place = (places_[corner] + move).cast<float>();
+    const Vec2 old = std::exchange(places_[corner], place.cast<double>());
+    if (folds_around(corner) < before) {
+      move_all_at(corner, places_[corner]);
+      return true;
+    }
+    places_[corner] = old;
+    return false;
+  }
+
+  // Moves the point and those at the same place below it.
+  void move_all_at(Index corner, const Vec2& place) {
+    std::vector<Index> together{corner};
+    const auto [first, last] =
+        at_place_.equal_range(std::pair(solid_.points[corner].x(), solid_.points[corner].y()));
+    for (auto each = first; each != last; ++each) together.push_back(each->second);
+    at_place_.erase(first, last);
+    for (const Index i : together) {
+      solid_.points[i].head<2>() = places_[i] = place;
+      at_place_.emplace(std::pair(place.x(), place.y()), i);
+    }
+  }
+
+  Solid& solid_;
+  std::vector<Vec2> places_;
+  std::vector<std::uint8_t> is_fixed_;
+  std::optional<Fans> fans_;
+  std::multimap<std::pair<double, double>, Index> at_place_;  // once there are walls
+  double step_ = 0;
+};
+
 }  // namespace
 
 double flip_thin_triangles(Solid& front, bool may_lose_edges) {
   return Flipper(front, may_lose_edges).run();
+}
+
+std::vector<Index> find_folds(const Solid& solid) {
+  return folds_among(solid, stored_places(solid));
+}
+
+void unfold(Solid& solid, std::span<const Index> outline) {
+  Unfolder(solid, outline).run();
 }
 
 }  // namespace relievo

@@ -2,6 +2,8 @@
 // Tested by thin_triangles_test.
 #pragma once
 
+#include <span>
+
 #include "relievo/plate/solid.h"
 
 namespace relievo {
@@ -13,5 +15,13 @@ namespace relievo {
 // unless rounding does turn them over. Triangles whose longest edge is on the front's boundary are removed if
 // `may_lose_edges`, together with points that nothing else uses.
 double flip_thin_triangles(Solid& front, bool may_lose_edges = false);
+
+// Returns the triangles of the front that are not counter-clockwise, seen from above, with coordinates as files hold them.
+// If there are none, and its outline does not cut itself, neither does a front that files hold.
+std::vector<Index> find_folds(const Solid& solid);
+
+// Moves points of the front, together with those below them, by a few units in the last place until find_folds() finds
+// none, or as few as it can. The points of the outline, and those on the sides of the box, stay.
+void unfold(Solid& solid, std::span<const Index> outline = {});
 
 }  // namespace relievo

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "quality/barycentric_map.h"
+#include "quality/model_picture.h"
 #include "relief/baselines/scaled.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/baselines.h"

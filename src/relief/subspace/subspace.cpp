@@ -4,15 +4,14 @@
 #include <array>
 #include <limits>
 
+#include "core/lists.h"
 #include "core/memory.h"
 #include "relief/style.h"
 #include "relief/subspace/control_mesh.h"
-#include "relief/subspace/region_samples.h"
 #include "relief/weight_table.h"
 #include "relievo/geometry/spline.h"
 #include "relievo/scan/surface.h"
 #include "scan/jumps.h"
-#include "scan/pick.h"
 
 namespace relievo {
 namespace {

@@ -7,11 +7,18 @@
 
 #include "geometry/neighbours.h"
 #include "relievo/scan/cloud.h"
+#include "relievo/scan/spacing.h"
 
 namespace relievo {
 
 // See the function of this name in cloud.h. `tree` is that of the cloud. Returns nothing if hardly any points
 // repeat others.
 std::optional<Cloud> without_repeated_points(const Cloud& cloud, const KdTree<Vec3>& tree);
+
+// Returns a subset of the points of a cloud with normals whose spacing, as measured by measure_spacing(), is
+// about `wanted`. Each has the mean normal and colour of the points it represents. `spacing` is that of the
+// cloud; its rho must be smaller than `wanted`. Takes O(n log n). The result depends on the order of the
+// points.
+Cloud subsample(const Cloud& cloud, const Spacing& spacing, double wanted);
 
 }  // namespace relievo

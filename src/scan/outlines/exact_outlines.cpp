@@ -1,4 +1,4 @@
-#include "scan/outlines/exact_outlines.h"
+#include "scan/outlines/outlines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,12 +6,12 @@
 #include <limits>
 #include <optional>
 
+#include "core/lists.h"
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
-#include "scan/outlines/notches.h"
+#include "scan/outlines/outlines.h"
 #include "scan/outlines/row_points.h"
-#include "scan/pick.h"
 
 namespace relievo {
 namespace {
@@ -23,16 +23,6 @@ constexpr double widest_gap = 1.6;       // radius of the largest empty circle i
 constexpr double sliver_width = .02;
 constexpr double widest_sample = 1.9;  // radius of the largest such circle that one point in its middle fills
 constexpr double cell_size = .7;       // of the set of new points; also their least distance in gaps
-
-// Returns nothing for a triangle without area.
-std::optional<Vec2> circumcentre(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 u = b - a, v = c - a;
-  const double twice_area = cross(u, v);
-  if (!(twice_area > 0)) return std::nullopt;
-  return a + Vec2(v.y() * u.squaredNorm() - u.y() * v.squaredNorm(),
-                  u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) /
-                 (2 * twice_area);
-}
 
 // Adds the points of a hexagonal lattice over the plane that lie in a counter-clockwise triangle.
 void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std::vector<Vec2>& places) {
@@ -57,10 +47,11 @@ std::vector<Vec2> places_in_gaps(const Surface& surface) {
     if (!surface.boundary.is_inside[t]) continue;
     const Triangle& corners = surface.triangulation.triangles[t];
     const auto at = [&](int i) -> Vec2 { return surface.points[corners[i]].head<2>(); };
-    const std::optional<Vec2> centre = circumcentre(at(0), at(1), at(2));
-    if (!centre || (*centre - at(0)).norm() <= widest_gap * surface.rho) continue;
-    centres.push_back(*centre);
-    if ((*centre - at(0)).norm() > widest_sample * surface.rho)
+    if (!(cross(at(1) - at(0), at(2) - at(0)) > 0)) continue;
+    const Vec2 centre = circle_through(at(0), at(1), at(2)).centre;
+    if ((centre - at(0)).norm() <= widest_gap * surface.rho) continue;
+    centres.push_back(centre);
+    if ((centre - at(0)).norm() > widest_sample * surface.rho)
       add_lattice_points({at(0), at(1), at(2)}, surface.rho, lattice);
   }
   centres.insert(centres.end(), lattice.begin(), lattice.end());
@@ -230,6 +221,38 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
+// Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle empty there.
+constexpr double widest_circle = 1.2;
+// A surface turns away if its normal leans more, as in outlines.cpp.
+constexpr double least_turned = .75;
+
+double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double twice_area = std::abs(cross(b - a, c - a));
+  return (b - a).norm() * (c - b).norm() * (a - c).norm() / std::max(2 * twice_area, 1e-300);
+}
+
+// Returns whether a depth jump lies between two points and the surface behind ends before it, as its normal leans
+// towards the one in front.
+bool ends_at_jump(const Surface& surface, Index front, Index back) {
+  if (!is_occlusion(surface, front, back)) return false;
+  if (surface.points[front].z() < surface.points[back].z()) std::swap(front, back);
+  const Vec2 step = (surface.points[front] - surface.points[back]).head<2>();
+  return surface.normals[back].head<2>().cast<double>().dot(step) > least_turned * step.norm();
+}
+
+std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
+  const std::vector<Triangle>& triangles = surface.triangulation.triangles;
+  std::vector<std::uint8_t> is_gap(triangles.size(), 0);
+  parallel_for(triangles.size(), [&](std::size_t t) {
+    if (!surface.boundary.is_inside[t]) return;
+    const auto [a, b, c] = triangles[t];
+    const auto at = [&](Index i) -> Vec2 { return surface.points[i].head<2>(); };
+    is_gap[t] = circle_radius(at(a), at(b), at(c)) > widest_circle * surface.rho &&
+                (ends_at_jump(surface, a, b) || ends_at_jump(surface, b, c) || ends_at_jump(surface, c, a));
+  });
+  return is_gap;
+}
+
 }  // namespace
 
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
@@ -250,6 +273,20 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
   PointMeasures new_measures;
   now.replace(surface, new_measures);
   measures = std::move(new_measures);
+}
+
+void open_notches(Surface& surface) {
+  std::vector<std::uint8_t>& is_inside = surface.boundary.is_inside;
+  const std::vector<std::uint8_t> is_gap = gap_triangles(surface);
+  std::vector<Index> open;
+  for (Index t = 0; t < is_inside.size(); ++t)
+    if (!is_inside[t]) open.push_back(t);
+  while (!open.empty()) {
+    const Index t = open.back();
+    open.pop_back();
+    for (const Index other : surface.triangulation.neighbours[t])
+      if (other != no_index && is_inside[other] && is_gap[other]) is_inside[other] = 0, open.push_back(other);
+  }
 }
 
 }  // namespace relievo

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "relievo/scan/surface.h"
-#include "scan/outlines/side_interpolation.h"
+#include "scan/outlines/row_points.h"
 
 namespace relievo {
 
@@ -15,5 +15,9 @@ namespace relievo {
 // place of those found near them. Changes nothing if there is no silhouette.
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines = {});
+
+// Marks triangles as outside, from the silhouette inwards, that lie in the gap between a surface and another one behind
+// it which turns away from the viewer there: nothing is seen between them.
+void open_notches(Surface& surface);
 
 }  // namespace relievo

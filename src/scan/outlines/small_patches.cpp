@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/disjoint_sets.h"
-#include "core/keep_where.h"
+#include "core/lists.h"
 #include "scan/outlines/outlines.h"
 
 namespace relievo {

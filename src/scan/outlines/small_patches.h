@@ -2,7 +2,7 @@
 #pragma once
 
 #include "relievo/scan/surface.h"
-#include "scan/outlines/side_interpolation.h"
+#include "scan/outlines/row_points.h"
 
 namespace relievo {
 

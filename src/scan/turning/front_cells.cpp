@@ -4,12 +4,156 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include "core/simd.h"
 #include "relievo/core/parallel.h"
-#include "scan/turning/disc_band.h"
+#include "relievo/core/types.h"
+#include "scan/scan_limits.h"
 
 namespace relievo {
 namespace {
+
+// A point in view coordinates, in cells from the grid's corner.
+struct FrontDisc {
+  // Radius of the discs that hide what is behind them, in spacings.
+  static constexpr float hiding_radius{ScanLimits::disc_radius};
+
+  Vec3f place;
+  Vec3f normal;
+  Vec2f slope;
+  float spacing;
+};
+
+// Rows of one band, with room behind each row for the last vector of cells that a disc covers.
+class DiscBand {
+ public:
+  DiscBand(int columns, int first_row, int rows);
+
+  // Raises depths to those of discs. All depths are drawn before the first normal.
+  void draw_depths(std::span<const FrontDisc> discs);
+
+  // Adds the normals of discs to the cells around, in which they are in front.
+  void add_normals(std::span<const FrontDisc> discs);
+
+  // Writes depths and unit normals to the band's rows.
+  void write(FrontCells& cells) const;
+
+  // The first cell of a row, counted from the band's first.
+  float* depths(int row) { return depth_.data() + row * stride_; }
+  float* normals(int axis, int row) { return normal_[static_cast<std::size_t>(axis)].data() + row * stride_; }
+  int columns() const { return columns_; }
+  int first_row() const { return first_row_; }
+  int rows() const { return rows_; }
+
+ private:
+  int columns_, first_row_, rows_, stride_;
+  std::vector<float> depth_;
+  std::array<std::vector<float>, 3> normal_;  // x, y and z
+};
+
+constexpr int lanes = 8;
+// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the places
+// between scattered points uncovered.
+constexpr float mean_radius = 1.5F;
+constexpr float least_mean_radius = .8F;  // in cells
+constexpr float depth_tolerance{ScanLimits::depth_tolerance};
+constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
+
+// Eight cells of one row: the steps to their centres from that of a disc, and how much higher its plane lies there.
+struct Steps {
+  Float8 distance_sq, rise;
+};
+
+RELIEVO_INLINE Steps steps_from(const FrontDisc& disc, int x, float dy) {
+  constexpr Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
+  const Float8 dx = static_cast<float>(x) + lane + .5F - disc.place.x();
+  return {dx * dx + dy * dy, disc.slope.x() * dx + disc.slope.y() * dy};
+}
+
+// Calls f(x, row, dy) for runs of eight cells of a band, until they contain all cells with centres within the
+// radius of the disc's centre in the plane. `dy` is the row's distance from that centre.
+template <typename F>
+RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float radius, F&& f) {
+  const float y = disc.place.y() - static_cast<float>(band.first_row());
+  const int first = std::max(0, static_cast<int>(std::ceil(y - radius - .5F))),
+            last = std::min(band.rows(), static_cast<int>(std::floor(y + radius - .5F)) + 1);
+  const int left = std::max(0, static_cast<int>(std::ceil(disc.place.x() - radius - .5F))),
+            right = std::min(band.columns(), static_cast<int>(std::floor(disc.place.x() + radius - .5F)) + 1);
+  for (int row = first; row < last; ++row) {
+    const float dy = static_cast<float>(band.first_row() + row) + .5F - disc.place.y();
+    for (int x = left; x < right; x += lanes) f(x, row, dy);
+  }
+}
+
+// Raises the cell in which the disc's centre lies: small discs cover the centre of no cell.
+RELIEVO_INLINE void raise_own_cell(DiscBand& band, const FrontDisc& disc) {
+  const int x = static_cast<int>(disc.place.x()), y = static_cast<int>(disc.place.y());
+  if (y < band.first_row() || y >= band.first_row() + band.rows()) return;
+  const float rise =
+      disc.slope.dot(Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F) - disc.place.head<2>());
+  float& depth = band.depths(y - band.first_row())[x];
+  depth = std::max(depth, disc.place.z() + std::clamp(rise, -1.F, 1.F));
+}
+
+RELIEVO_INLINE void draw(DiscBand& band, std::span<const FrontDisc> discs) {
+  for (const FrontDisc& disc : discs) {
+    const float radius = FrontDisc::hiding_radius * disc.spacing, radius_sq = radius * radius;
+    each_run(band, disc, radius, [&](int x, int row, float dy) {
+      const Steps steps = steps_from(disc, x, dy);
+      Float8& depth = *reinterpret_cast<Float8*>(band.depths(row) + x);
+      const Float8 raised = disc.place.z() + steps.rise;
+      const auto is_higher = (steps.distance_sq + steps.rise * steps.rise <= radius_sq) & (raised > depth);
+      depth = is_higher ? raised : depth;
+    });
+    raise_own_cell(band, disc);
+  }
+}
+
+RELIEVO_INLINE void add(DiscBand& band, std::span<const FrontDisc> discs) {
+  for (const FrontDisc& disc : discs) {
+    const float radius = std::max(mean_radius * disc.spacing, least_mean_radius), radius_sq = radius * radius;
+    const float tolerance =
+        depth_tolerance * std::max(disc.spacing, .5F) / std::max(disc.normal.z(), least_facing);
+    each_run(band, disc, radius, [&](int x, int row, float dy) {
+      const Steps steps = steps_from(disc, x, dy);
+      const Float8 rest = 1 - steps.distance_sq / radius_sq;
+      const Float8 depth = *reinterpret_cast<const Float8*>(band.depths(row) + x);
+      const auto is_in_front =
+          (rest > 0.F) & (depth > FrontCells::no_depth) & (disc.place.z() + steps.rise + tolerance >= depth);
+      const Float8 weight = is_in_front ? rest * rest : Float8{};
+      for (int axis = 0; axis < 3; ++axis)
+        *reinterpret_cast<Float8*>(band.normals(axis, row) + x) += weight * disc.normal[axis];
+    });
+  }
+}
+
+DiscBand::DiscBand(int columns, int first_row, int rows)
+    : columns_(columns), first_row_(first_row), rows_(rows), stride_(columns + lanes) {
+  const std::size_t cells = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows);
+  depth_.assign(cells, FrontCells::no_depth);
+  for (std::vector<float>& axis : normal_) axis.assign(cells, 0.F);
+}
+
+void DiscBand::draw_depths(std::span<const FrontDisc> discs) {
+  RELIEVO_WIDE(draw(*this, discs));
+}
+
+void DiscBand::add_normals(std::span<const FrontDisc> discs) {
+  RELIEVO_WIDE(add(*this, discs));
+}
+
+void DiscBand::write(FrontCells& cells) const {
+  for (int row = 0; row < rows_; ++row)
+    for (int x = 0; x < columns_; ++x) {
+      const auto i = static_cast<std::size_t>(row * stride_ + x);
+      const Vec3f n(normal_[0][i], normal_[1][i], normal_[2][i]);
+      const float length = n.norm();
+      cells.depth.at(x, first_row_ + row) = depth_[i];
+      cells.normal.at(x, first_row_ + row) = length > 0 ? Vec3f(n / length) : Vec3f::Zero();
+    }
+}
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws

@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "core/lists.h"
 #include "geometry/hilbert.h"
 #include "relievo/core/parallel.h"
 #include "scan/measured_cloud.h"
-#include "scan/pick.h"
 #include "scan/scan_limits.h"
 
 namespace relievo {

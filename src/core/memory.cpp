@@ -1,0 +1,29 @@
+#include "core/memory.h"
+
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace relievo {
+
+LargeArray make_large_array(std::size_t floats) {
+  // Large pages have 2 MB on x86 and ARM. Rounding up smaller arrays to whole ones would waste too much.
+  const std::size_t page = std::size_t{1} << 21, bytes = floats * sizeof(float);
+  const std::size_t alignment = bytes >= 4 * page ? page : 64;
+  const std::size_t rounded = (bytes / alignment + 1) * alignment;
+  void* array = std::aligned_alloc(alignment, rounded);
+  if (array == nullptr) {
+    // A program may have set a handler that ends it in order; operator new calls it, too.
+    if (const std::new_handler handler = std::get_new_handler()) handler();
+    throw std::bad_alloc();
+  }
+#if defined(__linux__)
+  // This is only a request: whether the system grants it affects the speed alone.
+  if (alignment == page) static_cast<void>(madvise(array, rounded, MADV_HUGEPAGE));
+#endif
+  return LargeArray(static_cast<float*>(array));
+}
+
+}  // namespace relievo

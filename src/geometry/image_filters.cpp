@@ -1,0 +1,227 @@
+#include "geometry/image_filters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/simd.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr int block = 32;  // samples worked on together, in registers
+constexpr float least = -std::numeric_limits<float>::infinity();
+
+// The grid within a frame of -infinity, so that no window leaves it.
+struct Framed {
+  int frame, stride, rows;
+  std::vector<float> values;
+  // Largest value of each run of `block` in each row.
+  int runs;
+  std::vector<float> highest;
+  // Largest value of each square of such runs.
+  std::vector<float> highest_of_square;
+
+  Framed(const Image<float>& image, int frame_width)
+      : frame(frame_width),
+        stride((image.width + 2 * frame + 2 * block - 1) / block * block),
+        rows(image.height + 2 * frame),
+        values(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows), least),
+        runs(stride / block),
+        highest(static_cast<std::size_t>(runs) * static_cast<std::size_t>(rows), least) {
+    parallel_for(
+        static_cast<std::size_t>(image.height),
+        [&](std::size_t y) {
+          const std::size_t row = y + static_cast<std::size_t>(frame);
+          for (int x = 0; x < image.width; ++x) {
+            const float value = image.at(x, static_cast<int>(y));
+            if (!(value > least)) continue;
+            const auto place = static_cast<std::size_t>(x + frame);
+            values[row * static_cast<std::size_t>(stride) + place] = value;
+            float& most = highest[row * static_cast<std::size_t>(runs) + place / block];
+            most = std::max(most, value);
+          }
+        },
+        16);
+    find_squares();
+  }
+
+  void find_squares() {
+    highest_of_square.assign(static_cast<std::size_t>(runs) * static_cast<std::size_t>(rows / block + 1),
+                             least);
+    for (int y = 0; y < rows; ++y)
+      for (int run = 0; run < runs; ++run) {
+        float& most = highest_of_square[static_cast<std::size_t>(y / block * runs + run)];
+        most = std::max(most, highest[static_cast<std::size_t>(y * runs + run)]);
+      }
+  }
+
+  // Returns an upper bound of rows y - away to y + away, columns x - away to x + block - 1 + away.
+  float highest_around(int x, int y, int away) const {
+    float most = least;
+    for (int row = (y - away) / block; row <= (y + away) / block; ++row)
+      for (int run = (x - away) / block; run <= (x + block - 1 + away) / block; ++run)
+        most = std::max(most, highest_of_square[static_cast<std::size_t>(row * runs + run)]);
+    return most;
+  }
+
+  const float* at(int x, int y) const { return values.data() + std::ptrdiff_t{y} * stride + x; }
+
+  // Returns an upper bound of row y from x to x + count - 1.
+  float highest_of(int x, int count, int y) const {
+    const float* const row = highest.data() + std::ptrdiff_t{y} * runs;
+    return *std::max_element(row + x / block, row + (x + count - 1) / block + 1);
+  }
+};
+
+struct Sums {
+  Float8 v[block / 8];
+};
+
+RELIEVO_INLINE void take(Sums& sums, const float* from, float height) {
+  for (int i = 0; i < block / 8; ++i) {
+    const Float8 value = *reinterpret_cast<const Float8*>(from + 8 * i) - height;
+    sums.v[i] = value > sums.v[i] ? value : sums.v[i];
+  }
+}
+
+RELIEVO_INLINE float lowest_of(const Sums& sums) {
+  float lowest = sums.v[0][0];
+  for (const Float8& v : sums.v)
+    for (int i = 0; i < 8; ++i) lowest = v[i] < lowest ? v[i] : lowest;
+  return lowest;
+}
+
+// A row of a window around a block, `away` rows from the window's middle.
+struct WindowRow {
+  int x, y, away, width;
+};
+
+// Returns the distance to the sides up to which values of the row, minus the shape, may exceed `lowest`; -1
+// if no value may.
+RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
+  for (;;) {
+    const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
+    int width = row.width;
+    while (width >= 0 && highest - profile.at(width, row.away) <= lowest) --width;
+    if (width == row.width || width < 0) return width;
+    row.width = width;
+  }
+}
+
+// Returns the distance in rows from the block up to which values, minus the shape, may exceed `lowest`; -1 if
+// no value may.
+RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
+  int away = profile.reach();
+  while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;
+  for (;;) {
+    const float highest = from.highest_around(x, y, away);
+    int nearer = away;
+    while (nearer >= 0 && highest - profile.at(0, nearer) <= lowest) --nearer;
+    if (nearer == away || nearer < 0) return nearer;
+    away = nearer;
+  }
+}
+
+RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowRow row, Sums& sums) {
+  while (!(profile.at(row.width, row.away) < std::numeric_limits<float>::infinity())) --row.width;
+  const int width = reaching(from, profile, row, lowest_of(sums));
+  const float* const middle = from.at(row.x, row.y);
+  for (int dx = -width; dx <= width; ++dx) take(sums, middle + dx, profile.at(std::abs(dx), row.away));
+}
+
+// Computes the block of samples that begins at x, y of the framed grid. Goes from the middle outwards, so
+// that soon no value farther away can be the largest.
+RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
+  Sums sums;
+  for (Float8& v : sums.v) v = Float8{} + least;
+  take_row(from, profile, {x, y, 0, profile.reach()}, sums);
+  const int rows = rows_reaching(from, profile, x, y, lowest_of(sums));
+  for (int away = 1; away <= rows; ++away) {
+    take_row(from, profile, {x, y - away, away, profile.reach()}, sums);
+    take_row(from, profile, {x, y + away, away, profile.reach()}, sums);
+  }
+  std::memcpy(to, &sums, sizeof sums);
+}
+
+// Lines that are averaged together: side by side in memory, so that columns use whole cache lines.
+constexpr std::size_t lanes = 16;
+using Lanes = std::array<float, lanes>;
+
+// A box average along `lines` <= lanes lines of n values; steps are the distances of values and of lines.
+struct Strip {
+  float* values;
+  std::size_t n, step, lines, line_step;
+
+  Lanes load(std::size_t i) const {
+    Lanes lane{};
+    for (std::size_t l = 0; l < lines; ++l) lane[l] = values[i * step + l * line_step];
+    return lane;
+  }
+  void store(std::size_t i, const Lanes& lane) const {
+    for (std::size_t l = 0; l < lines; ++l) values[i * step + l * line_step] = lane[l];
+  }
+};
+
+void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
+  line.resize(strip.n);
+  for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
+  std::array<double, lanes> sum{};  // double: what enters must leave without a trace
+  const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
+  const auto add = [&](std::ptrdiff_t i, double sign) {
+    const Lanes& lane = line[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];
+    for (std::size_t l = 0; l < lanes; ++l) sum[l] += sign * lane[l];
+  };
+  for (std::ptrdiff_t i = -r - 1; i < r; ++i) add(i, 1);
+  const double scale = 1.0 / static_cast<double>(2 * r + 1);
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    add(i + r, 1);
+    add(i - r - 1, -1);
+    Lanes mean;
+    for (std::size_t l = 0; l < lanes; ++l) mean[l] = static_cast<float>(sum[l] * scale);
+    strip.store(static_cast<std::size_t>(i), mean);
+  }
+}
+
+}  // namespace
+
+Image<float> dilate(const Image<float>& image, const Profile& profile, int border) {
+  const int width = image.width + 2 * border, height = image.height + 2 * border;
+  if (width <= 0 || height <= 0) return {};
+  Image<float> out = filled_image(width, height, 0.F);
+  const Framed from(image, std::max(border, 0) + profile.reach() + block);
+  parallel_for(
+      static_cast<std::size_t>(out.height),
+      [&](std::size_t row) {
+        float result[block];
+        for (int x = 0; x < out.width; x += block) {
+          RELIEVO_WIDE(envelope(from, profile, x - border + from.frame,
+                                static_cast<int>(row) - border + from.frame, result));
+          const int count = std::min(block, out.width - x);
+          std::copy_n(result, count, &out.at(x, static_cast<int>(row)));
+        }
+      },
+      4);
+  return out;
+}
+
+void blur(Image<float>& image, int radius) {
+  const auto w = static_cast<std::size_t>(image.width), h = static_cast<std::size_t>(image.height),
+             r = static_cast<std::size_t>(radius);
+  float* const values = image.pixels.data();
+  const int passes = 2;
+  for (int pass = 0; pass < passes; ++pass) {
+    parallel_ranges(h, lanes, [&](std::size_t begin, std::size_t end) {
+      std::vector<Lanes> line;
+      average({&values[begin * w], w, 1, end - begin, w}, r, line);
+    });
+    parallel_ranges(w, lanes, [&](std::size_t begin, std::size_t end) {
+      std::vector<Lanes> line;
+      average({&values[begin], h, w, end - begin, 1}, r, line);
+    });
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,40 @@
+// Filters on images: the upper envelope of a shape that is moved along heights, and averages over neighbourhoods.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "relievo/core/image.h"
+
+namespace relievo {
+
+// Heights of a shape, symmetric in x and y, over offsets of whole samples.
+class Profile {
+ public:
+  // Calls height(x, y) for 0 <= x, y <= reach. The height is infinite outside the shape, and never falls with
+  // x or y.
+  template <typename F>
+  Profile(int reach, F&& height) : reach_(reach) {
+    for (int y = 0; y <= reach; ++y)
+      for (int x = 0; x <= reach; ++x) heights_.push_back(height(x, y));
+  }
+
+  int reach() const { return reach_; }
+  float at(int x, int y) const { return heights_[static_cast<std::size_t>(y * (reach_ + 1) + x)]; }
+
+ private:
+  int reach_;
+  std::vector<float> heights_;
+};
+
+// Returns, for every sample p, the largest value(q) - profile(p - q); NaN counts as -infinity. The result has
+// `border` more samples on each side than the image, or fewer if it is negative. The result is exact, as
+// skipped values cannot be the largest, and has the same bits for any number of threads.
+Image<float> dilate(const Image<float>& image, const Profile& profile, int border);
+
+// Replaces each value of an image with one channel by an average of its neighbourhood, twice a box of
+// 2 radius + 1 pixels in each direction; the border continues outside the image. Time does not depend on the
+// radius.
+void blur(Image<float>& image, int radius);
+
+}  // namespace relievo
