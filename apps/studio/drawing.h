@@ -9,7 +9,7 @@
 
 #include "common/wording.h"
 #include "relievo/job.h"
-#include "relievo/picture/solid_renderer.h"
+#include "relievo/picture/preview.h"
 #include "studio/solid_section.h"
 
 namespace relievo::app::studio {

@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// Keeps the elements values[i] for which is_kept(i) holds, in their order. Calls is_kept() once for each i, from 0
-// upwards.
+// Keeps the elements values[i] for which is_kept(i) holds, in their order. Calls is_kept() once for each i,
+// from 0 upwards.
 template <typename T, typename IsKept>
 void keep_where(std::vector<T>& values, IsKept&& is_kept) {
   std::size_t kept = 0;
@@ -22,7 +22,7 @@ void keep_where(std::vector<T>& values, IsKept&& is_kept) {
   values.resize(kept);
 }
 
-// Returns the elements numbered by `order`; nothing of an empty list.
+// Returns the elements that `order` numbers; an empty list if `from` is empty.
 template <typename List>
 auto pick(const List& from, std::span<const Index> order) {
   std::vector<std::ranges::range_value_t<List>> out(from.empty() ? 0 : order.size());

@@ -146,11 +146,13 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
   std::memcpy(to, &sums, sizeof sums);
 }
 
-// Lines that are averaged together: side by side in memory, so that columns use whole cache lines.
+// The number of lines that are averaged together. They are side by side in memory, so that columns use whole
+// cache lines.
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 
-// A box average along `lines` <= lanes lines of n values; steps are the distances of values and of lines.
+// Up to `lanes` lines of n values for a box average. `step` is the distance between values, `line_step` the
+// one between lines.
 struct Strip {
   float* values;
   std::size_t n, step, lines, line_step;
@@ -168,7 +170,7 @@ struct Strip {
 void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
   line.resize(strip.n);
   for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
-  std::array<double, lanes> sum{};  // double: what enters must leave without a trace
+  std::array<double, lanes> sum{};  // double, so that values which leave the box leave no trace
   const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
   const auto add = [&](std::ptrdiff_t i, double sign) {
     const Lanes& lane = line[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];

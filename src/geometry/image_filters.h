@@ -32,9 +32,9 @@ class Profile {
 // skipped values cannot be the largest, and has the same bits for any number of threads.
 Image<float> dilate(const Image<float>& image, const Profile& profile, int border);
 
-// Replaces each value of an image with one channel by an average of its neighbourhood, twice a box of
-// 2 radius + 1 pixels in each direction; the border continues outside the image. Time does not depend on the
-// radius.
+// Replaces each value of an image with one channel by an average of its neighbourhood: two passes of a box of
+// 2 radius + 1 pixels in each direction. The border continues outside the image. The time does not depend on
+// the radius.
 void blur(Image<float>& image, int radius);
 
 }  // namespace relievo

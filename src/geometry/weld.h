@@ -74,12 +74,13 @@ void for_each_hashed(const PointTable& table, std::size_t n, const Point& point,
 // Returns for each point the lowest number of a point with exactly the same coordinates.
 std::vector<Index> first_coincident(std::span<const Vec3> points);
 
-// The points of a mesh that its triangles use.
+// The used points of a mesh and their new numbers.
 struct UsedPoints {
   std::vector<Index> points;      // the old numbers of the used points, ascending
   std::vector<Index> new_number;  // per old point its place in `points`, no_index if it is not used
 
-  // Returns the elements of an array over the old points that belong to used ones; of an empty array, none.
+  // Returns the elements of an array over the old points that belong to used ones; an empty array for an
+  // empty one.
   template <typename T>
   std::vector<T> pick(const std::vector<T>& old) const {
     std::vector<T> picked;
@@ -90,8 +91,8 @@ struct UsedPoints {
   }
 };
 
-// Renumbers the corners of triangles over `point_count` points so that they count used points only, which keep
-// their order.
+// Renumbers the corners of triangles over `point_count` points: only used points get numbers, in their old
+// order.
 UsedPoints compact(std::size_t point_count, std::span<Triangle> triangles);
 
 // Removes the points of a mesh, and their colours, that no triangle uses.

@@ -26,7 +26,7 @@ struct SampleFormat {
   unsigned bits = 1;
 };
 
-// A row as libtiff returns it, of which every `step`-th sample is read, from the sample `first` on.
+// A row as libtiff returns it. Every `step`-th sample is read, from the sample `first` on.
 struct SampleRow {
   const unsigned char* bytes = nullptr;
   std::size_t first = 0, step = 1;
@@ -45,7 +45,7 @@ std::uint64_t packed(const unsigned char* row, std::size_t first_bit, unsigned b
   return value;
 }
 
-// Converts IEEE 754's numbers of 16 bits.
+// Converts a number of 16 bits (IEEE 754 half precision).
 float half(std::uint64_t bits) {
   const auto exponent = static_cast<int>(bits >> 10 & 31), fraction = static_cast<int>(bits & 1023);
   const float sign = bits >> 15 & 1 ? -1.F : 1.F;
@@ -65,9 +65,9 @@ float as_signed(std::uint64_t bits, unsigned size) {
   return static_cast<float>(static_cast<std::int64_t>(bits << unused) >> unused);
 }
 
-// Returns the format of the tags SampleFormat and BitsPerSample if it is read: whole numbers of 1 to 32 and
-// of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are taken as
-// whole numbers.
+// Returns the format of the tags SampleFormat and BitsPerSample if it is supported: whole numbers of 1 to 32
+// and of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are
+// taken as whole numbers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits) {
   const auto is_one_of = [&](auto... sizes) { return ((bits == sizes) || ...); };
   if (sample_format == SAMPLEFORMAT_UINT || sample_format == SAMPLEFORMAT_VOID) {
@@ -80,7 +80,7 @@ std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned 
   return std::nullopt;
 }
 
-// Returns what a picture has instead, for messages: "4-bit whole numbers".
+// Returns a description of the samples for messages: "4-bit whole numbers".
 std::string describe_samples(unsigned sample_format, unsigned bits) {
   constexpr std::array names = {"numbers", "whole numbers", "signed numbers", "fractions",
                                 "undefined numbers"};
@@ -88,8 +88,8 @@ std::string describe_samples(unsigned sample_format, unsigned bits) {
   return std::to_string(bits) + "-bit " + (sample_format > 4 ? "complex numbers" : names[known]);
 }
 
-// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the
-// machine's byte order, which is little-endian, and all others packed, the most significant bit first.
+// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the machine's byte order, which is
+// little-endian, and all other widths packed, the most significant bit first.
 void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to) {
   const unsigned bits = format.bits;
   const bool is_packed = bits % 8 != 0;
@@ -103,7 +103,7 @@ void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_
   }
 }
 
-constexpr std::uint32_t gdal_no_data = 42113;  // the tag of the value that stands for none, as text
+constexpr std::uint32_t gdal_no_data = 42113;  // tag of the value for missing depths, as text
 
 struct Layout {
   std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;

@@ -51,8 +51,8 @@ struct RecordColumn {
 };
 
 struct Records {
-  std::uint64_t offset = 0;  // of the first row in the file
-  std::uint64_t count = 0;   // of rows
+  std::uint64_t offset = 0;  // offset of the first row in the file
+  std::uint64_t count = 0;   // number of rows
   std::size_t stride = 0;    // bytes from row to row
   bool is_big_endian = false;
   std::array<RecordColumn, 3> position;
@@ -62,22 +62,22 @@ struct Records {
 // The rows of a file that can be read piece by piece.
 struct StreamRecords {
   Records records;
-  std::string format;              // for people
-  std::uint64_t faces = 0;         // of a mesh over the points, which is not read so
-  bool may_end_early = false;      // the rows that are there are read, if the file has fewer than it promises
-  std::uint64_t missing_rows = 0;  // promised, beyond the end of the file
+  std::string format;              // shown to people
+  std::uint64_t faces = 0;         // faces of a mesh, which are not read
+  bool may_end_early = false;      // a file with fewer rows than promised is read up to its end
+  std::uint64_t missing_rows = 0;  // promised, but missing because the file ends early
 };
 
 // Returns a cloud of `points` points, with normals and colours if the records have them; all values are
 // unset.
 Cloud sized_cloud(const Records& records, std::size_t points);
 
-// Decodes `rows` rows from `first` on into the cloud from point `begin` on. Normals are as unit_normal()
-// returns them.
+// Decodes `rows` rows, which start at `first`, into the cloud from point `begin` on. Normals are as
+// unit_normal() returns them.
 void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
                  std::size_t begin);
 
-// Decodes all rows, concurrently, from `first` on.
+// Decodes all rows, which start at `first`, concurrently.
 Cloud decode_all(const Records& records, const char* first);
 
 }  // namespace relievo::io

@@ -20,17 +20,17 @@ namespace relievo::io {
 // The header of a PLY file, which states the elements that follow and the layout of their rows.
 struct PlyProperty {
   std::string_view name;
-  NumberType type;                       // of the value, or of each value of the list
-  std::optional<NumberType> count_type;  // an integer type, for lists only
+  NumberType type;                       // type of the value, or of each value of the list
+  std::optional<NumberType> count_type;  // type of a list's length, an integer; for lists only
 
   bool is_list() const { return count_type.has_value(); }
 };
 
 struct PlyElement {
   std::string_view name;
-  std::uint64_t count = 0;  // as stated in the header, which may be wrong
+  std::uint64_t count = 0;  // number of rows as stated in the header, which may be wrong
   std::vector<PlyProperty> properties;
-  std::size_t line = 0;  // of its declaration
+  std::size_t line = 0;  // line of its declaration
 };
 
 // Returns the smallest size of a binary row in bytes, with all lists empty.
@@ -46,7 +46,7 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
   std::size_t data_offset = 0;  // byte after the header
-  std::size_t lines = 0;        // of the header
+  std::size_t lines = 0;        // lines of the header
 };
 
 // Returns the header. Errors name the line.

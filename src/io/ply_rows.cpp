@@ -19,7 +19,7 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, Rows& r
   return {};
 }
 
-// Reads a body by its rows, ascii or binary. Faces before the vertices are read after them.
+// Reads a body through `rows`, ascii or binary. Faces that precede the vertices are read after them.
 template <typename Rows>
 Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
   std::vector<std::pair<const PlyElement*, Rows>> early_faces;
@@ -60,8 +60,8 @@ class AsciiRows {
       }
     }
     const std::string_view word = words_.next();
-    // MeshLab writes colours of a face's corners, which its header does not declare. Only vertices must be
-    // right.
+    // MeshLab writes colours of a face's corners that its header does not declare. Therefore only vertex rows
+    // with too many words are errors.
     if (!word.empty() && element.name == "vertex") return fail_in_long_row(element, word);
     words_ = Words();
     ++rows_;
@@ -100,7 +100,7 @@ class AsciiRows {
   Result<void> fail(std::string expected) const { return lines_.fail(std::move(expected)); }
 
  private:
-  // Returns the next word, on this line or a later one; empty at the end of the file.
+  // Returns the next word, in this line or a later one; empty at the end of the file.
   std::string_view next_word() {
     std::string_view word = words_.next();
     while (word.empty()) {
@@ -152,7 +152,8 @@ bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
 
-// If the header promises more vertices than the bytes can contain, an error follows: no memory is taken then.
+// Allocates no memory if the header promises more vertices than the bytes can contain; reading then ends with
+// an error.
 Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
   cloud = sized_cloud(vertex_records(body.header, body.vertex, body.columns),
@@ -164,7 +165,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
       body.columns.has_colours() ? colour_scale(body.vertex.properties[body.columns.property[6]].type) : 1;
   std::array<double, VertexColumns::most> values = {};
   const auto take = [&](std::size_t property, std::string_view word) {
-    if (column_of[property] == VertexColumns::most) return true;  // it may be a text, such as True
+    if (column_of[property] == VertexColumns::most) return true;  // not read: it may be a text, such as True
     const auto value = parse_number(word);
     if (value) values[column_of[property]] = *value;
     return value.has_value();
@@ -182,7 +183,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
   return {};
 }
 
-// Walks over the bytes of the body; row by row if rows have lists.
+// Walks over the bytes of the body, row by row if rows have lists.
 class BinaryRows {
  public:
   BinaryRows(const Source& source, const PlyHeader& header)
@@ -257,7 +258,8 @@ class BinaryRows {
  private:
   std::size_t left() const { return source_.bytes.size() - at_; }
 
-  // Returns the length of the list that begins here; nothing if so many values cannot follow.
+  // Returns the length of the list that begins here, or an error if the file is too short for that many
+  // values.
   Result<std::size_t> list_length(const PlyProperty& list) {
     if (left() < size_in_bytes(*list.count_type)) return std::unexpected(fail_at_end(list).error());
     double length = 0;
@@ -280,15 +282,15 @@ class BinaryRows {
   const Source& source_;
   PlyFormat format_;
   std::size_t at_;
-  std::vector<double> values_;  // of the list read last, kept for its memory
+  std::vector<double> values_;  // values of the last list; it is reused to keep its memory
 };
 
-// Rows with lists have different sizes: each is copied without its lists, and the copies are decoded as
-// usual.
+// Rows with lists differ in size. Each row is therefore copied without its lists, and the copies are decoded
+// as usual.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;
-  std::vector<std::size_t> place(plain.properties.size());  // where each property is in the copy
+  std::vector<std::size_t> place(plain.properties.size());  // index of each property in the copy
   for (std::size_t i = 0; i < plain.properties.size(); ++i) {
     place[i] = bytes.size();
     if (!plain.properties[i].is_list()) bytes.resize(bytes.size() + size_in_bytes(plain.properties[i].type));

@@ -157,7 +157,7 @@ void add_polygon(std::span<const std::int64_t> corners, std::span<const Vec3> po
     add_triangle(corners[a], corners[b], corners[c], triangles);
   };
   if (corners.size() == 3) return add(0, 1, 2);
-  // Most polygons have four corners: those take no memory of their own.
+  // Most polygons have at most four corners; no memory is allocated for them.
   std::array<Vec3, 4> four;
   std::vector<Vec3> more(corners.size() > four.size() ? corners.size() : 0);
   const std::span<Vec3> polygon =

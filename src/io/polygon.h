@@ -37,18 +37,19 @@ void for_each_triangle(std::span<const Vec3> corners, Add&& add) {
 
 enum class FaceKind { polygon, strip, fan };
 
-// Appends the triangles of a face, whose corners are numbers of points. Of a polygon, triangles that cover it,
-// as triangulate() says; of a strip, its triangles, every second one reversed, with a restart after each -1; of
-// a fan, all triangles at its first corner. Triangles with two equal corners are left out. Returns false, and
-// appends nothing, if a corner is not the number of a point.
+// Appends the triangles of a face, whose corners are indices of points. A polygon is triangulated, see
+// triangulate(). A strip gives its triangles, every second one reversed, and restarts after each -1. A fan
+// gives all triangles at its first corner. Triangles with two equal corners are left out. Returns false, and
+// appends nothing, if a corner is not the index of a point.
 bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<const Vec3> points,
               std::vector<Triangle>& triangles);
 
-// Returns the message about a face that add_face() refuses: which corner is not the number of a point.
+// Returns the message about a face that add_face() refuses, which names the corner that is not the index of a
+// point.
 std::string expected_corners(std::span<const std::int64_t> corners, std::span<const Vec3> points);
 
-// Returns the mesh of the triangles over a cloud's points, without triangles that have a corner which is not
-// finite. The cloud's normals, if any, become the corners' normals.
+// Returns the mesh of the triangles over a cloud's points, without triangles that have a non-finite corner.
+// The cloud's normals, if any, become the corners' normals.
 Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles);
 
 }  // namespace relievo::io

@@ -84,7 +84,8 @@ std::uint64_t big_endian_32(std::string_view bytes, std::size_t at) {
 }
 
 // A text of three coordinates has at least 6 bytes per point, usually 20 to 30; an OBJ with two triangles per
-// vertex has about 60 bytes per vertex, a glTF 36. 20 bytes per point overestimate rather than underestimate.
+// vertex has about 60 bytes per vertex, a glTF 36. 20 bytes per point give too many points rather than too
+// few.
 ScanSize estimate(const io::Source& head, std::uint64_t file_bytes) {
   constexpr std::uint64_t bytes_per_point = 20;
   ScanSize size{file_bytes / bytes_per_point, 0, 0};
@@ -109,8 +110,8 @@ ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
   return size;
 }
 
-// Returns the pixels of a PNG, whose first chunk states them. TIFF may state them anywhere in the file: there
-// is at least one byte for each pixel, unless they are compressed to less.
+// Returns the number of pixels of a PNG, which its first chunk states. A TIFF may state it anywhere in the
+// file; its size is estimated as one pixel per byte.
 ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
   if (!io::is_png(head) || head.bytes.size() < 24) return {0, 0, file_bytes};
   const std::uint64_t pixels = big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);

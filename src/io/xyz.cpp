@@ -105,7 +105,8 @@ using Row = std::vector<double>;
 
 using Names = std::span<const std::string_view>;
 
-// Names of the coordinates in files of other programs, most usual first: those of a plane in twos, and the height.
+// Names of coordinates in files of other programs, the most usual first: pairs of names for the plane, and
+// single names for the height.
 constexpr std::array<std::string_view, 18> plane_names = {
     "x",       "y",       "easting", "northing", "east",    "north",  "e",      "n",          "point_x",
     "point_y", "x_coord", "y_coord", "coord_x",  "coord_y", "xcoord", "ycoord", "rechtswert", "hochwert"};
@@ -115,11 +116,12 @@ constexpr std::array<std::string_view, 12> height_names = {"z",       "elevation
 
 constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
 
-// Names of red, green and blue in files of other programs, in threes.
+// Triples of names for red, green and blue in files of other programs.
 constexpr std::array<std::string_view, 9> colour_names = {"r",    "g",  "b",  "red", "green",
                                                           "blue", "rf", "gf", "bf"};
 
-// Classes of points in LAS go up to 31. Whole numbers that are no larger are rather these, or numbers of echoes.
+// Classes of points in LAS go up to 31. Columns of whole numbers up to this value are regarded as classes or
+// numbers of echoes.
 constexpr double largest_class = 31;
 
 std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
@@ -128,8 +130,8 @@ std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-// Looks for the names of a group of columns in the file's names. `spellings` has one group of names after the
-// other; the first that the file has as a whole sets the columns. Returns false if the file has none.
+// Looks for a group of columns among the file's names. `spellings` is a list of groups of names; the first
+// group that is complete in the file sets the columns. Returns false if there is none.
 bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t> columns) {
   for (; !spellings.empty(); spellings = spellings.subspan(columns.size())) {
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = find_name(names, spellings[i]);
@@ -138,8 +140,8 @@ bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t
   return false;
 }
 
-// Returns the line around a byte, or the part of it within 1,000 bytes: without that limit, a file of one
-// long line would be searched once per sample.
+// Returns the line around a byte, or the part of the line within 1,000 bytes. Without that limit, a file of
+// one long line would be searched once per sample.
 std::string_view line_around(std::string_view data, std::size_t byte) {
   const std::size_t limit = 1000, first = byte - std::min(byte, limit);
   const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
@@ -148,8 +150,8 @@ std::string_view line_around(std::string_view data, std::size_t byte) {
   return data.substr(first + begin, byte + end - first - begin);
 }
 
-// Returns rows from all over the file as numbers, without rows that have another number of columns. What is no number is
-// NaN.
+// Returns rows from all over the file as numbers, without rows that have a different number of columns. Words
+// that are not numbers become NaN.
 std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
   const std::size_t samples = 256;
   std::vector<Row> rows;
@@ -164,7 +166,7 @@ std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
 }
 
 // Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
-// that were written with two decimals: then their length is uncertain by 0.01.
+// with two decimals, whose length is uncertain by 0.01.
 bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
   const auto is_unit = [&](const Row& row) {
     return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
@@ -173,8 +175,8 @@ bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
   return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
 }
 
-// Returns true if three columns are whole numbers from 0 to 255, some of them above the largest class, or fractions from 0
-// to 1.
+// Returns true if three columns are whole numbers from 0 to 255, some of them above the largest class, or
+// fractions from 0 to 1.
 bool are_colours(const std::vector<Row>& rows, std::size_t column) {
   double largest = 0;
   bool has_fractions = false;
@@ -187,7 +189,7 @@ bool are_colours(const std::vector<Row>& rows, std::size_t column) {
   return has_fractions ? largest <= 1 : largest > largest_class && largest <= 255;
 }
 
-// Three columns that follow one another.
+// A test of three consecutive columns.
 using IsTriple = bool (*)(const std::vector<Row>&, std::size_t column);
 
 bool find_triple(const std::vector<Row>& rows, IsTriple is_triple, std::span<const std::size_t> candidates,
@@ -234,7 +236,8 @@ void take_columns(const ColumnNames& names, XyzLayout& layout) {
 void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   if (layout.columns < 6 && !has_name) return;
   const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
-  // If other rows begin with a number, the name stands for a coordinate that is missing.
+  // If other rows begin with a number, the first column is not a name: a word in it replaces a missing
+  // coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
   const std::size_t first = is_named ? 1 : 0;
@@ -244,7 +247,8 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   const std::span wanted(layout.wanted);
   layout.has_normals =
       find_triple(rows, are_unit_vectors, candidates, wanted.subspan(XyzLayout::first_normal, 3));
-  // A normal's columns hold no colour. Below a number of points (PTS) the fourth column is the intensity.
+  // The columns of a normal are not a colour. After a line with the number of points (PTS), the fourth column
+  // is the intensity.
   const std::size_t normal = layout.has_normals ? layout.wanted[XyzLayout::first_normal] : layout.columns + 3;
   const bool has_intensity = layout.promised_points && layout.columns > first + 6;
   std::erase_if(candidates, [&](std::size_t column) {

@@ -14,15 +14,16 @@
 namespace relievo {
 namespace {
 
-// The soft shadow of a body on what lies behind it.
+// Draws the soft shadow of a body on the ground behind it.
 
-// Soft shadows need few pixels: a coarser grid's longer side has at most so many.
+// Soft shadows need few pixels: the longer side of their coarser grid has at most this many cells.
 constexpr int most_cells = 160;
 
-// Opacity of the full shadow: as grey as a table under a lamp and a bright room.
+// Opacity of the full shadow: as grey as the shadow on a table in a bright room with a lamp.
 constexpr float shadow_opacity = .4F;
 
-// Radius of the shadow's edge and how far it falls beside the body, in cells: a body as thick as a plate.
+// The radius of the shadow's soft edge, and the shadow's largest distance from the body, in cells. The values
+// suit a plate's thickness.
 constexpr int softness = 2;
 constexpr float farthest = 2;
 
@@ -40,7 +41,7 @@ class DropShadow {
     blur(shade_, softness);
   }
 
-  // Opacity of the shadow at a pixel, between cells interpolated.
+  // Returns the opacity of the shadow at a pixel, interpolated between cells.
   float at(int x, int y) const {
     const float share = 1 / static_cast<float>(1 << shift_);
     const float u = clamped(static_cast<float>(x) * share - away_.x(), shade_.width),
@@ -60,11 +61,11 @@ class DropShadow {
   }
 
   int shift_ = 0;
-  Vec2f away_;  // in cells
+  Vec2f away_;  // offset of the shadow, in cells
   Image<float> shade_;
 };
 
-// Lays a pixel over black of that opacity.
+// Composites a pixel over black of that opacity.
 void lay_over(std::uint8_t* rgba, float shade) {
   const float coverage = static_cast<float>(rgba[3]) / 255, opacity = coverage + (1 - coverage) * shade;
   if (opacity <= 0) return;
@@ -73,8 +74,8 @@ void lay_over(std::uint8_t* rgba, float shade) {
   rgba[3] = static_cast<std::uint8_t>(opacity * 255 + .5F);
 }
 
-// Adds the shadow of the opaque pixels to the others of a picture with 4 channels, as black of some opacity.
-// `to_lamp` is the direction towards the lamp in the picture, y upwards, with length 1.
+// Adds the shadow of the opaque pixels to the other pixels of a picture with 4 channels, as black of some
+// opacity. `to_lamp` is the direction towards the lamp in the picture, y upwards, with length 1.
 void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
   const DropShadow shadow(picture, to_lamp);
   const auto add_to_row = [&](std::size_t row) {
@@ -86,7 +87,8 @@ void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
   parallel_for(static_cast<std::size_t>(picture.height), add_to_row, 8);
 }
 
-// Samples per pixel of fine pictures, in both directions: with 3 x 3 of them steps along slanting edges are not seen any more.
+// Samples per pixel of fine pictures, in each direction: with 3 x 3 samples, steps along slanting edges are
+// no longer visible.
 constexpr int fine_samples = 3;
 constexpr int most_samples = fine_samples * fine_samples;
 

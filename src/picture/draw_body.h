@@ -15,16 +15,16 @@
 
 namespace relievo {
 
-// A place on a triangle: its corners' weights in 65535ths, of which the third has the rest.
+// A point on a triangle, given by its barycentric weights in 65535ths; the third corner has the rest.
 struct VisiblePoint {
   Triangle corners = {no_index, no_index,
-                      no_index};  // kept here: to look them up costs live pictures a third
+                      no_index};  // stored here, because looking them up makes live pictures a third slower
   Index triangle = no_index;
   std::uint16_t first = 0, second = 0;
-  float z = 0;  // towards the viewer, in pixels
+  float z = 0;  // height towards the viewer, in pixels
   Part part = Part::nothing;
 
-  // The mean of three values by these weights.
+  // Returns the mean of three values with these weights.
   template <typename T>
   T mean(const T& a, const T& b, const T& c) const {
     const float s = static_cast<float>(first) / 65535, t = static_cast<float>(second) / 65535;
@@ -34,21 +34,21 @@ struct VisiblePoint {
 
 using VisibilityBuffer = Image<VisiblePoint>;
 
-// The body's triangles in the picture's pixels. Of height fields seen from above heights are left out.
+// Returns the body's triangles in pixels of the picture, without heights for height fields seen from above.
 RasterInput raster_input(const DrawnBody& body, const ScreenTransform& transform);
 
-// The place at (x, y) in the picture of one of the body's triangles.
+// Returns the point of one of the body's triangles that is at `place` in the picture.
 VisiblePoint visible_point(const DrawnBody& body, const RasterInput& input, Index triangle,
                            const Vec3f& place);
 
-// Overwrites the buffer with what is seen at the centres of the picture's pixels.
+// Overwrites the buffer with the points that are visible at the centres of the picture's pixels.
 void draw_visibility(const DrawnBody& body, const RasterInput& input, VisibilityBuffer& buffer);
 
-// Height above the ground at that point, in mm.
+// Returns the height of a point above the ground, in mm.
 float height_mm(const DrawnBody& body, const VisiblePoint& seen);
 
-// Keeps a buffer for as long as it shows the same points: while heights change, but not the plate's size,
-// seen from above.
+// Caches a buffer for as long as it shows the same points. Seen from above, this is while heights change and
+// the plate's size does not.
 class CachedVisibility {
  public:
   const VisibilityBuffer& get(const DrawnBody& body, const ScreenTransform& transform);
@@ -57,7 +57,7 @@ class CachedVisibility {
   struct Key {
     ScreenTransform transform;
     double mm_per_place = 0;
-    Vec2 corner;  // of the plate
+    Vec2 corner;  // corner of the plate
     bool operator==(const Key&) const = default;
   };
   VisibilityBuffer buffer_;

@@ -12,15 +12,15 @@ namespace relievo {
 namespace {
 
 constexpr float background = 236, darkest = 40, brightest = 225;
-const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // of little and of much that is left
+const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // colours of small and of large residuals
 
-// One pixel's share of the samples: a square of them, averaged.
+// A pixel's average of the square of samples that it shows.
 struct Averaged {
   Vec3f colour = Vec3f::Zero();
   int samples = 0;
 };
 
-// Light from the upper left on a surface of these slopes, in sample steps to the right and down.
+// Returns the brightness of a surface of these slopes, right and down, lit from the upper left.
 float grey(float right, float down) {
   const Vec3f lamp = Vec3f(-1, 1, 1.2F).normalized();
   const float facing = Vec3f(-right, down, 1).normalized().dot(lamp);

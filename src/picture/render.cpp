@@ -26,27 +26,29 @@ std::vector<float> depths_of(const Surface& surface) {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// More from the viewer's side than for reliefs: a whole body turns much of itself away from the light.
+// The lamp is nearer to the viewer than for reliefs, because much of a whole body faces away from the light.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
-// Radius of a point's disc in sampling distances: random points leave hardly a gap.
+// Radius of a point's disc, in sampling distances: with this radius, randomly scattered points leave hardly a
+// gap.
 constexpr double disc_radius = 1.7;
 
-// A point in the picture: pixels, depth in pixels, normal in view coordinates.
+// A point in the picture: its position and depth in pixels, and its normal in view coordinates.
 struct Dot {
   Vec3f place, normal;
 };
 
 struct Canvas {
   Image<float> depth;
-  Image<Vec3f> normals;  // sums
+  Image<Vec3f> normals;  // weighted sums
 };
 
-// Calls f(pixel, depth there, weight) for the pixels of rows [first, last) whose centres the dot covers: a disc on the
-// surface, seen from where the viewer is. The weight falls from 1 to 0 at its edge.
+// Calls f(pixel, depth there, weight) for the pixels of rows [first, last) whose centres the dot covers. The
+// dot is a disc in the surface, as the viewer sees it; the weight falls from 1 in its middle to 0 at its
+// edge.
 template <typename F>
 void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
-  constexpr float least_z = .2F;  // discs that are seen more from the side would leave gaps
+  constexpr float least_z = .2F;  // discs seen more obliquely would leave gaps
   const Vec2f slope = Vec2f(-dot.normal.x(), dot.normal.y()) / std::max(dot.normal.z(), least_z);
   const float per_square = 1 / (radius * radius);
   const int top = std::max(first, static_cast<int>(std::floor(dot.place.y() - radius + .5F)));
@@ -64,7 +66,7 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Two passes, as surface splatting has it: the front first, then the mean normal of all that lies on it.
+// Draws in two passes, as in surface splatting: first the front, then the mean normal of the dots on it.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {

@@ -71,8 +71,9 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return ((box.min + box.max) / 2).head<2>();
 }
 
-// Returns the largest width of a relief that keeps margin and rim from all sides of the plate. Its hull and the plate's
-// outline have one middle, so that each side limits the scale by itself.
+// Returns the largest width of a relief that keeps margin and rim from all sides of the plate. The middles of
+// its hull and of the plate's outline coincide, so that each side of the outline limits the scale
+// independently.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
   const std::vector<Vec2> hull = unit_hull(surface);
@@ -172,7 +173,7 @@ Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& op
   }
   const double largest = largest_width_mm(surface, options);
   sized.width_mm = options.width_mm.value_or(largest);
-  constexpr double rounding = 1 + 1e-6;  // of a width that was read off a report
+  constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a report
   if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding) return sized;
   return option_error(
       "width", cat("expected at most ", std::max(0.0, largest), " mm, which the plate leaves with its margin",

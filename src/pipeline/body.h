@@ -49,7 +49,7 @@ struct FormedFront {
   HeightFieldMesh front;
   double height_mm = 0;                // lowest to highest point
   double simplification_error_mm = 0;  // largest difference to the front with all samples
-  std::size_t full_triangles = 0;      // of that
+  std::size_t full_triangles = 0;      // triangles of that front
 };
 
 // Returns the points at these heights, in millimetres, on the surface's triangles.
@@ -59,11 +59,11 @@ HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& h
 Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                const Progress* progress);
 
-// Returns the front as simple as the options ask for, unless make_plate() is to simplify; of outline `none` what of it is
-// relief. Errors: those of simplify().
+// Returns the front, simplified as the options ask unless make_plate() will simplify. With the outline `none`
+// it is only the relief. Errors: those of simplify().
 Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress);
 
-// Returns how far the lowest point of the front lies below the ground: 0 or more.
+// Returns the depth of the front's lowest point below the ground: 0 or more.
 double depth_below_ground(const HeightFieldMesh& front);
 
 // The solid of a front, with no more triangles than are asked for.
@@ -72,8 +72,9 @@ struct FormedBody {
   Body body;
 };
 
-// Returns the body with that front, which is simplified as the options ask. Errors: those of simplified_front() and
-// make_body(); kind option for fewer triangles than the solid needs for its outline and its walls.
+// Returns the body with that front, which is simplified as the options ask. Errors: those of
+// simplified_front() and make_body(); kind option for fewer triangles than the solid needs for its outline
+// and its walls.
 Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 }  // namespace relievo

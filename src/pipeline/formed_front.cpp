@@ -55,9 +55,10 @@ Result<double> sample_step(const Surface& surface, const ReliefOptions& options)
       std::min(width_mm / samples, surface.rho * mm_per_unit(surface, options)));
 }
 
-// Each attempt is a simplification. The first guess of the front's share is right on plane ground.
+// The largest number of simplifications. On plane ground the first guess of the front's number of triangles
+// is right.
 constexpr int most_attempts = 4;
-constexpr double close_enough = .98;  // of the triangles asked for
+constexpr double close_enough = .98;  // share of the triangles asked for
 
 Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress* progress) {
   RELIEVO_TRY(FormedFront formed, simplified_front(std::move(full), options, progress));
@@ -66,7 +67,7 @@ Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress
   return FormedBody{std::move(formed), std::move(body)};
 }
 
-// The same options with that limit for the front's triangles.
+// Returns the options with that limit for the front's triangles.
 ReliefOptions with_front_limit(ReliefOptions options, double front_triangles) {
   options.triangles = std::max(1., std::floor(front_triangles));
   return options;
@@ -76,7 +77,8 @@ double count(const FormedBody& made) {
   return static_cast<double>(made.body.solid.triangles.size());
 }
 
-// Returns the body whose front has as many triangles as fit, given the one with all.
+// Returns the body whose front has as many triangles as the limit allows, given the full front and the body
+// with all triangles.
 Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole, const ReliefOptions& options,
                                Progress* progress) {
   const double most = *options.triangles, in_front = static_cast<double>(whole.body.plate().front_triangles);

@@ -20,7 +20,7 @@
 namespace relievo {
 namespace {
 
-// All that a relief was made of and by.
+// The results of all stages of a relief, and its options.
 struct ReliefFacts {
   const Surface& surface;
   const Relief& relief;
@@ -46,7 +46,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Fills in the heights of a front that a tool has changed: what was narrow and deep is filled.
+// Fills in the heights of a front that a tool has changed; it leaves material in narrow, deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)
@@ -98,7 +98,7 @@ ReliefReport report_on(const ReliefFacts& facts) {
   return report;
 }
 
-// Heights of the base under the surface's points, in its units; none for a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; none for a plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();

@@ -10,7 +10,7 @@ namespace {
 
 using enum OptionStage;
 
-// These functions take a second argument besides the text.
+// These wrappers have the text as their only argument.
 Result<Method> method_of(std::string_view text) {
   return parse_method(text);
 }

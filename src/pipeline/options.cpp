@@ -98,7 +98,7 @@ double by_method(const ReliefOptions& options, double paper, double others) {
   return options.effective_method() == Method::paper ? paper : others;
 }
 
-// Returns a value of the option's type: that of a length may be a text with a unit.
+// Returns the value in the option's type. A length may be given as a text with a unit.
 Result<OptionValue> typed_value(const OptionRow& option, const OptionValue& value) {
   if (std::holds_alternative<double>(value) == option.is_number()) return value;
   if (!option.is_length() || !option.is_number()) return option_error({}, std::string(expected_type(option)));
@@ -114,7 +114,7 @@ Result<void> read_value(const OptionRow& option, const OptionValue& given, Optio
   return option.access.read(value, to);
 }
 
-// Reads the values of the table's options that read a depth image, or of those that do not.
+// Reads the values of the relief's options, or of the other options, which are for depth images.
 Result<OptionTargets> read_values(const OptionValues& values, bool is_of_relief) {
   OptionTargets to;
   for (const OptionRow& option : option_table()) {

@@ -282,8 +282,8 @@ bool Session::wait_until_idle(std::chrono::milliseconds timeout) {
 struct Turntable::State {
   explicit State(const MeasuredCloud& measured) : scan(measured) {}
 
-  // Returns the scan without the plane of a surface that has one. What was made last is kept, because a model that is
-  // turned asks for the same many times a second.
+  // Returns the scan without the plane of a surface that has one. The last result is cached, because it is
+  // needed many times a second while a model is turned.
   std::shared_ptr<const TurningScan> without_plane(const Surface& surface) const {
     const WithoutPlane last = last_.with([](const WithoutPlane& w) { return w; });
     if (last.scan && last.plane == *surface.plane && last.R_view_model == surface.view.R_view_model)

@@ -15,8 +15,8 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// Returns the cubic B-spline's weights of the four values around a place that lies `t` of the way between the
-// two in the middle.
+// Returns the cubic B-spline's weights of four values in a row, at the fraction `t` of the way from the
+// second to the third.
 Weights weights_at(double t) {
   const double s = 1 - t;
   return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
@@ -74,12 +74,13 @@ std::vector<ShapeNumber> numbers_of(BaseOptions& base, std::optional<double>& di
 
 }  // namespace
 
-// The cubic B-spline whose control points are the map's values: it is smooth, stays between the values around
-// a place, and so levels the steps that rounding left. Beyond the border the outermost values continue.
+// The cubic B-spline whose control points are the map's values: it is smooth and stays between the
+// neighbouring values, so that it evens out steps from rounding. Beyond the border the outermost values are
+// repeated.
 class Base::ImageSurface {
  public:
-  // Centres the map on a plate of that size and scales it until it covers the plate; its highest value lies
-  // `height_mm` above its lowest.
+  // Centres the map on a plate of that size, scales it until it covers the plate, and makes it `height_mm`
+  // high from the lowest to the highest value.
   ImageSurface(std::shared_ptr<const Image<float>> grid, const Vec2& plate_mm, double height_mm)
       : grid_(std::move(grid)) {
     pixel_mm_ = std::max(plate_mm.x() / grid_->width, plate_mm.y() / grid_->height);

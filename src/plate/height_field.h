@@ -44,7 +44,8 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px);
 // wall is high. The field has no pixels in the same cases as flat_height_field(); `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, int longer_side_px);
 
-// Returns the number of samples along the longer side: a twelfth of the tool's radius apart, in [2048, 4096].
+// Returns the number of samples along the longer side, in [2048, 4096]: they are a twelfth of the tool's
+// radius apart if that range allows it.
 inline int samples_for(const Tool& tool, double longer_mm) {
   constexpr int least_samples = 2048, most_samples = 4096;
   constexpr double samples_per_radius = 12;
@@ -54,7 +55,8 @@ inline int samples_for(const Tool& tool, double longer_mm) {
   return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
 }
 
-// Returns the heights of a solid's front, whose box is given; NaN beside it, where nothing hinders the tool.
+// Returns the heights of a solid's front, whose box is given; NaN beside the front, where nothing hinders the
+// tool.
 inline HeightField front_samples(const Solid& solid, const Box& box, const Tool& tool) {
   HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
   for (std::size_t i = 0; i < field.z.pixels.size(); ++i)

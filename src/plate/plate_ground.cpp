@@ -14,8 +14,8 @@ Vec2 edge(const Solid& solid, const IndexPolygon& polygon, std::size_t i) {
   return (solid.points[polygon[(i + 1) % polygon.size()]] - solid.points[polygon[i]]).head<2>();
 }
 
-// Rotates the polygon until it begins at its lowest vertex (of several, the leftmost), so that its edges'
-// angles rise from 0 to 2 pi.
+// Rotates the order of the polygon's vertices until its lowest one (of several, the leftmost) is first, so
+// that its edges' angles rise from 0 to 2 pi.
 void begin_at_lowest(const Solid& solid, IndexPolygon& polygon) {
   const auto is_lower = [&](Index a, Index b) {
     const Vec3 &p = solid.points[a], &q = solid.points[b];
@@ -63,8 +63,8 @@ IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double 
 
 // Visits the edges of both polygons in the order of their outward normals' angles, and connects each edge to
 // the other polygon's vertex that is farthest along its normal. The segments between such pairs sweep the
-// ring once, so no triangles overlap, and each has an area, even where points are collinear or edges are
-// parallel.
+// ring once, so no triangles overlap, and every triangle has an area, even where points are collinear or
+// edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer) {
   begin_at_lowest(solid, inner);
   begin_at_lowest(solid, outer);

@@ -11,14 +11,14 @@
 
 namespace relievo {
 
-// Returns the spacing in mm of points at height z within the convex polygon at which their triangles,
-// deformed, are about within the tolerance. It makes at most about 200,000 points, and is at most a quarter
-// of the diagonal of the polygon's box.
+// Returns the spacing in mm of points at height z within the convex polygon for which their deformed
+// triangles are about within the tolerance. The spacing gives at most about 200,000 points, and is at most a
+// quarter of the diagonal of the polygon's box.
 double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
                       double tolerance_mm);
 
-// Returns the convex polygon with points between its corners, at most `spacing` apart. They are moved
-// outwards by up to 0.00001 mm, see convexity_offset(), so that all are corners.
+// Returns the convex polygon with points between its corners, at most `spacing` apart. The new points are
+// moved outwards by up to 0.00001 mm, see convexity_offset(), so that they are corners, too.
 std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing);
 
 // Fills the convex polygon with flat triangles that face down, through points `spacing` apart.
@@ -26,9 +26,9 @@ void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing);
 
 // Adds the corners of the convex polygon `rim_inner` to the placed front, and points between it and the
 // relief, `spacing` apart, at the height of the ground, and triangulates all within the polygon. The relief's
-// triangles stay unless points on one circle leave a choice that does not fit; the rest becomes ground.
-// `front` is the same front before it was placed. Returns the polygon's points; none, with nothing changed,
-// if the relief's triangles are not a Delaunay triangulation.
+// triangles stay, unless those with points on one circle have to change to fit the ground; the rest becomes
+// ground. `front` is the same front before it was placed. Returns the polygon's points. If the relief's
+// triangles are not a Delaunay triangulation, it returns none and changes nothing.
 IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_inner,
                          double spacing);
 
@@ -36,13 +36,12 @@ IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<
 IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double z);
 
 // Fills the ring between two convex polygons, the inner one strictly inside the outer, with triangles that
-// cover it once. Each has an area, even where corners are collinear or edges are parallel.
+// cover it once. Every triangle has an area, even where corners are collinear or edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer);
 
-// Returns how far to move a point that lies `share` of the way along a polygon's side outwards so that it
-// becomes a corner: sides become arcs of one circle, 0.00001 mm off their middle where they are 100 mm long.
-// Collinear corners would leave triangles without an area, and to a Delaunay triangulation a choice of the
-// hull.
+// Returns the outward offset that makes a point at the fraction `share` of a polygon's side a corner. With
+// it, points of a side lie on an arc, whose middle is 0.00001 mm outside a side of 100 mm. Collinear corners
+// would give triangles without area, and an ambiguous hull of the Delaunay triangulation.
 inline Vec2 convexity_offset(const Vec2& side, double share) {
   const double curvature = 8e-9;  // per mm
   return share * (1 - share) / 2 * curvature * side.norm() * Vec2(side.y(), -side.x());

@@ -38,10 +38,10 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
 // Checks lengths and the front. Errors: those of make_plate().
 Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Replaces the surface by the one that the tool leaves above it: see close_by_tool(). Points that the tool reaches stay,
-// others give way to samples of its own shape, which are dense where that is steep; level ground gets none. `edges` are
-// those of the rim, in the surface's coordinates; points along them keep them sharp. A surface without ground keeps its
-// triangles, and its points are lifted.
+// Replaces the surface by the one that the tool leaves above it: see close_by_tool(). Points that the tool
+// reaches stay. The others are replaced by samples of the new surface, which are dense where it is steep;
+// level ground gets none. `edges` are the rim's, in the surface's coordinates; points along these edges keep
+// them sharp. A surface without ground keeps its triangles, and its points are lifted.
 void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
 
 }  // namespace relievo

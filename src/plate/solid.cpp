@@ -103,7 +103,7 @@ double volume_mm3(const Solid& solid) {
 
 Solid in_unit(Solid solid, LengthUnit unit) {
   if (unit == std::exchange(solid.unit, unit)) return solid;
-  const bool is_height_field = find_folds(solid).empty();  // a wrap need not be one
+  const bool is_height_field = find_folds(solid).empty();  // a wrapped solid may not be one
   const double scale = unit == LengthUnit::mm ? mm_per_inch : 1 / mm_per_inch;
   Box box;
   for (Vec3& p : solid.points) {

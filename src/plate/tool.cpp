@@ -66,7 +66,7 @@ Span span_of(const std::vector<float>& heights) {
 
 constexpr double least_reach_tolerance_mm = .01;
 
-// Sums over samples, block by block.
+// Sums over the samples of a block.
 struct Count {
   std::size_t front = 0, reached = 0;
   float largest = 0;

@@ -9,7 +9,8 @@
 
 namespace relievo {
 
-// A Gaussian of that standard deviation in pixels, cut at `radius` pixels. The border continues outside.
+// A Gaussian with the standard deviation `sigma`, cut at `radius`, both in pixels. The border continues
+// outside.
 class GaussianFilter {
  public:
   GaussianFilter(double sigma, int radius);

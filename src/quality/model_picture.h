@@ -21,7 +21,8 @@ class BarycentricMap {
   std::size_t pixels() const { return places_.size(); }
   double units_per_pixel() const { return units_per_pixel_; }
 
-  // Returns where a point lies in the picture: x to the right, y down, the first pixel's centre at (0.5, 0.5).
+  // Returns where a point lies in the picture: x to the right, y down, the first pixel's centre at (0.5,
+  // 0.5).
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - centre_) / units_per_pixel_;
     return {width() / 2.0 + p.x(), height() / 2.0 - p.y()};
@@ -30,7 +31,7 @@ class BarycentricMap {
   // Returns no_index where the pixel is outside the hull.
   Index triangle(std::size_t pixel) const { return places_[pixel].triangle; }
 
-  // Returns values given per point, interpolated; `outside` where no triangle is.
+  // Returns value(point) interpolated at a pixel; `outside` where there is no triangle.
   template <typename Value>
   float at(std::size_t pixel, Value&& value, float outside) const {
     const Place& p = places_[pixel];

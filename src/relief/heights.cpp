@@ -18,7 +18,8 @@
 namespace relievo {
 namespace {
 
-// Returns per point its corners of triangles inside: 3 t + i for corner i of triangle t, in ascending order.
+// Returns for each point its corners in triangles inside, ascending; corner i of triangle t has the number 3
+// t + i.
 Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& triangles,
                              const Boundary& boundary) {
   return grouped<Index>(points, [&](auto&& add) {
@@ -27,8 +28,8 @@ Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& tr
   });
 }
 
-// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in ascending
-// order, and add(entries) appends the entries of that row.
+// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in
+// ascending order, and add(entries) appends the entries of that row.
 template <typename Entry, typename Make>
 Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
   Groups<Entry> all{std::vector<Index>(rows + 1), {}};
@@ -53,11 +54,12 @@ Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
 
 // Equation (9) written out for fixed points: the matrix, and the coefficients of the right-hand side.
 struct HeightEquations {
-  std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
+  std::vector<Index> free_points;  // point of each unknown; points on the boundary have none
   Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
-  // The edges of each point, in ascending order of the other points. Every point has one to itself, too, so that
-  // vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times the step from
-  // the other point; 0 at boundary points, whose heights are 0. The right-hand side is SlicedEllMatrix::divergence().
+  // The edges of each point, in ascending order of the other points. Every point has an edge to itself, too,
+  // so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times
+  // the step from the other point; it is 0 at boundary points, whose heights are 0. The right-hand side is
+  // SlicedEllMatrix::divergence().
   Groups<MatrixEntry> edges;
 };
 
@@ -69,13 +71,15 @@ struct WeightedEdge {
 // The edges of each point, in ascending order of the other points.
 using Adjacency = Groups<WeightedEdge>;
 
-// Equation (9): the edges of points, one point after the other. A corner is 3 t + i for corner i of triangle t.
+// Computes the weighted edges of points in equation (9), one point after the other. Corner i of triangle t
+// has the number 3 t + i.
 class EdgeRows {
  public:
   EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
-  // Adds the edges of a point to `edges`: the sums of one term for each triangle.
+  // Adds the edges of a point to `edges`. The weight of an edge is the sum of one term for each of its
+  // triangles.
   void add(std::span<const Index> corners, std::vector<WeightedEdge>& edges) {
     terms_.clear();
     for (const Index corner : corners) {
@@ -106,7 +110,7 @@ class EdgeRows {
   std::vector<WeightedEdge> terms_;
 };
 
-// Returns the edges of triangles inside. Edges at depth jumps count for their jump_share().
+// Returns the edges of triangles inside, with their edge_weight().
 Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
                        const Boundary& boundary, std::span<const float> weights) {
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
@@ -116,16 +120,15 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
       row(i, [&](std::vector<WeightedEdge>& edges) {
         const std::size_t before = edges.size();
         rows.add(corners[i], edges);
-        for (std::size_t e = before; e < edges.size(); ++e) {
-          edges[e].weight = edge_weight(edges[e].weight);
-          if (!weights.empty())
-            edges[e].weight *= jump_share(boundary, weights, static_cast<Index>(i), edges[e].to);
-        }
+        for (std::size_t e = before; e < edges.size(); ++e)
+          edges[e].weight =
+              edge_weight(edges[e].weight, boundary, weights, static_cast<Index>(i), edges[e].to);
       });
   });
 }
 
-// Equation (9): the matrix of its normal equations, a weighted Laplacian; boundary points, at 0, drop out.
+// Returns the matrix of the normal equations of (9), a weighted Laplacian. Boundary points have height 0 and
+// drop out.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
   const auto n = static_cast<int>(free_points.size());
@@ -156,7 +159,8 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-// Equation (9): the right-hand side of a point is the sum over its edges of weight / 2 (s_p + s_q) . (p - q).
+// Returns the coefficients of the right-hand side of (9). For point p it is the sum over its edges of weight
+// / 2 (s_p + s_q) . (p - q).
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {
@@ -176,7 +180,7 @@ Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacenc
   });
 }
 
-// Returns the equations. `weights` as for HeightSystem::build().
+// Returns the equations. `weights` are those of HeightSystem::build().
 HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
                                  const Boundary& boundary, std::span<const float> weights) {
   HeightEquations equations;
@@ -201,14 +205,14 @@ double twice_area(std::span<const Vec2> points, const Triangle& t) {
   return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
-// Makes rows of the matrix one after the other. A corner is 3 t + i for corner i of triangle t.
+// Makes rows of the matrix one after the other. Corner i of triangle t has the number 3 t + i.
 class NormalRows {
  public:
   NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
-  // Adds the row of a point to `entries`: the derivatives of the sum of the triangles' cross products there by heights,
-  // over z of that sum, which does not depend on heights.
+  // Adds the row of a point to `entries`: the derivatives, by heights, of the sum of its triangles' cross
+  // products, divided by z of that sum, which does not depend on heights.
   void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
     terms_.clear();
     double z = 0;

@@ -72,14 +72,15 @@ struct StepHeights {
   bool empty() const { return z.empty(); }
 };
 
-// Returns the heights whose differences across each depth jump are nearest to what the surface's depths have there
-// beyond their slopes, and 0 along all other edges: the least squares of (9) with these differences. `weights` are
-// those of the system.
+// Returns the least-squares solution of (9) for given height differences along the edges: across a depth
+// jump, the part of the depth difference that the slopes do not explain; along all other edges, 0. `weights`
+// are those of the system.
 StepHeights find_step_heights(const Surface& surface, std::span<const float> weights,
                               const HeightSystem& system);
 
-// Adds the step heights to those of slopes, so that the steps take `share` of the height. `height` is what the relief
-// has before its style compresses it, or nothing if the slopes are to decide it; the share is below 1 then.
+// Adds the step heights to those of slopes, so that the steps take `share` of the height. `height` is the
+// height of the relief before its style compresses it. Without it the slopes determine the height; the share
+// must then be below 1.
 template <typename Real>
 void add_steps(const StepHeights& steps, double share, std::optional<double> height, std::span<Real> z) {
   if (steps.empty() || share == 0) return;
@@ -88,16 +89,18 @@ void add_steps(const StepHeights& steps, double share, std::optional<double> hei
   parallel_for(z.size(), [&](std::size_t i) { z[i] += factor * static_cast<Real>(steps.z[i]); });
 }
 
-// Prepares a shape whose slopes do not reach the height for a search of the share of its steps: slopes are kept whole, and
-// as nothing has to be compressed, the height correction does not act, so that level parts stay level.
+// Prepares a shape for a search of the share of its steps, where slopes alone do not reach the height. Slopes
+// are kept whole. Then nothing has to be compressed, so the height correction is turned off, and level parts
+// stay level.
 inline void keep_slopes(Shape& shape) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   shape.compression.u = infinity;
   shape.membrane = MembraneParams{1, infinity};
 }
 
-// Returns the share of the height that depth jumps have to take so that slopes and jumps together reach it, as a function
-// of a variable that HeightSearch may vary like ln u: 0 at -infinity; at infinity the jumps are as deep as in the model.
+// Returns a share of the height for the depth jumps, as a function of x. HeightSearch varies x like ln u
+// until slopes and jumps together reach the height. The share is 0 at -infinity; at infinity the jumps are as
+// deep as in the model.
 inline double step_share(const StepHeights& steps, double height, double x) {
   return steps.span / height / (1 + std::exp(-x));
 }

@@ -48,8 +48,8 @@ constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
 // The slope, 85 degrees, at which half of a normal's x and y is left.
 constexpr double half_kept_slope = 12;
 
-// The attenuation of a layer is exp(-25 detail share): at the default detail of 0.04 the exponent is the share
-// itself. docs/method.md, "Slopes".
+// The attenuation of a layer is exp(-25 detail share): at the default detail of 0.04 the exponent is the
+// share itself. See docs/method.md, "Slopes".
 constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
 }  // namespace
@@ -90,7 +90,7 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   return layers;
 }
 
-// Equation (6), layer by layer.
+// Applies equation (6) layer by layer.
 LayerWeights LayerWeights::of(double u, double detail, double height_share) {
   const auto kept = [&](double share) {
     return static_cast<float>(

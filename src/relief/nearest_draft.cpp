@@ -21,8 +21,8 @@ double weight_of(const std::array<Vec2, 3>& p) {
   return area * needle_share(stiffest);
 }
 
-// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds, 20 to
-// 60.
+// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds,
+// 20 to 60.
 constexpr float penalty = 10, relaxation = 1.7F;
 // Given slopes are shortened to this many times the limit, because walls at depth jumps, which may be
 // arbitrarily steep, would pull everything else along with them.

@@ -11,12 +11,12 @@
 
 namespace relievo {
 
-// The triangles inside a relief that have a corner which is not on the boundary. Slopes are (dz/dx, dz/dy).
+// The triangles inside a relief, except those with all corners on the boundary. Slopes are (dz/dx, dz/dy).
 class TriangleSlopes {
  public:
   TriangleSlopes(std::span<const Vec2> points, const Triangulation& triangulation, const Boundary& boundary);
 
-  // Number of triangles.
+  // Returns the number of triangles.
   std::size_t size() const { return triangles_.size(); }
 
   // Returns the slope of triangle t under heights, one per point.
@@ -28,9 +28,9 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat function;
-  // 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without jump
-  // weights.
+  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat
+  // function; 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without
+  // jump weights.
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:
@@ -49,11 +49,11 @@ class TriangleSlopes {
   std::vector<Share> shares_;
 };
 
-// Solves, over triangles, the least squares of (slope - slope given) under |slope + slope of the base| <=
-// limit by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and Eckstein,
-// 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a system that
-// is factored once, and a dual variable carries over what each projection took until both agree. A call starts
-// from where the last one ended. Not for concurrent use.
+// Minimises, over triangles, the squares of (slope - given slope) under |slope + slope of the base| <= limit.
+// It does so by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
+// Eckstein, 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a
+// system that is factored once, and a dual variable carries over the part that each projection removed, until
+// both agree. Each call starts from the result of the last one. Not for concurrent use.
 class NearestDraft {
  public:
   // `system` is that of the surface, without jump weights; both must outlive this. `base` has a height per

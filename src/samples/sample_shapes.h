@@ -92,7 +92,7 @@ struct Leaf {
   Vec3 root = Vec3::Zero();
   Mat3 frame = Mat3::Identity();  // rows: along, across, up
   // Computed by placed(): bounds of the leaf, with which distant points are skipped.
-  double lowest = 0, highest = 0;  // along up, from the root
+  double lowest = 0, highest = 0;  // heights along `up`, from the root
   Vec3 middle = Vec3::Zero();
   double reach = 0;  // radius of a ball about `middle` that contains the leaf
 };
@@ -103,7 +103,6 @@ struct LeafPose {
   Vec3 facing;   // roughly where the upper side looks; not parallel to `towards`
 };
 
-// Returns a leaf of that shape in that pose.
 Leaf placed(Leaf shape, const LeafPose& pose);
 
 // Returns the smaller one of the leaf's field at p and `nearest`. Far from the leaf it takes almost no time.

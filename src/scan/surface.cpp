@@ -30,22 +30,22 @@ struct ShownPoints {
   std::vector<Index>& hole_fill;
 };
 
-// A piece is a set of connected points that is left of a scan without its plane. It has the box of all its points, and
-// the number of those that stand high over the plane.
+// A connected set of the points that remain when the plane is left out: the box of all its points, and the
+// number of its points that are high over the plane.
 struct LeftPiece {
   Box box;
   std::size_t high = 0;
 };
 
-// Leaves out what is left of a plane: pieces that stay low over it, for their size, as a depth camera bends tables, and
-// boards have ridges; and debris, which is small beside the largest piece and hung on what is gone.
+// Leaves out the remains of a plane: pieces that stay low over it for their size, because depth cameras bend
+// tables, and boards have ridges. Also leaves out debris: pieces that are much smaller than the largest one.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
-  constexpr double low = 4;             // in tolerances
-  constexpr double flat = .05;          // of the diagonal of their box
-  constexpr double connected = 3;       // in local spacings, as for floating noise: see visible.cpp
-  constexpr double high_share = .1;     // of a figure's points
-  constexpr double debris_share = .03;  // of the points of the largest piece
+  constexpr double low = 4;             // height, in tolerances
+  constexpr double flat = .05;          // height, as a share of the diagonal of the piece's box
+  constexpr double connected = 3;       // distance, in local spacings, as for floating noise: see visible.cpp
+  constexpr double high_share = .1;     // least share of high points in a figure
+  constexpr double debris_share = .03;  // least size of a piece, as a share of the largest piece
   std::vector<std::uint8_t> is_left(cloud.size(), 0);
   for (const Index i : visible) is_left[i] = 1;
   DisjointSets sets(cloud.size());
@@ -55,7 +55,7 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
         sets.join(i, j);
   std::vector<LeftPiece> pieces;
-  std::vector<Index> numbers(cloud.size(), no_index);  // of the pieces, by their representatives
+  std::vector<Index> numbers(cloud.size(), no_index);  // number of each piece, by its representative
   const auto piece_of = [&](Index i) -> LeftPiece& {
     Index& number = numbers[sets.find(i)];
     if (number == no_index) {
@@ -81,8 +81,8 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
   if (!rest.empty()) visible = std::move(rest);
 }
 
-// Removes the plane's points, and the pieces that stay low over it, from the points that are shown, and the outlines in
-// the plane from the cloud.
+// Removes from the shown points those of the plane, of pieces that stay low over it, and of debris. Removes
+// from the cloud the outlines in the plane.
 void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
                      const ShownPoints& shown) {
   const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };

@@ -96,7 +96,7 @@ class MinimumDegree {
   std::size_t words_ = 0;
 };
 
-// For pieces of at most this many vertices minimum degree finds a better order than another cut, and faster.
+// For parts of at most this many vertices minimum degree finds a better order than another cut, and faster.
 constexpr Index leaf_size = 120;
 
 struct Part {

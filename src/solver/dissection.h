@@ -59,10 +59,10 @@ struct Bisection {
 // distances in the graph replace them. A side may be empty if nothing better was found.
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
-// Returns the vertices in an elimination order that causes little fill: recursively, separators last and the
-// two sides before them; small pieces by minimum degree. `positions` (finite, one per vertex) only guide the
-// search: bad ones cost fill, never correctness. It is faster if nearby vertices have similar numbers. The
-// result is the same for any number of threads.
+// Returns the vertices in an elimination order that causes little fill. The order is made recursively:
+// separators come last, after the two sides; small parts are ordered by minimum degree. `positions` (finite,
+// one per vertex) only guide the search: bad ones cost fill, never correctness. The search is faster if
+// nearby vertices have similar numbers. The result is the same for any number of threads.
 std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
 }  // namespace relievo::solver

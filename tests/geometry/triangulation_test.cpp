@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "support/check_delaunay.h"
+#include "support/delaunay_check.h"
 #include "support/planar_points.h"
 
 namespace relievo {

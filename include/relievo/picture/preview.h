@@ -32,21 +32,23 @@ struct PreviewOptions {
 // for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles on two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
-// Draws one solid as render_preview() does, on nothing (opacity 0) but its soft shadow. Not for concurrent use.
+// Draws one solid as render_preview() does. The background is transparent (opacity 0) except for the solid's
+// soft shadow. Not for concurrent use.
 class SolidRenderer {
  public:
-  // Shares the solid, which has at least one triangle.
+  // Shares ownership of the solid, which has at least one triangle.
   explicit SolidRenderer(std::shared_ptr<const Solid> solid);
 
-  // Colours what the tool leaves standing on the solid, from orange to red. Shares its reach.
+  // Also colours the material that the tool leaves on the solid, from orange to red. Shares ownership of
+  // `reach`, too.
   SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach);
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 
-  // Overwrites the picture; leaves it without pixels for a size out of range. Zoom 1 fits the solid into the picture; the
-  // middle of its box, at the height of its ground, is what the camera turns around. Lengths in the options
-  // (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is cancelled is left
-  // unfinished.
+  // Overwrites the picture, which gets no pixels if the size is out of range. Zoom 1 fits the solid into the
+  // picture; the camera turns around the middle of its box, at the height of its ground. Lengths in the
+  // options (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is
+  // cancelled is left unfinished.
   void render(const RenderOptions& options, Picture& picture, const Progress* progress = nullptr);
 
  private:

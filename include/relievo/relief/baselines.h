@@ -17,15 +17,15 @@ struct Surface;
 struct GradientOptions {
   double attenuation = 5;     // a, > 0
   double steepest_kept = 10;  // gradients steeper than this are removed
-  // Weights of the bands, from the finest. A band is the difference between blurs by two Gaussians, each twice as
-  // wide as the one before; the last band is the rest.
+  // Weights of the bands, from the finest on. A band is the difference between blurs by two Gaussians, each
+  // twice as wide as the one before; the last band is the rest.
   std::vector<double> band_weights{1, 1, .8, .6};
-  double finest_band = .01;  // the first Gaussian's standard deviation, of the surface's longer side
+  double finest_band = .01;  // the first Gaussian's standard deviation, as a share of the longer side
 };
 
-// Returns a slope per point: gradients at silhouettes are removed, the others attenuated by log(1 + a |g|) / a and
-// their frequency bands weighted. The gradients come from the scan's normals instead of differences of a height
-// map: they are free of its noise, and there is nothing to remove across a depth jump.
+// Returns a slope per point: gradients at silhouettes are removed, the others attenuated by log(1 + a |g|) /
+// a and their frequency bands weighted. The gradients come from the scan's normals instead of differences of
+// a height map: they are free of its noise, and no gradient needs to be removed across a depth jump.
 std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options = {});
 
 // Returns the surface's slope (dz/dx, dz/dy) at a normal with z > 0, at most 1e3.
@@ -34,7 +34,7 @@ Vec2 slope_of(const Vec3f& normal);
 // Returns log(1 + a |g|) / a along the gradient's direction.
 Vec2 attenuated(const Vec2& gradient, double a);
 
-// The depths themselves, scaled.
+// Returns the depths themselves, scaled to the height.
 Relief linear_relief(const Surface& surface, double height);
 
 // Adaptive histogram equalisation of the depths. Local histograms on a picture of the depths are weighted by

@@ -20,19 +20,20 @@ namespace {
 
 // The description of one scan in the XML of an E57 file.
 struct E57Scan {
-  using Triple = std::array<std::size_t, 3>;  // numbers of columns
+  using Triple = std::array<std::size_t, 3>;  // indices of columns
 
   E57Section section;
   std::vector<PackedColumn> columns;
   Triple position = {};  // x, y and z, or range, azimuth and elevation
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
-  std::optional<std::size_t> invalid;    // not 0 for points that the scanner could not measure
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // from the scanner's frame to that of the file,
-  Vec3 origin = Vec3::Zero();                                // before this is added
+  std::optional<std::size_t> invalid;    // column that is not 0 for points the scanner could not measure
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // rotation from scanner's to file's frame,
+  Vec3 origin = Vec3::Zero();                                // and the translation that follows it
 };
 
-// The name without its prefix: normals are an extension of the standard, whose prefix files are free to choose.
+// Returns the name without its prefix. Normals are an extension of the standard, and files may choose any
+// prefix for it.
 std::string_view local_name(std::string_view name) {
   return name.substr(name.find(':') + 1);
 }
@@ -161,8 +162,8 @@ class ScanParser {
     return elements_[element].text.empty() ? 0 : parse_number(elements_[element].text).value_or(unset);
   }
 
-  // The range of colours stands in colorLimits or else in the columns' own limits; fractions without any are in
-  // [0, 1].
+  // Takes the range of colours from colorLimits or else from the columns' own limits. Floating-point columns
+  // without limits are in [0, 1].
   void scale_colours() {
     if (!scan_.colour) return;
     const std::size_t limits = find_child(elements_, element_, "colorLimits");

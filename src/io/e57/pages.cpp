@@ -60,7 +60,7 @@ Result<std::uint64_t> check_header(const Source& source) {
 }
 
 constexpr std::size_t section_header = 32, data_header = 6;
-constexpr std::size_t padding = 9;  // so that 64 bits can be read from every bit
+constexpr std::size_t padding = 9;  // so that 64 bits can be read from any bit position
 
 std::uint64_t bits_at(const char* bytes, std::uint64_t bit, unsigned count) {
   const char* const first = bytes + bit / 8;

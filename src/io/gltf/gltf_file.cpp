@@ -15,7 +15,7 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 struct ComponentType {
   std::size_t code;
   NumberType type;
-  double scale;  // of normalised values
+  double scale;  // factor of normalised values
 };
 constexpr std::array<ComponentType, 6> component_types = {{{5120, NumberType::int8, 1 / 127.0},
                                                            {5121, NumberType::uint8, 1 / 255.0},
@@ -24,8 +24,8 @@ constexpr std::array<ComponentType, 6> component_types = {{{5120, NumberType::in
                                                            {5125, NumberType::uint32, 1},
                                                            {5126, NumberType::float32, 1}}};
 
-// Without a buffer view all numbers are 0 but for the sparse ones, so that a small file could ask for any
-// number of zeros. No mesh has so many vertices at the origin.
+// Limits the zeros of an accessor without a buffer view, whose numbers are all 0 except for the sparse ones:
+// a small file could ask for any number of zeros. No mesh has so many vertices at the origin.
 constexpr std::size_t most_zeros = 1 << 20;
 
 std::size_t components_of(const Json& accessor) {
@@ -144,7 +144,7 @@ Result<GltfFile::Layout> GltfFile::layout_of(const Json& json, const std::string
   return Layout{*count, components, type->type, is_normalised ? type->scale : 1};
 }
 
-// Returns where `in_view`, an accessor or a part of a sparse one, has its vectors.
+// Returns the location of the vectors of `in_view`, which is an accessor or a part of a sparse one.
 Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, const std::string& place) {
   const auto fail = [&](std::string expected) { return source_->error(place, std::move(expected)); };
   const auto offset = number_in(in_view, "byteOffset", 0),
@@ -168,7 +168,7 @@ Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, con
   return found;
 }
 
-// Replaces the vectors whose numbers a sparse accessor lists.
+// Replaces the vectors whose indices a sparse accessor lists.
 Result<void> GltfFile::replace_sparse(const Json& sparse, const Layout& layout, const std::string& place,
                                       AccessorValues& out) {
   const Json *at = object_in(sparse, "indices"), *by = object_in(sparse, "values");

@@ -133,7 +133,7 @@ bool apply(MeshoptFilter filter, std::size_t stride, Bytes& bytes) {
 
 using Index = std::uint32_t;
 
-// The last 16 values; number 0 is the newest.
+// The last 16 values; index 0 is the newest.
 template <typename Value>
 class Recent {
  public:
@@ -168,7 +168,7 @@ class TriangleDecoder {
  private:
   Index explicit_index() { return last_ += without_zigzag(data_.next_number()); }
 
-  // A triangle at a recent edge.
+  // Decodes a triangle that consists of a recent edge and one vertex.
   void follow_edge(unsigned number, unsigned what, Index* corners) {
     const Edge edge = edges_[number];
     Index c = 0;
@@ -177,7 +177,7 @@ class TriangleDecoder {
     else if (what < 13)
       c = vertices_[what];
     else if (what < 15)
-      c = last_ += what == 13 ? ~Index{0} : Index{1};  // the one before, or after
+      c = last_ += what == 13 ? ~Index{0} : Index{1};  // the index before or after the last one
     else
       c = explicit_index();
     if (what == 0 || what >= 13) vertices_.push(c);
@@ -186,7 +186,7 @@ class TriangleDecoder {
     corners[0] = edge.a, corners[1] = edge.b, corners[2] = c;
   }
 
-  // A triangle whose corners are new, recent or explicit.
+  // Decodes a triangle whose three corners are new, recent or explicit.
   void take_three(unsigned what, Index* corners) {
     const bool is_in_table = what < 14;
     const unsigned pair = is_in_table ? static_cast<unsigned char>(table_[what]) : data_.next();
@@ -209,7 +209,7 @@ class TriangleDecoder {
   }
 
   MeshoptBytes data_;
-  std::string_view table_;  // pairs of corners that are frequent
+  std::string_view table_;  // frequent pairs of corners
   Index next_ = 0, last_ = 0;
   Recent<Edge> edges_;
   Recent<Index> vertices_;

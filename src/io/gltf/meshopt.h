@@ -11,7 +11,7 @@
 
 namespace relievo::io {
 
-// Reads compressed bytes one by one. Beyond the end it returns zeros, and remembers that it did.
+// Reads compressed bytes one by one. Beyond the end it returns zeros, and is_beyond() becomes true.
 class MeshoptBytes {
  public:
   explicit MeshoptBytes(std::string_view bytes) : bytes_(bytes) {}
@@ -22,7 +22,7 @@ class MeshoptBytes {
     return 0;
   }
 
-  // Returns a number of which each byte has seven bits, the lowest first (LEB128).
+  // Returns a number that is stored with seven bits in each byte, the lowest first (LEB128).
   std::uint32_t next_number() {
     std::uint32_t number = 0;
     for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -45,7 +45,7 @@ class MeshoptBytes {
   bool is_beyond_ = false;
 };
 
-// Returns the signed number that was stored without sign: 0, -1, 1, -2, 2 are stored as 0, 1, 2, 3, 4. It is returned
+// Returns the signed number of a zigzag code: 0, -1, 1, -2, 2 are stored as 0, 1, 2, 3, 4. The result is
 // modulo 2^8, 2^16 or 2^32.
 template <typename Unsigned>
 constexpr Unsigned without_zigzag(Unsigned stored) {
@@ -53,12 +53,13 @@ constexpr Unsigned without_zigzag(Unsigned stored) {
   return (stored & 1) != 0 ? static_cast<Unsigned>(~half) : half;
 }
 
-// Decodes `count` elements of `stride` bytes each; nothing if the stream, with its header, does not have them.
+// Decodes `count` elements of `stride` bytes each. `stream` includes the header; the result is nothing if it
+// does not contain that many elements.
 std::optional<std::vector<std::byte>> decode_meshopt_attributes(std::string_view stream, std::size_t count,
                                                                 std::size_t stride);
 
-// Decodes three indices of each triangle. `codes` has a byte of each, `table` has 16 bytes; false if `data`, which has the
-// rest, does not end with the last triangle.
+// Decodes three indices per triangle. `codes` has one byte per triangle, `table` has 16 bytes, and `data` has
+// the remaining bytes. Returns false if `data` does not end with the last triangle.
 bool decode_meshopt_triangles(MeshoptBytes codes, MeshoptBytes data, std::string_view table,
                               std::uint32_t* indices, std::size_t triangles);
 

@@ -5,7 +5,7 @@ namespace {
 
 constexpr unsigned symbol_bits = 15, bit_bits = 13;  // precision of the probabilities
 
-constexpr std::uint32_t modelled_bits = 8;  // the highest of a difference, which have a model
+constexpr std::uint32_t modelled_bits = 8;  // number of highest bits of a difference that have a model
 
 }  // namespace
 
@@ -112,7 +112,8 @@ void RunningMedian::add(std::int32_t value) {
   std::int32_t* const v = values_;
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
-    // The other half moves over by one, and the value into its own half. Which number is replaced next stays.
+    // Shifts the half on the other side of the median by one and inserts the value into its own half. The
+    // next value replaces the same end.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

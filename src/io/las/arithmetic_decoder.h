@@ -88,8 +88,8 @@ inline std::uint32_t ArithmeticDecoder::symbol(SymbolModel& model) {
   return low;
 }
 
-// Decodes integers of that many bits, 2 to 32. Which of the contexts a number belongs to is known beforehand; the sizes
-// of the differences have a model for each.
+// Decodes integers of that many bits, 2 to 32. The caller states the context of a number; the sizes of the
+// differences have one model per context.
 class IntegerDecoder {
  public:
   IntegerDecoder(unsigned bits, std::uint32_t contexts);
@@ -104,9 +104,9 @@ class IntegerDecoder {
 
   unsigned bits_;
   std::uint32_t last_bits_ = 0;
-  std::vector<SymbolModel> sizes_;                     // by context
-  BitModel small_;                                     // of the differences 0 and 1
-  std::vector<std::optional<SymbolModel>> high_bits_;  // of others, by size; made when needed first
+  std::vector<SymbolModel> sizes_;                     // model of the sizes, by context
+  BitModel small_;                                     // model of the differences 0 and 1
+  std::vector<std::optional<SymbolModel>> high_bits_;  // models of others, by size; made on first use
 };
 
 // Returns a + b modulo 2^32.
@@ -114,13 +114,14 @@ inline std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
-// Returns the context of a difference whose predecessor, along another axis, had that many bits: there is one for
-// every two bits, up to `most`.
+// Returns the context of a difference, given the number of bits of the previous difference along another
+// axis. There is one context for every two bits, up to `most`.
 inline std::uint32_t size_context(std::uint32_t bits, std::uint32_t most) {
   return bits < most ? bits & ~1U : most;
 }
 
-// The median of the last five numbers, approximately: each new one replaces the highest or lowest in turn.
+// The median of the last five numbers, approximately: each new number replaces the highest or the lowest in
+// turn.
 class RunningMedian {
  public:
   std::int32_t get() const { return values_[2]; }

@@ -18,7 +18,7 @@
 namespace relievo::io {
 namespace {
 
-// A part of each point, by the number that LASzip gives its type.
+// A part of each point. The numbers of the types are LASzip's.
 struct LazItem {
   enum Type : std::uint16_t {
     bytes = 0,
@@ -46,13 +46,13 @@ struct LazLayout {
   std::vector<LazChunk> chunks;
 };
 
-constexpr std::size_t record_header = 54;   // of a variable-length record
-constexpr std::uint32_t chunks_vary = ~0U;  // as the number of points in a chunk
+constexpr std::size_t record_header = 54;   // size of the header of a variable-length record
+constexpr std::uint32_t chunks_vary = ~0U;  // stored instead of the points per chunk if these vary
 constexpr std::uint64_t most_points_a_byte =
-    256;  // measured: 40 where all points are in a row of equal steps
+    256;  // limit; 40 was measured for a row of points at equal steps
 
-// Reads the variable-length record of LASzip and the table of chunks. All chunks together have the points that
-// the header promises, and lie within the file. Errors name the byte.
+// Reads the variable-length record of LASzip and the table of chunks. All chunks lie within the file, and
+// together they have the number of points that the header promises. Errors name the byte.
 class LayoutReader {
  public:
   LayoutReader(const Source& source, const LasHeader& header) : source_(source), header_(header) {}
@@ -75,7 +75,7 @@ class LayoutReader {
     return little<T>(source_.bytes.data() + byte);
   }
 
-  // Finds the record with what is to be known for decompression.
+  // Finds the record that describes the compression.
   Result<void> find_record() {
     std::uint64_t next = header_.header_size;
     const std::uint64_t end = std::min<std::uint64_t>(header_.records.offset, source_.bytes.size());
@@ -137,7 +137,7 @@ class LayoutReader {
                                                item.version, "; newer LASzip can convert the file"));
   }
 
-  // Writers that cannot go back leave the place of the table at the end of the file.
+  // Finds the table of chunks. Writers that cannot seek backwards store its offset at the end of the file.
   Result<void> find_table() {
     const std::uint64_t size = source_.bytes.size(), points = header_.records.offset;
     if (points > size || size - points < 8)

@@ -26,15 +26,15 @@ int high(std::uint16_t value) {
   return value >> 8;
 }
 
-// Returns that are alike share a context for their statistics. A row has the contexts for one number of returns, in the
-// order of the returns.
+// The context of a point's models, by the number of returns of its pulse (row) and the return's number
+// (column). Similar returns share a context.
 constexpr std::array<std::string_view, 16> layered_return_contexts = {
     "0123453445555555", "1013333333333333", "2124444444433333", "3345444444444444",
     "4344544444444444", "5344454444444444", "3344445444444444", "4344444544444444",
     "4344444454444444", "5344444445444444", "5344444444544444", "5334444444455444",
     "5334444444455544", "5334444444445554", "5334444444444555", "5334444444444455"};
 
-constexpr std::uint32_t changes_scanner_bit = 64;  // of the bits that say what is different
+constexpr std::uint32_t changes_scanner_bit = 64;  // set in `changes` if the scanner differs
 
 std::uint32_t symbol_of(std::optional<SymbolModel>& model, ArithmeticDecoder& decoder) {
   if (!model) model.emplace(16);
@@ -229,7 +229,7 @@ LayeredPoint::LayeredPoint(const PointLayers& layers, const char* first, const c
   colour_channels_[channel_] = std::make_unique<ColourChannel>(ColourChannel{colour_, {}});
 }
 
-// Decodes what is different from the point before, and switches to its scanner.
+// Decodes the changes relative to the previous point, and switches to the point's scanner.
 std::uint32_t LayeredPoint::decode_changes() {
   Channel& last = *channels_[channel_];
   const std::size_t context = (last.return_number == 1 ? 1U : 0U) +
@@ -282,8 +282,9 @@ void LayeredPoint::decode_position(Channel& channel) {
   channel.heights[level] = p[2];
 }
 
-// The writers of version 3 take a point's colour to be of scanner 0 unless the scanner changes with this point; and where
-// they switch to a scanner that had colours before, the colour differs from that of the scanner left, and replaces it.
+// Writers of version 3 store a point's colour under scanner 0 unless the scanner changes with this point.
+// When they switch back to a scanner that already had colours, they store the difference to the previous
+// scanner's last colour, which is then replaced.
 void LayeredPoint::decode_colour(bool changes_scanner) {
   const std::size_t scanner = are_colours_mixed_ && !changes_scanner ? 0 : channel_;
   LazColour* last = &colour_channels_[colour_channel_]->last;

@@ -137,19 +137,21 @@ class ExtraBytesItem : public PointItem {
   std::vector<SymbolModel> models_;
 };
 
-// Points of the formats 6 to 10: coordinates and colours of a chunk have layers of their own, each with its decoder.
-// Layers of no use are skipped.
+// Points of the formats 6 to 10: coordinates and colours of a chunk are in separate layers, each with its own
+// decoder. Unused layers are skipped.
 
-// The layers that are read. Z and colours are empty if they are those of the first point in the whole chunk.
+// The layers that are read. The layer of z or of colours is empty if the whole chunk has the value of its
+// first point.
 struct PointLayers {
   std::string_view xy, z, colours;
-  // In version 3, a scanner's colours follow those of another in places; later versions have it right.
+  // In version 3, some colours of a scanner are stored as differences to another scanner's; later versions
+  // have corrected this.
   bool are_colours_mixed = false;
 };
 
 class LayeredPoint {
  public:
-  // `first` is the first point, not compressed: 30 bytes; `colour`, its colour, may be null.
+  // `first` are the 30 bytes of the first point, which is not compressed. `colour` is its colour, or null.
   LayeredPoint(const PointLayers& layers, const char* first, const char* colour);
   void next();
 
@@ -160,7 +162,7 @@ class LayeredPoint {
   }
 
  private:
-  // Points of a file are of up to four scanners, whose models are separate.
+  // The points of a file come from up to four scanners, which have separate models.
   struct Channel {
     std::array<std::int32_t, 3> position{};
     std::uint32_t return_number = 0, return_count = 0;

@@ -67,9 +67,9 @@ bool add_entry(zip_t* archive, const ZipEntry& entry, unsigned level) {
   ZipSource source(zip_source_buffer(archive, entry.content.data(), entry.content.size(), 0));
   const zip_int64_t added = zip_file_add(archive, entry.name.c_str(), source.get(), ZIP_FL_ENC_UTF_8);
   if (added < 0) return false;
-  (void)source.release();  // belongs to the archive now
+  (void)source.release();  // it now belongs to the archive
   const auto index = static_cast<zip_uint64_t>(added);
-  const zip_uint16_t midnight = 0, first_day = 0x21;  // the first date that ZIP knows
+  const zip_uint16_t midnight = 0, first_day = 0x21;  // the first date that ZIP can store
   return zip_set_file_compression(archive, index, level == 0 ? ZIP_CM_DEFAULT : ZIP_CM_DEFLATE, level) == 0 &&
          zip_file_set_dostime(archive, index, midnight, first_day, 0) == 0;
 }

@@ -21,7 +21,7 @@
 namespace relievo {
 namespace {
 
-// The places of a grid over the front, and which triangle each lies in.
+// A grid of points over the front, and the triangle that contains each point.
 struct SampleGrid {
   double step = 0;
   Vec2 corner;  // upper left
@@ -32,12 +32,14 @@ struct SampleGrid {
   Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
 };
 
-// Returns a grid whose squares have sides of `step` or, of a large front, more; `block` divides its width and height.
+// Returns a grid whose squares have sides of `step`, or more for a large front. Its width and height are
+// multiples of `block`.
 SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   const Box box = Box::of(front.points);
   SampleGrid grid;
   grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
-  // Sides are often whole numbers of steps: what is added leaves no decision to rounding.
+  // Sides are often whole numbers of steps. The added fraction keeps rounding errors from changing the number
+  // of cells.
   const auto cells = [&](double mm) { return (static_cast<int>(mm / grid.step + .37) / block + 1) * block; };
   grid.corner = {box.min.x(), box.max.y()};
   grid.input.width = cells(box.size().x());
@@ -47,7 +49,7 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
     const Vec2 place = grid.pixel(p.head<2>());
     grid.input.points.emplace_back(place.x(), place.y(), 0);
   }
-  // In pictures y points down, which turns triangles over.
+  // In pictures y points down, which reverses the orientation of triangles.
   grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
   draw_bands(grid.input, 32, [&](const RowBand& band) {
     const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
@@ -57,7 +59,7 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   return grid;
 }
 
-constexpr int band_rings = 3;  // of triangles beside creases that keep their points
+constexpr int band_rings = 3;  // rings of triangles beside creases that keep their points
 constexpr int most_divisions = 16;
 // Smallest distances, in steps: between samples and points of the band (half of it in quarters of squares),
 // and between points of the band that are not on creases.

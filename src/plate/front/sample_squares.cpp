@@ -94,7 +94,8 @@ bool is_quartered(const Image<Vec2f>& slopes, int x, int y, float facet_angle) {
   return is_even(1, 0) || is_even(0, 1);
 }
 
-// The largest distance between the middles of both diagonals, as a share of their length. Places of grids are rounded.
+// The largest distance between the middles of a rectangle's diagonals, as a share of their length; it is not
+// 0, because grid positions are rounded.
 constexpr double rounding = 1e-6;
 
 bool is_rectangle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -125,7 +126,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
 }
 
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh) {
-  // Returns how far the surface bends away from a straight line between two points.
+  // Returns how much the surface bends away from a straight line between two points.
   const auto bend = [&](Index a, Index b) {
     return std::abs((slopes[b] - slopes[a]).cast<double>().dot(points[b] - points[a]));
   };
@@ -140,7 +141,7 @@ void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes,
                                               mesh.neighbours[other].begin());
       const Index opposite = mesh.triangles[other][j];
       if (!is_rectangle(points[from], points[opposite], points[to], points[apex])) continue;
-      // NaN compares as false.
+      // A comparison with NaN is false, so that the diagonal stays.
       if (!(bend(apex, opposite) < bend(from, to))) continue;
       mesh.triangles[t] = {apex, from, opposite};
       mesh.triangles[other] = {opposite, to, apex};

@@ -24,9 +24,9 @@ constexpr int largest_square = 8;
 // evenly by more. Apart from quarters, the neighbours of a square have at least half its side.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
 
-// The diagonals of rectangles in a Delaunay triangulation are arbitrary, and those across a ridge are teeth. Of each
-// rectangle whose corners have slopes that are numbers, takes the diagonal along which the slope changes less. Changes
-// the triangles alone: neighbours are no longer right.
+// The diagonals of rectangles in a Delaunay triangulation are arbitrary, and across a ridge they look like
+// teeth. Gives each rectangle the diagonal along which the slope changes less, unless the slope of a corner
+// is NaN. Changes only the triangles: the neighbours become invalid.
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

@@ -25,14 +25,14 @@ namespace {
 // The triangles around each point of a mesh that changes in a few places.
 class Fans {
  public:
-  // The triangles must stay where they are.
+  // Refers to the triangles, which must stay at their address.
   Fans(std::size_t points, std::span<const Triangle> triangles)
       : triangles_(triangles), first_(grouped<Index>(points, [&](auto&& add) {
           for (Index t = 0; t < triangles.size(); ++t)
             for (const Index i : triangles[t]) add(i, t);
         })) {}
 
-  // Returns the triangles around a point, which stay until the mesh is changed.
+  // Returns the triangles around a point; the span is valid until the mesh is changed.
   std::span<const Index> around(Index point) const {
     const auto found = changed_.find(point);
     return found == changed_.end() ? first_[point] : std::span<const Index>(found->second);
@@ -212,8 +212,8 @@ class Flipper {
 constexpr int most_steps = 6;  // units in the last place by which a point is moved
 constexpr int most_passes = 8;
 
-// The places of points as files hold them. The floats are stored first, because g++ 12 drops the rounding of
-// double(float(x)) when it vectorises.
+// Returns the places of points as files store them. The floats are stored first, because g++ 12 drops the
+// rounding of double(float(x)) when it vectorises.
 std::vector<Vec2> stored_places(const Solid& solid) {
   std::vector<Vec2f> stored;
   stored.reserve(solid.points.size());
@@ -278,7 +278,8 @@ class Unfolder {
         fans_->around(point), [&](Index t) { return is_folded(places_, solid_.triangles[t]); }));
   }
 
-  // Moves a corner of a folded triangle so that fewer triangles around it are folded, if there is such a place.
+  // Moves a corner of a folded triangle so that fewer triangles around the corner are folded, if that is
+  // possible.
   void mend(const Triangle& t) {
     for (int steps = 1; steps <= most_steps; ++steps)
       for (const Index corner : t)
@@ -299,7 +300,7 @@ class Unfolder {
     return false;
   }
 
-  // Moves the point and those at the same place below it.
+  // Moves the point and the points below it, which have the same x and y.
   void move_all_at(Index corner, const Vec2& place) {
     std::vector<Index> together{corner};
     const auto [first, last] =
@@ -316,7 +317,7 @@ class Unfolder {
   std::vector<Vec2> places_;
   std::vector<std::uint8_t> is_fixed_;
   std::optional<Fans> fans_;
-  std::multimap<std::pair<double, double>, Index> at_place_;  // once there are walls
+  std::multimap<std::pair<double, double>, Index> at_place_;  // empty before walls are added
   double step_ = 0;
 };
 

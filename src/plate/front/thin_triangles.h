@@ -16,12 +16,14 @@ namespace relievo {
 // `may_lose_edges`, together with points that nothing else uses.
 double flip_thin_triangles(Solid& front, bool may_lose_edges = false);
 
-// Returns the triangles of the front that are not counter-clockwise, seen from above, with coordinates as files hold them.
-// If there are none, and its outline does not cut itself, neither does a front that files hold.
+// Returns the triangles of the front that are not counter-clockwise, seen from above, with coordinates as
+// files store them. If there are none, and the outline does not intersect itself, neither does the stored
+// front.
 std::vector<Index> find_folds(const Solid& solid);
 
-// Moves points of the front, together with those below them, by a few units in the last place until find_folds() finds
-// none, or as few as it can. The points of the outline, and those on the sides of the box, stay.
+// Moves points of the front, together with those below them, by a few units in the last place until
+// find_folds() finds none, or as few as it can. The points of the outline, and those on the sides of the box,
+// stay.
 void unfold(Solid& solid, std::span<const Index> outline = {});
 
 }  // namespace relievo

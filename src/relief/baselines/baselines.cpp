@@ -26,8 +26,8 @@ std::vector<Vec2> moderate_slopes(const Surface& surface) {
   return slopes;
 }
 
-// Blurs in the view plane, where these heights have no jumps. The cells of a blur are as wide as its Gaussian and
-// would show once amplified, so sixteen narrow blurs take the place of one.
+// Blurs in the view plane, where these heights have no jumps. The cells of a blur are as wide as its Gaussian
+// and would show once amplified, so sixteen narrow blurs take the place of one.
 std::vector<Vec2f> smoothed(const std::vector<double>& heights, const Surface& surface, double sigma) {
   std::vector<Vec3> flat = surface.points;
   for (Vec3& p : flat) p.z() = 0;

@@ -26,7 +26,7 @@ struct TuningInput {
   const JumpLift& jump_lift;
 };
 
-// Views its input, which must outlive it. Const calls may run concurrently.
+// Keeps views of its input, which must outlive it. Const calls may run concurrently.
 class BaselineComparison {
  public:
   explicit BaselineComparison(const TuningInput& input);

@@ -93,8 +93,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns, per point, its share of the area of the relief, times 6. Scans have more points per area of the view
-// plane where the surface is steep, so an unweighted mean over points would make slopes too steep.
+// Returns, per point, 6 times the area of the relief that belongs to it, a third of each triangle. Scans have
+// more points per area of the view plane where the surface is steep, so an unweighted mean over points would
+// make slopes too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -119,8 +120,8 @@ std::vector<Index> nearest_control_points(const Surface& surface, const ControlP
   return nearest;
 }
 
-// Picks the points at the middles of equal parts of the region's area. Points are in an order in which neighbours
-// follow each other, so the parts are compact.
+// Picks the points at the middles of equal parts of the region's area. Points are in an order in which
+// neighbours follow each other, so the parts are compact.
 void sample(std::span<const Index> region, std::span<const double> share, std::span<Index> samples) {
   double total = 0, sum = 0;
   for (const Index i : region) total += share[i];
@@ -156,7 +157,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // stays where the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // remains where the region has no area
     sample(members[c], share, own);
   }
   return samples;

@@ -22,8 +22,8 @@ struct ControlMesh {
 // of the surface; every connected piece has at least one.
 ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control);
 
-// Returns `per_region` points for each control point in turn, from the points nearest to it. Each represents the
-// same area in the view plane; in small regions one is repeated.
+// Returns `per_region` points for each control point in turn, from the points nearest to it. Each represents
+// the same area in the view plane; in small regions some points are repeated.
 std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& control,
                                   std::size_t per_region);
 

@@ -13,7 +13,7 @@ namespace relievo {
 namespace {
 
 struct PointGroup {
-  Vec3f normal = Vec3f::Zero();  // the sum
+  Vec3f normal = Vec3f::Zero();  // sum of the normals
   std::array<std::uint32_t, 3> colour{};
   std::uint32_t members = 0;
 
@@ -29,9 +29,10 @@ struct PointGroup {
   }
 };
 
-constexpr std::size_t most_repeats = 64;    // of a place
-constexpr std::size_t points_judged = 400;  // that are looked at, from all over the cloud
-// The share of points scattered at random around which a gap as wide as that after repeats is found by chance.
+constexpr std::size_t most_repeats = 64;    // largest number of repeats of one point
+constexpr std::size_t points_judged = 400;  // number of judged points, evenly taken from the whole cloud
+// The share of randomly scattered points around which there is by chance a gap as wide as that around
+// repeats.
 constexpr double gap_by_chance = .002;
 // Marching cubes put two or three vertices close together without repeating any. At a fifth of the places
 // these are nearer than a tenth of the distance to other vertices, at a fiftieth nearer than a hundredth.
@@ -141,7 +142,8 @@ bool look_alike(const Cloud& cloud, Index a, Index b) {
   return cloud.normals[a].dot(cloud.normals[b]) > 0;
 }
 
-// Returns points in the order of the cloud, each unless a point before it is nearer than `distance`.
+// Returns points in the order of the cloud. A point is left out if an earlier one on its side is nearer than
+// `distance`.
 std::vector<Index> far_apart(const Cloud& cloud, double distance) {
   const KdTree<Vec3> tree(cloud.points);
   std::vector<std::uint8_t> is_covered(cloud.size(), 0);

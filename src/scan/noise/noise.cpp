@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::size_t enough_places = 4000;
 constexpr std::size_t fewest_places = 100;
-// A point, its neighbours, and theirs.
+// The number of a point, its neighbours, and the neighbours of these.
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
-// The quantile of the scatter that counts, and its share of the deviation: the root of the quantile of chi square over
-// its about 15 degrees of freedom.
+// The quantile of the scatter that is used, and the ratio of this quantile to the standard deviation: the
+// root of the same quantile of chi square over its about 15 degrees of freedom.
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho: clean scans of fine details scatter by up to this
-// The least scatter of normals where the points scatter by one sampling distance: that of normals estimated from 16
-// neighbours, measured on spheres and planes.
+// The least scatter of normals where the points scatter by one sampling distance: that of normals estimated
+// from 16 neighbours, measured on spheres and planes.
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {
@@ -33,7 +33,7 @@ struct LocalScatter {
   double normals;  // in radians, per component
 };
 
-// Returns the numbers of the point, its neighbours and theirs, each once.
+// Returns the numbers of a point, its neighbours and the neighbours of these, each once.
 std::vector<Index> two_rings(const Spacing& spacing, Index middle) {
   std::vector<Index> members{middle};
   members.reserve(most_members);
@@ -48,8 +48,8 @@ std::vector<Index> two_rings(const Spacing& spacing, Index middle) {
   return members;
 }
 
-// Returns how much the points and normals around a point scatter about quadratic polynomials, none if there are too
-// few neighbours.
+// Returns how much the points and normals around a point scatter about quadratic polynomials; nothing if
+// there are too few neighbours.
 std::optional<LocalScatter> scatter_around(const Cloud& cloud, const Spacing& spacing, Index middle) {
   constexpr int unknowns = 6, fewest = 14;
   const std::vector<Index> members = two_rings(spacing, middle);
@@ -74,7 +74,7 @@ std::optional<LocalScatter> scatter_around(const Cloud& cloud, const Spacing& sp
   return LocalScatter{std::sqrt(squares[0]), std::sqrt((squares[1] + squares[2]) / 2)};
 }
 
-constexpr int fits = 3;                              // each with the weights of the one before
+constexpr int fits = 3;                              // each weighted by the deviations from the one before
 constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 noise)
 constexpr double least_deviation = to_radians(8),
                  more_deviation = to_radians(30);  // of normals: the least, and the one per unit of noise

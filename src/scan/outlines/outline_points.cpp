@@ -221,9 +221,10 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
-// Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle empty there.
+// The radius, in rho, of the largest empty circle that sampling leaves where a surface is seen edge on;
+// points are dense there.
 constexpr double widest_circle = 1.2;
-// A surface turns away if its normal leans more, as in outlines.cpp.
+// The length of a normal's x and y above which its surface turns away from the viewer, as in outlines.cpp.
 constexpr double least_turned = .75;
 
 double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -231,8 +232,8 @@ double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).norm() * (c - b).norm() * (a - c).norm() / std::max(2 * twice_area, 1e-300);
 }
 
-// Returns whether a depth jump lies between two points and the surface behind ends before it, as its normal leans
-// towards the one in front.
+// Returns whether a depth jump lies between two points and the surface behind ends there: its normal leans
+// towards the point in front.
 bool ends_at_jump(const Surface& surface, Index front, Index back) {
   if (!is_occlusion(surface, front, back)) return false;
   if (surface.points[front].z() < surface.points[back].z()) std::swap(front, back);

@@ -16,8 +16,8 @@ namespace relievo {
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines = {});
 
-// Marks triangles as outside, from the silhouette inwards, that lie in the gap between a surface and another one behind
-// it which turns away from the viewer there: nothing is seen between them.
+// Marks triangles in gaps as outside, from the silhouette inwards. Such a gap lies between a surface and
+// another one behind it that turns away from the viewer there, so that nothing is seen between the two.
 void open_notches(Surface& surface);
 
 }  // namespace relievo

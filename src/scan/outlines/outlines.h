@@ -11,7 +11,7 @@
 #include "relievo/scan/surface.h"
 
 namespace relievo {
-// Puts outlines that were found by samples of a mesh onto the mesh's exact outlines.
+// Moves outlines that were found from samples of a mesh onto the mesh's exact outlines.
 class ExactOutlines {
  public:
   // `segments` are in view coordinates.
@@ -22,11 +22,12 @@ class ExactOutlines {
   // Returns whether a line in the view plane crosses a depth jump.
   bool is_across_jump(const Vec2& a, const Vec2& b) const { return jumps_.is_crossed(a, b); }
 
-  // Marks triangles as outside that span a gap between samples whose middle lies beyond the silhouette.
+  // Marks as outside those triangles over gaps between samples whose middle lies beyond the silhouette.
   void open_gaps(Surface& surface) const;
 
-  // Returns the curve along an outline that was found: `places` are near it, in its order, with the surface on their
-  // left. Where no exact outline is near, the curve goes through `guess(i)`, which is asked for place i then.
+  // Returns the exact curve of an outline that was found from samples. `places` lie near it, in the order of
+  // the outline, with the surface on their left. Where no exact outline is near place i, the curve goes
+  // through the node `guess(i)` instead.
   template <typename Guess>
   FairCurve curve(std::span<const Vec2> places, bool is_closed, bool is_jump, Guess&& guess) const {
     std::vector<CurveNode> nodes;
@@ -36,13 +37,13 @@ class ExactOutlines {
   }
 
  private:
-  // Adds the nearest places of exact outlines for places between the i-th and the next. Returns whether there is one
-  // for the i-th.
+  // Adds nodes on the exact outlines, nearest to places from the i-th to the next. Returns whether there is a
+  // node for the i-th place itself.
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest place of an exact outline that leads in that direction. A silhouette may lie on a jump: what is
-  // seen behind it may be too little for a surface.
+  // Returns the nearest place on an exact outline that leads in that direction. A sampled silhouette may lie
+  // on an exact jump, if too little is seen of the surface behind it.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;

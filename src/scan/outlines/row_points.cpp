@@ -106,7 +106,7 @@ class RowMaker {
   std::vector<RowPoint> points_;
 };
 
-constexpr double fit_radius = 2.5;     // in rho; where too few points are, up to 2.56 times as far
+constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as far where points are few
 constexpr float least_likeness = .8F;  // cosine of 37 degrees, between normals of one face
 constexpr int least_face_points = 5;
 constexpr double least_nz = .02;  // normals of the result lean at most 88.9 degrees
@@ -135,8 +135,8 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
     leave_same_side(p, matches);
     if (matches.size() >= 6) break;
   }
-  // A sliver between two outlines may show no point but those on them. Without its silhouette, long triangles would
-  // bridge it.
+  // In a sliver between two outlines all points may lie on these. Its silhouette then uses them: without the
+  // silhouette, long triangles would span the sliver.
   if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {
@@ -145,8 +145,9 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
   return interpolated(p, radius, matches);
 }
 
-// Points on an outline may belong to either side, and noise moves some points across: only those count that
-// lie on the surface of the point which is farthest from all outlines.
+// Keeps only the points on the same side as p. Points on an outline may belong to either side, and noise
+// moves some points across it. So only points count that lie on one surface with the point farthest from all
+// outlines.
 void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& matches) const {
   Index safest = no_index;
   std::erase_if(matches, [&](const auto& m) {
@@ -154,7 +155,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    const bool is_clear = std::isfinite(distance) &&  // it is not measured far from outlines, and outside
+    const bool is_clear = std::isfinite(distance) &&  // infinity far from outlines and outside
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;
@@ -200,8 +201,8 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   return value;
 }
 
-// Returns the mean of the depths that the nearest points predict. The chord of a circle is perpendicular to the
-// mean of the normals at its ends, which makes this exact where curvature is constant.
+// Returns the mean of the depths that the nearest points predict. The chord of a circle is perpendicular to
+// the mean of the normals at its ends, which makes this exact where curvature is constant.
 double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const {
   const std::size_t count = std::min<std::size_t>(6, matches.size());
   double depths = 0, weights = 0;

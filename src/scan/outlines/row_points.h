@@ -47,10 +47,10 @@ class SideInterpolation {
  public:
   struct Input {
     const Surface& surface;
-    const PlanePoints& plane;  // of the surface
+    const PlanePoints& plane;  // the points of the surface
     const PointMeasures& measures;
     const SegmentGrid& grid;
-    std::span<const float> outline_distance;  // of each point to the nearest outline
+    std::span<const float> outline_distance;  // distance of each point from the nearest outline
   };
   explicit SideInterpolation(const Input& input);
 
@@ -63,8 +63,8 @@ class SideInterpolation {
     float spacing = 0;
   };
 
-  // Returns what a new point is: normal and curvature by a linear fit to the points around that no outline separates
-  // from it, the depth by the chords to the nearest of them.
+  // Returns the values at a new point. Normal and curvature come from a linear fit to the points around it
+  // that no outline separates from it, the depth from the chords to the nearest of these points.
   Value at(const RowPoint& p) const;
 
  private:

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// A point in view coordinates, in cells from the grid's corner.
+// A point as a disc in view coordinates, in units of cells from the grid's corner.
 struct FrontDisc {
   // Radius of the discs that hide what is behind them, in spacings.
   static constexpr float hiding_radius{ScanLimits::disc_radius};
@@ -31,16 +31,16 @@ class DiscBand {
  public:
   DiscBand(int columns, int first_row, int rows);
 
-  // Raises depths to those of discs. All depths are drawn before the first normal.
+  // Raises depths to those of discs. All depths must be drawn before the first normal.
   void draw_depths(std::span<const FrontDisc> discs);
 
-  // Adds the normals of discs to the cells around, in which they are in front.
+  // Adds the normal of each disc to the cells around it in which the disc is in front.
   void add_normals(std::span<const FrontDisc> discs);
 
   // Writes depths and unit normals to the band's rows.
   void write(FrontCells& cells) const;
 
-  // The first cell of a row, counted from the band's first.
+  // Returns the first cell of a row, which is counted from the band's first row.
   float* depths(int row) { return depth_.data() + row * stride_; }
   float* normals(int axis, int row) { return normal_[static_cast<std::size_t>(axis)].data() + row * stride_; }
   int columns() const { return columns_; }
@@ -54,14 +54,15 @@ class DiscBand {
 };
 
 constexpr int lanes = 8;
-// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the places
-// between scattered points uncovered.
+// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the
+// places between scattered points uncovered.
 constexpr float mean_radius = 1.5F;
 constexpr float least_mean_radius = .8F;  // in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
-// Eight cells of one row: the steps to their centres from that of a disc, and how much higher its plane lies there.
+// For eight cells of one row: the squared distance of their centres from a disc's centre in the plane, and
+// how much higher the disc's plane lies there.
 struct Steps {
   Float8 distance_sq, rise;
 };
