@@ -69,7 +69,8 @@ Result<StateFolder> take_state_folder(const std::string& chosen) {
     if (found == Ownership::owned) folder.lock = lock_of(folder.path);
     if (folder.lock.is_open()) {
       if (i == 1) return folder;
-      folder.notice = cat(reason, " in which a studio usually keeps its work: this one keeps its own work apart.");
+      folder.notice =
+          cat(reason, " in which a studio usually keeps its work: this one keeps its own work apart.");
       folder.detail = cat("It does so in ", folder.path, ".");
       return folder;
     }
