@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/image_filters.h"
+#include "support/shapes.h"
 
 namespace relievo {
 namespace {

@@ -11,7 +11,7 @@ export const spread = {
   log: {to: (v, min, max) => Math.log(v / min) / Math.log(max / min), from: (p, min, max) => min * (max / min) ** p},
 };
 
-const STEPS = 1000;
+const STEPS = 1000, MOST_DECIMALS = 4;
 export const REST_MS = 400; // pause of keys or the wheel that ends a movement
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
@@ -23,6 +23,11 @@ export function nextValue(value, direction, isFine, least) {
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
   const steps = value / step;
   return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
+}
+
+// Returns the number of decimals of a typed value; 0 for one that is computed, which has more than can be typed.
+function decimalsOf(value) {
+  return value === Number(value.toFixed(MOST_DECIMALS)) ? `${value}`.split(".")[1]?.length ?? 0 : 0;
 }
 
 // A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
@@ -81,9 +86,8 @@ export class Slider {
   // Takes the typed number with all its typed decimals, also more than the slider has.
   typed() {
     const value = typedNumber(this.number.value, this, this.say);
-    this.exact = value === null ? this.exact : Number(value.toFixed(4));
     if (value === null) this.show(this.value);
-    else this.moved(this.exact, true);
+    else this.moved(Number(value.toFixed(MOST_DECIMALS)), true);
     this.onEnd();
   }
 
@@ -121,20 +125,19 @@ export class Slider {
   position = (value = this.value) => Math.round(this.spread.to(clamp(value, ...this.hand), ...this.hand) * STEPS);
 
   moved(value, isTyped = false) {
-    this.show(value);
-    this.onInput(value === this.exact ? value : this.rounded(value), isTyped);
+    const now = isTyped ? value : this.rounded(value);
+    this.show(now);
+    this.onInput(now, isTyped);
   }
 
-  // Returns the value of the number as shown, in millimetres for a length.
+  // Returns a value with the slider's own decimals, in millimetres for a length.
   rounded(value) {
-    const number = Number(this.text(value));
-    return this.isLength ? Number((number * millimetresPerUnit()).toFixed(4)) : number;
+    const number = Number(this.text(value, this.decimals));
+    return this.isLength ? Number((number * millimetresPerUnit()).toFixed(MOST_DECIMALS)) : number;
   }
 
-  // Returns the number as it is shown.
-  text(value) {
-    const typed = value === this.exact ? `${value}`.split(".")[1]?.length ?? 0 : 0;
-    const decimals = Math.max(this.decimals, typed);
+  // Returns the number as it is shown: with more than the slider's own decimals if it was typed so.
+  text(value, decimals = Math.max(this.decimals, decimalsOf(value))) {
     return this.isLength ? lengthText(value, decimals) : value.toFixed(decimals);
   }
 

@@ -45,7 +45,8 @@ export class Sliders {
   // Marks the largest width that fits into a plate of a given size.
   showWidth() {
     const most = this.frame()?.most_width_mm ?? null;
-    if (!this.entries.isPending("width")) this.all.width.show(this.shownWidth());
+    const {width} = this.all;
+    if (!this.entries.isPending("width")) width.show(this.doc.now.options.width ?? width.rounded(this.shownWidth()));
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
@@ -95,7 +96,7 @@ export class Sliders {
     for (const [name, slider] of Object.entries(this.all)) {
       const isWaiting = this.entries.isPending(name);
       slider.element.ariaBusy = isWaiting ? "true" : null;
-      if (!isWaiting) slider.show(options[name] ?? this.shownWidth()); // no other slider's option may be none
+      if (!isWaiting && name !== "width") slider.show(options[name]); // which is null for no other slider
     }
     this.showWidth();
     $("#method").value = options.method;
