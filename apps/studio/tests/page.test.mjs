@@ -141,7 +141,7 @@ test("takes numbers as people type them, and refuses others in one line", async 
   for (const entered of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
     await set("Longer side in mm", entered);
     await toast().getByText(`Longer side: expected a number from 0.1 to 100000 mm, such as`).waitFor();
-    await soon.ok(() => toast().innerText()).endsWith(`found '${entered}'.`, entered);
+    await soon.ok(async () => (await toast().innerText()).endsWith(`found '${entered}'.`), entered);
     await soon.equal(() => text("Longer side in mm"), "10.0");
   }
   await set("Edge emphasis value", "1mm");
