@@ -10,8 +10,8 @@ results are those of `relievo batch`, and either can continue a run of the other
 those of a worker that dies on another worker, and shows the run in its dashboard.
 """
 
-# Dask's functions have no types, and type checks must also work without Dask. mypy:
-# disable-error-code="no-untyped-call, import"
+# Dask's functions have no types, and type checks must also work without Dask.
+# mypy: disable-error-code="no-untyped-call, import"
 
 from __future__ import annotations
 

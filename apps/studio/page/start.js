@@ -18,6 +18,13 @@ export function showSamples(open) {
 
 export const START = "#start"; // at the end of the page's address: opens the start page first
 
+// Shows the picture of a document, or an icon without one. Returns the image.
+function showPicture(image, picture) {
+  const source = picture || engine.addressOf("icon.svg");
+  if (image.getAttribute("src") !== source) Object.assign(image, {src: source, className: picture ? "" : "none"});
+  return image;
+}
+
 // The shelf of kept documents: opens and removes them, and shows how much space they take.
 export class Shelf {
   constructor({engine, opened, keeper, open, failed}) {
@@ -27,23 +34,27 @@ export class Shelf {
   async show() {
     const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.canRemove && engine.kept()]);
     $("#recent-shelf").hidden = recent.length === 0;
-    $("#recent").replaceChildren();
-    this.add(recent, kept);
+    const names = recent.map(({document, is_there: isThere}) => `${document} ${isThere}`).join();
+    if (names === this.names) // a card that is replaced between the press and the release of a button gets no click
+      recent.forEach(({picture}, i) => showPicture($("#recent").children[i].querySelector("img"), picture));
+    else
+      $("#recent").replaceChildren();
+    this.add(names === this.names ? [] : recent, kept);
+    this.names = names;
   }
 
   add(entries, kept) {
     $("#recent").append(...entries.map((entry) => this.card(entry)));
-    const shown = $("#recent").children.length, isMore = kept && entries.length > 0 && kept.documents > shown;
+    const {length: shown} = $("#recent").children, isMore = kept && shown > 0 && kept.documents > shown;
     $("#kept").textContent = kept ? inTotal(kept, shown) : "";
     $("#older").hidden = !isMore;
-    $("#older").onclick = async () => this.add(await this.engine.recent(entries.at(-1).document), kept);
+    const last = entries.at(-1)?.document;
+    if (last) $("#older").onclick = async () => this.add(await this.engine.recent(last), kept);
   }
 
   card({document, input, picture, is_there: isThere}) {
     const open = make("button", {title: input.path ?? `Sample ${input.name}`, onclick: () => this.open(input)},
-      make("img", {
-        src: picture || engine.addressOf("icon.svg"), alt: "", width: 320, height: 200, class: picture ? "" : "none",
-      }),
+      showPicture(make("img", {alt: "", width: 320, height: 200}), picture),
       make("span", {}, nameOf(input), make("small", {}, isThere ? "" : "Scan not found")));
     const ask = () => offer(`Remove your work on ${nameOf(input)} for good, with the scan if it was dropped here?`, "Remove",
       () => this.remove(document).catch(this.failed));
