@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
-  radio as kind, scan, skip, soon, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
+  radio as kind, scan, soon, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
 import {enter, eventually, openPanels, readStl, savedFiles, type, untilReady, writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
