@@ -98,9 +98,10 @@ async function showFile(file, of) {
 }
 
 test("opens a scan of the browser", async () => {
-  await showFile(scan, page);
+  await openFile(scan);
   await toast().getByText(/^Your work on .* is kept/).waitFor();
   await page.getByText("of 30,000 points").waitFor();
+  await untilReady(page);
 });
 
 test("drags the height: number and picture change", async () => {
