@@ -73,6 +73,7 @@ export class Shelf {
       throw error;
     }
     keeper.forget(document);
+    this.names = null; // so that the cards are made anew, as the document may be an older one
     if (!isShown) return this.show();
     location.hash = START;
     location.reload();

@@ -318,6 +318,10 @@ test("shows older work, too, than the newest with which the start page begins", 
   const names = await shelf(tab).locator("span").evaluateAll((all) => all.map(({textContent}) => parseInt(textContent)));
   assert.deepEqual(names.sort((a, b) => a - b), [...Array(30).keys()]);
   await soon.ok(() => button("Show older work", tab).isHidden());
+  await shelf(tab).getByRole("listitem").last().getByRole("button", {name: "Remove"}).click();
+  await button("Remove", toast(tab)).click();
+  await tab.getByText(/^The work on 29 scans is kept .* The newest 24 are shown\.$/).waitFor();
+  await soon.equal(() => shelf(tab).getByRole("listitem").count(), 24);
   await tab.close();
   await other.stop();
 });
