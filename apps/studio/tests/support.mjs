@@ -13,7 +13,7 @@ const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no
   "--disable-background-networking", "--disable-component-update"];
 
 // The longest time that a test waits for anything, on a machine that is busy with other work.
-export const PATIENCE_MS = Number(process.env.RELIEVO_PATIENCE_MS ?? 240000);
+export const PATIENCE_MS = 240000;
 
 const folders = [];
 const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true, maxRetries: 5});
