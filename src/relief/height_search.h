@@ -96,7 +96,7 @@ class HeightSearch {
     constexpr int most_reliefs = 24;
     // Steps go a tenth further than the secant asks for: ending a little too high saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
-    // Where walls are cut at the limit, heights grow more slowly than u, but they always grow.
+    // Heights always grow with u, but more slowly than u if the steepest walls are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;
     // Within this distance of the end, the relief at the end is tried instead: if it is too low, the search
     // is over.

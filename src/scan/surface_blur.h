@@ -38,8 +38,8 @@ class SurfaceBlur {
       high = std::max(high, to);
     }
   };
-  // Of the eight cells around a point, the one with the smallest coordinates; `share` is the point's position
-  // between it and the other ones.
+  // Names the cell with the smallest coordinates among the eight cells around a point; `share` is the point's
+  // position between that cell and the others.
   struct Place {
     Index column = 0;
     int z = 0;

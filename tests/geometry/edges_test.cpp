@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// By Euler's formula, the number of edges is that of the points plus that of the triangles minus one.
+// Euler's formula gives the number of edges: points plus triangles minus one.
 TEST(Edges, HaveTheSidesOfOneOrTwoTriangles) {
   const std::vector<Vec2> points = random_points(500, 3);
   const Triangulation mesh = delaunay(points);

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Of larger scans only every second, third, ... point is drawn: 600,000 points of all sides show a relief's
-// detail at the size of a screen.
+// If a scan has more points than this, every second, third, ... of them is drawn: 600,000 points of all sides
+// show a relief's detail at the size of a screen.
 constexpr std::size_t most_drawn = 600'000;
 constexpr std::size_t cells_per_point = 12;
 constexpr std::size_t least_cells = 16;  // fewer cells show nothing
