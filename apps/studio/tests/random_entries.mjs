@@ -88,6 +88,10 @@ export class RandomEntries {
     if (!(await field.isVisible()) || !(await field.isEnabled())) return false;
     const isConfirmed = this.random() < 0.7;
     this.done.push(`${name} ${text}${isConfirmed ? " Enter" : ""}`);
+    // An entry that was not confirmed is lost if another one is typed over it.
+    if (this.unconfirmed?.name === name) Object.assign(this.typed, {[name]: this.unconfirmed.before});
+    if (this.typed[name] === undefined) delete this.typed[name];
+    this.unconfirmed = isConfirmed ? null : {name, before: this.typed[name]};
     await field.focus();
     await keyboard.press("Control+a");
     await keyboard.type(text, {delay: this.oneOf([0, 0, 30])});
@@ -96,6 +100,7 @@ export class RandomEntries {
   }
 
   async choose() {
+    this.unconfirmed = null;
     const name = this.oneOf(KINDS);
     this.done.push(name);
     await radio(name, this.page).click();
@@ -114,6 +119,7 @@ export class RandomEntries {
   async press(name) {
     const pressed = button(name, this.page);
     this.done.push(name);
+    this.unconfirmed = null;
     await this.page.evaluate(() => document.activeElement.blur());
     if (await pressed.isDisabled()) return;
     await pressed.click({timeout: 1000}).catch(() => {}); // the button may be disabled by then
@@ -129,6 +135,7 @@ export class RandomEntries {
   }
 
   async open() {
+    this.unconfirmed = null; // leaving the field takes the entry
     const isByKey = this.random() < 0.5;
     this.done.push(isByKey ? "Ctrl E" : "Export");
     await (isByKey ? this.page.keyboard.press("Control+e") : this.page.locator("#export").click());
