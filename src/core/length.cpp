@@ -17,8 +17,8 @@ void skip_spaces(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
 }
 
-// Returns whether the comma may be a decimal comma or separate thousands, as in "1,234". In "0,125" it is a
-// decimal comma.
+// Returns whether the comma is ambiguous: in "1,234" it may be a decimal comma or separate thousands. In
+// "0,125" it can only be a decimal comma.
 bool is_ambiguous(std::string_view number) {
   const std::size_t comma = number.find(',');
   if (comma == std::string_view::npos || number.size() - comma != 4) return false;
@@ -61,7 +61,7 @@ std::size_t whole_part(std::string_view text) {
   return is_mixed && text[slash] == '/' ? fraction : 0;
 }
 
-// Removes a number, a fraction of two, or a whole number and a fraction, and returns its value.
+// Removes a number, a fraction, or a whole number with a fraction, and returns its value.
 std::optional<double> take_term(std::string_view& text) {
   const std::size_t whole = whole_part(text);
   const std::optional<double> number = whole > 0 ? take_number(text) : std::optional(0.0);

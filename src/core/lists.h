@@ -1,5 +1,5 @@
-// Removes elements of lists, and picks some by their numbers. Tested by tests/io/io_test.cpp and
-// tests/scan/surface_test.cpp.
+// Functions that remove elements of lists, or pick elements by their indices. Tested by tests/io/io_test.cpp
+// and tests/scan/surface_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,8 @@ void keep_where(std::vector<T>& values, IsKept&& is_kept) {
   values.resize(kept);
 }
 
-// Returns the elements that `order` numbers; an empty list if `from` is empty.
+// Returns the elements of `from` with the indices in `order`, in that order; an empty list if `from` is
+// empty.
 template <typename List>
 auto pick(const List& from, std::span<const Index> order) {
   std::vector<std::ranges::range_value_t<List>> out(from.empty() ? 0 : order.size());

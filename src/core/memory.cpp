@@ -9,7 +9,8 @@
 namespace relievo {
 
 LargeArray make_large_array(std::size_t floats) {
-  // Large pages have 2 MB on x86 and ARM. Rounding up smaller arrays to whole ones would waste too much.
+  // Large pages have 2 MB on x86 and ARM. Rounding the size of a small array up to whole large pages would
+  // waste too much memory.
   const std::size_t page = std::size_t{1} << 21, bytes = floats * sizeof(float);
   const std::size_t alignment = bytes >= 4 * page ? page : 64;
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
@@ -20,7 +21,7 @@ LargeArray make_large_array(std::size_t floats) {
     throw std::bad_alloc();
   }
 #if defined(__linux__)
-  // This is only a request: whether the system grants it affects the speed alone.
+  // This is only a request: if the system refuses it, reading is slower and nothing else changes.
   if (alignment == page) static_cast<void>(madvise(array, rounded, MADV_HUGEPAGE));
 #endif
   return LargeArray(static_cast<float*>(array));

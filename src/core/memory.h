@@ -1,4 +1,4 @@
-// Memory: how much of it vectors have, and storage for large arrays that are read from front to back.
+// The memory that a vector has allocated, and storage for large arrays that are read from front to back.
 // Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Returns the bytes that a vector has allocated, not counting what its elements own.
+// Returns the bytes that a vector has allocated, not counting the memory that its elements own.
 template <typename T>
 std::size_t bytes(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);

@@ -38,7 +38,7 @@ bool take_digits(const char*& at, const char* last, Decimal& number) {
   return has_digits;
 }
 
-// Reads the exponent, which is left unread if it has no digits.
+// Reads an exponent and adds it to the power of ten. An "e" without digits after it is left unread.
 void take_exponent(const char*& at, const char* last, Decimal& number) {
   if (at == last || (*at != 'e' && *at != 'E')) return;
   const char* digit = at + 1;

@@ -12,11 +12,11 @@ struct ParsedNumber {
   std::errc error = {};       // as std::from_chars() reports it
 };
 
-// Parses a double as std::from_chars() does, even where the standard library has it for integers alone.
+// Parses a double as std::from_chars() does, also where the standard library's function reads only integers.
 ParsedNumber parse_double(std::string_view text);
 
 namespace detail {
-// The implementation for standard libraries without it. Tests compare it with std::from_chars().
+// The implementation for such standard libraries. Tests compare it with std::from_chars().
 ParsedNumber parse_double_by_hand(std::string_view text);
 }  // namespace detail
 

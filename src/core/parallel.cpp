@@ -14,8 +14,8 @@ namespace {
 
 struct Job;
 
-// The block that a thread works on; `job` is null between blocks. A nested parallel call runs at once and on
-// this thread alone, because the other threads have blocks of their own.
+// The block that a thread works on; `job` is null between blocks. A nested parallel call runs at once and
+// only on this thread, because the other threads have blocks of their own.
 struct BlockAtWork {
   const Job* job = nullptr;
   std::size_t block = 0;
@@ -56,8 +56,8 @@ struct Job {
     return true;
   }
 
-  // Keeps the exception of the first block that fails. All blocks before it have begun, so it is the same
-  // block with any number of threads.
+  // Keeps the exception of the first block that fails. All blocks before the failing one have begun, so the
+  // first failure is the same with any number of threads.
   void fail(std::size_t block) {
     const std::lock_guard lock(failing);
     next = blocks;
@@ -66,13 +66,14 @@ struct Job {
     exception = std::current_exception();
   }
 
-  // Returns whether an earlier block has failed. Then this block may wait in vain for one that never begins;
-  // with a single thread this block would not have begun.
+  // Returns whether an earlier block has failed. If so, this block may be waiting for a block that will never
+  // begin, and it is abandoned: a single thread would not have begun it.
   bool has_failed_before(std::size_t block) const { return first_failed < block; }
 };
 
-// The worker threads, which sleep between jobs. They do one job at a time. A caller that comes meanwhile
-// works alone on its job until they are free: a picture must not wait for a job that takes half a second.
+// The worker threads, which sleep between jobs. They do one job at a time. Meanwhile another caller works
+// alone on its own job until the workers are free: a picture must not wait for a job that takes half a
+// second.
 class Pool {
  public:
   static Pool& instance() {

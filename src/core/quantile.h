@@ -18,7 +18,7 @@ T value_of_rank(std::span<T> values, std::size_t rank) {
   return *at;
 }
 
-// Returns the value of rank share * (n - 1), rounded down, of n values; share in [0, 1].
+// Returns, of n values, the one of rank share * (n - 1), rounded down; share in [0, 1].
 template <typename Values>
 auto quantile(Values&& values, double share) {
   return value_of_rank(std::span(values),
@@ -31,7 +31,7 @@ auto median(Values&& values) {
   return value_of_rank(std::span(values), std::size(values) / 2);
 }
 
-// Returns for each value the share of the values that are smaller: 0 for the smallest, below 1 for the
+// Returns, for each value, the fraction of all values that are smaller: 0 for the smallest, below 1 for the
 // largest.
 inline std::vector<double> ranks(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end()), result(values.size());

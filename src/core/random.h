@@ -18,7 +18,7 @@ class SplitMix64 {
     return z ^ z >> 31;
   }
 
-  // Returns a number that is uniform in [0, 1), of 53 random bits.
+  // Returns a number that is uniform in [0, 1), with 53 random bits.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
   // Increment of the state with each call.

@@ -10,8 +10,8 @@ namespace relievo {
 // If it does not, the returned x is just outside that range and f(x) is not near 0. f is called at most 100
 // times.
 //
-// The root is first bracketed by growing steps from 0. Then the Illinois variant of false position, which
-// halves the value at the end that stays, narrows the bracket; if it has not converged after 8 steps, every
+// The root is first bracketed by growing steps from 0. Then the Illinois variant of false position narrows
+// the bracket; it halves the value of f at an end that stays. If it has not converged after 8 steps, every
 // other step bisects.
 template <typename F>
 double find_root(F&& f, double tolerance) {

@@ -25,7 +25,7 @@ typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
-// Returns whether RELIEVO_WIDE() shall use AVX2; initially, whether the processor has it.
+// Returns whether RELIEVO_WIDE() shall use AVX2. This is initially true if the processor has AVX2.
 bool uses_avx2();
 
 template <typename F>
@@ -33,8 +33,8 @@ RELIEVO_AVX2 decltype(auto) call_with_avx2(F&& f) {
   return f();
 }
 
-// Evaluates a call of a function marked RELIEVO_INLINE. It is compiled twice, to AVX2 and to instructions
-// that every processor has.
+// Evaluates a call of a function marked RELIEVO_INLINE. The call is compiled twice, to AVX2 and to
+// instructions that every processor has.
 #define RELIEVO_WIDE(...) \
   (uses_avx2() ? call_with_avx2([&]() __attribute__((always_inline)) { return __VA_ARGS__; }) : (__VA_ARGS__))
 

@@ -1,5 +1,5 @@
-// Words for the values of an enumeration: one table is used to read them, to write them and to list them in
-// errors.
+// Tables of the words for an enumeration's values. One table serves to parse the words, to write them and to
+// list them in errors.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Choice {
   E value;
 };
 
-// Returns "a, b or c".
+// Returns the names joined: "a, b or c".
 std::string either(const std::vector<std::string_view>& names);
 
 // Returns the error for a word that is not in `names`: "expected one of a, b or c, found 'x'". Its kind is
@@ -33,8 +33,8 @@ std::vector<std::string_view> names_of(const Table& choices) {
   return names;
 }
 
-// Returns the value of the word `text`. Errors: kind option, naming `option` and all words, for any other
-// text.
+// Returns the value whose word is `text`. For any other text, returns an error of kind option that names
+// `option` and lists all words.
 template <typename E, std::size_t n>
 Result<E> parse_choice(std::string_view option, std::string_view text,
                        const std::array<Choice<E>, n>& choices) {

@@ -16,7 +16,7 @@ struct Image {
 
   bool empty() const { return pixels.empty(); }
 
-  // The number and the elements of `pixels`: row by row, the channels of a pixel side by side.
+  // Access to `pixels` in their order: row by row, with the channels of a pixel side by side.
   std::size_t size() const { return pixels.size(); }
   T& operator[](std::size_t i) { return pixels[i]; }
   const T& operator[](std::size_t i) const { return pixels[i]; }

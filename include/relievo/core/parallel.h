@@ -1,7 +1,7 @@
 // Parallel loops. Only this file of the library creates threads. On a system without threads, such as
-// WebAssembly, the calling thread does all work. Work is cut into blocks whose limits depend on the amount of
-// work alone, never on the number of threads, so that results have the same bits for any number of threads.
-// Tested by tests/core/parallel_test.cpp.
+// WebAssembly, the calling thread does all work. Work is cut into blocks whose limits depend only on the
+// amount of work, never on the number of threads, so that results have the same bits for any number of
+// threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
 }
 
 // Calls both functions, concurrently or one after the other, so neither may wait for the other. A parallel
-// call inside one of them runs on that function's thread alone.
+// call inside one of them runs only on that function's thread.
 template <typename First, typename Second>
 void parallel_both(First&& first, Second&& second) {
   parallel_for(

@@ -20,7 +20,7 @@ using Mat3 = Eigen::Matrix3d;
 using Index = std::uint32_t;
 inline constexpr Index no_index = ~Index{0};
 
-// Three vertices, counter-clockwise as seen from +Z, in a solid as seen from outside.
+// Three vertices. They are counter-clockwise as seen from +Z, or, in a solid, as seen from outside.
 using Triangle = std::array<Index, 3>;
 
 // The unit of coordinates and lengths; core/length.h reads and names it.
