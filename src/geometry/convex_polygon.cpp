@@ -24,14 +24,15 @@ Vec2 crossing(const Line& a, const Line& b) {
          sine;
 }
 
-// Returns the length of a side between its neighbours; negative if they meet before reaching it.
+// Returns the length of a side between its neighbours; negative if the neighbours meet before they reach the
+// side.
 double length_of(const Line& before, const Line& side, const Line& after) {
   const Vec2 along(-side.normal.y(), side.normal.x());
   return (crossing(side, after) - crossing(before, side)).dot(along);
 }
 
-// Removes sides that vanish when all are moved. Removing one changes the lengths of its neighbours, so the
-// search goes back by one and ends after a whole round without a removal.
+// Removes sides that vanish when all sides are moved. A removal changes the lengths of the neighbouring
+// sides, so the search goes back by one side. It ends after a whole round without a removal.
 void drop_short(std::vector<Line>& lines) {
   for (std::size_t i = 0, good = 0; good < lines.size() && lines.size() > 3;) {
     const std::size_t n = lines.size();

@@ -13,7 +13,7 @@ namespace relievo {
 // must not vanish: its remaining sides must still go all the way around.
 std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm);
 
-// Returns true if the place lies inside the convex polygon, at least `depth` from its sides.
+// Returns whether the point `place` lies inside the convex polygon, at least `depth` from its sides.
 bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth = 0);
 
 }  // namespace relievo

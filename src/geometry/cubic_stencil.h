@@ -1,5 +1,5 @@
-// Uniform cubic B-splines in the plane, at packed places. Section 3.1 of Lee, Wolberg and Shin, 1997.
-// Tested by tests/geometry/spline_test.cpp.
+// Uniform cubic B-splines in the plane, evaluated at a SplinePlace, which stores the position within a cell
+// in 16 bits per axis. Section 3.1 of Lee, Wolberg and Shin, 1997. Tested by tests/geometry/spline_test.cpp.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// One side of a triangle, by the triangle's corners in their order.
+// One side of a triangle: its two ends and the opposite corner, in the triangle's order.
 struct TriangleSide {
   Index from, to, apex;
   Index triangle;  // number of the triangle
@@ -23,9 +23,9 @@ struct TriangleSide {
   }
 };
 
-// Calls f(sides) for each edge, in the order of its lower and then its higher end. `sides` are the sides on
-// the edge that is_wanted(side) accepts, in the order of their triangles; an edge without such a side is
-// skipped.
+// Calls f(sides) for each edge. The edges are ordered by their lower end, then by their higher end. `sides`
+// are the sides on the edge that is_wanted(side) accepts, in the order of their triangles; an edge without
+// such a side is skipped.
 template <typename IsWanted, typename F>
 void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f) {
   std::vector<TriangleSide> sides;
@@ -45,7 +45,7 @@ void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f)
   }
 }
 
-// Does the same with all sides.
+// Calls f(sides) for each edge, in the same order, with all sides on the edge.
 template <typename F>
 void each_edge(std::span<const Triangle> triangles, F&& f) {
   each_edge(

@@ -37,8 +37,8 @@ inline TwoDoubles split(double a) {
   return {high, a - high};
 }
 
-// Returns a * b exactly. (Dekker and Veltkamp; theorem 18) Does not use std::fma: without hardware for it, as
-// in WebAssembly, it is slower by an order of magnitude.
+// Returns a * b exactly. (Dekker and Veltkamp; theorem 18) std::fma is not used, because it is ten times as
+// slow where the hardware lacks it, as in WebAssembly.
 inline TwoDoubles two_product(double a, double b) {
   const double product = a * b;
   const TwoDoubles x = split(a), y = split(b);
@@ -46,8 +46,8 @@ inline TwoDoubles two_product(double a, double b) {
   return {product, x.low * y.low - error};
 }
 
-// An exact sum of at most `capacity` doubles, its components: strongly nonoverlapping, of growing magnitude
-// and without zeros, so that the last one has the sign of the sum. Sums and products are exact.
+// An exact sum of at most `capacity` doubles, its components. These are strongly nonoverlapping, never zero
+// and of growing magnitude, so that the last one has the sign of the sum. Sums and products are exact.
 template <std::size_t capacity>
 class Expansion {
  public:
@@ -58,7 +58,8 @@ class Expansion {
   std::size_t size() const { return size_; }
   double operator[](std::size_t i) const { return components_[i]; }
 
-  // Appends a component whose magnitude is not smaller than that of those before; zeros are left out.
+  // Appends a component unless it is zero. Its magnitude must not be smaller than those of the components
+  // before.
   void append(double a) {
     components_[size_] = a;
     size_ += a != 0;

@@ -17,8 +17,7 @@ struct Sample {
   double weight;
 };
 
-// Samples in the order of their length along the curve. Those of a closed curve repeat after the length of
-// the curve.
+// Samples in the order of their length along the curve. On a closed curve they repeat after its length.
 class Course {
  public:
   Course(std::vector<Sample> samples, double begin, double end, bool is_closed)
@@ -58,8 +57,8 @@ struct Corner {
   double turn;
 };
 
-// The part of a course that a fit may use: up to its corners, where the part ends, or all of it if there are
-// none.
+// The part of a course that a fit may use: up to the nearest corner on either side, or all of the course if
+// there are no corners.
 struct Piece {
   double from = -1e300, to = 1e300;
   const Corner *begin = nullptr, *end = nullptr;
@@ -80,8 +79,8 @@ Vec2 nearest_place(const Course& course, double at) {
   return place;
 }
 
-// Returns the value at `at` of the quadratic that fits the samples around best, or the nearest sample if
-// there are none around, as between two corners.
+// Returns the value at `at` of the quadratic that best fits the samples around it. If there are no samples
+// around, as may happen between two corners, returns the place of the nearest sample.
 Vec2 fitted(const Course& course, double at, const Piece& piece, double window) {
   constexpr std::size_t enough = 5;
   Mat3 moments;
@@ -104,13 +103,13 @@ Vec2 fitted(const Course& course, double at, const Piece& piece, double window) 
     if (count >= enough) break;
   }
   if (!(moments(0, 0) > 0)) return nearest_place(course, at);
-  // A little of the identity keeps the fit defined where samples are few.
+  // Small terms on the diagonal keep the system solvable where samples are few.
   moments(1, 1) += 1e-6 * moments(0, 0);
   moments(2, 2) += 1e-3 * moments(0, 0);
   return moments.ldlt().solve(products).row(0).transpose();
 }
 
-// Returns the course of nodes by the length of their polyline, whose zigzag is smoothed away first.
+// Returns the nodes as a course. Lengths are measured along their polyline after its zigzag is smoothed away.
 Course course_of(std::span<const CurveNode> nodes, bool is_closed) {
   const std::size_t n = nodes.size();
   std::vector<Vec2> smooth;
@@ -142,8 +141,8 @@ std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   return line;
 }
 
-// Returns a course of the same samples, with lengths along a line that was drawn from the old course. A
-// sample whose place is far from the line gets little weight.
+// Returns a course of the same samples, with lengths measured along `line`, which was drawn from the old
+// course. A sample that lies far from the line gets little weight.
 Course along(const std::vector<Vec2>& line, const Course& course, const FairCurveOptions& options) {
   const std::size_t n = line.size(), edges = course.is_closed() ? n : n - 1;
   std::vector<double> length(edges + 1, 0);
@@ -224,7 +223,8 @@ Corner corner_between(const Course& course, double at, double reach, const FairC
   return {at, before.point + share * before.direction, turn};
 }
 
-// Returns the corner at a length, with turn 0 if there is none. Long sides determine its place best.
+// Returns the corner at a length, with turn 0 if there is none. Long sides are tried first, because they
+// determine the corner's place best.
 Corner corner_at(const Course& course, double at, const FairCurveOptions& options) {
   for (const double windows : {4.0, 2.3, 1.3}) {
     const Corner corner = corner_between(course, at, windows * options.window, options);
@@ -233,8 +233,8 @@ Corner corner_at(const Course& course, double at, const FairCurveOptions& option
   return {at, {}, 0};
 }
 
-// Returns the corners in the order of their length: the sharpest within a window, each at the length of the
-// drawn curve that is nearest to it.
+// Returns the corners in the order of their length. Of corners closer together than 1.5 windows only the
+// sharpest is returned. A corner's length is that of the nearest place on the drawn curve.
 std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
   std::vector<Corner> found, corners;

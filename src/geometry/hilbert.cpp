@@ -14,7 +14,7 @@ namespace {
 
 constexpr unsigned bits = 12;  // per axis; cells with many points are divided again
 
-// The position on the curve in the upper 32 bits, the number of the point in the lower.
+// An entry has the position on the curve in its upper 32 bits, and the number of the point in the lower.
 using Entry = std::uint64_t;
 using Entries = std::span<Entry>;
 
@@ -86,7 +86,7 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) entries[i] = i;
 
-  // Cells with more points than this are sorted along a curve of their own, until there are none. The stack
+  // Cells with more points than this are sorted along a curve of their own, until no cell has more. The stack
   // replaces recursion, which clusters within clusters could make deep.
   constexpr std::ptrdiff_t most_in_a_cell = 8;
   std::vector<Entries> todo;

@@ -21,7 +21,7 @@ std::vector<Eigen::Vector2f> in_unit_square(std::span<const Vec2> points);
 // in one cell are in the order of their numbers.
 std::vector<Index> plane_order(std::span<const Eigen::Vector2f> points);
 
-// Returns the numbers of the points in Z-order within their box; points in the same of its 2^63 cells are
+// Returns the numbers of the points in Z-order on a grid of 2^63 cells over their box; points in one cell are
 // ordered by their coordinates. The sequence of positions does not depend on the order in which the points
 // are given.
 std::vector<Index> space_curve_order(std::span<const Vec3> points);

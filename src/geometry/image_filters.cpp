@@ -11,17 +11,17 @@
 namespace relievo {
 namespace {
 
-constexpr int block = 32;  // samples worked on together, in registers
+constexpr int block = 32;  // number of samples computed together, in registers
 constexpr float least = -std::numeric_limits<float>::infinity();
 
-// The grid within a frame of -infinity, so that no window leaves it.
+// The image within a frame of -infinity, so that no window leaves the array.
 struct Framed {
   int frame, stride, rows;
   std::vector<float> values;
-  // Largest value of each run of `block` in each row.
+  // Largest value of each run of `block` samples in a row.
   int runs;
   std::vector<float> highest;
-  // Largest value of each square of such runs.
+  // Largest value of each square of `block` by `block` samples.
   std::vector<float> highest_of_square;
 
   Framed(const Image<float>& image, int frame_width)
@@ -58,7 +58,8 @@ struct Framed {
       }
   }
 
-  // Returns an upper bound of rows y - away to y + away, columns x - away to x + block - 1 + away.
+  // Returns an upper bound of the values in rows y - away to y + away, columns x - away to x + block - 1 +
+  // away.
   float highest_around(int x, int y, int away) const {
     float most = least;
     for (int row = (y - away) / block; row <= (y + away) / block; ++row)
@@ -69,7 +70,7 @@ struct Framed {
 
   const float* at(int x, int y) const { return values.data() + std::ptrdiff_t{y} * stride + x; }
 
-  // Returns an upper bound of row y from x to x + count - 1.
+  // Returns an upper bound of the values in row y, columns x to x + count - 1.
   float highest_of(int x, int count, int y) const {
     const float* const row = highest.data() + std::ptrdiff_t{y} * runs;
     return *std::max_element(row + x / block, row + (x + count - 1) / block + 1);
@@ -99,8 +100,8 @@ struct WindowRow {
   int x, y, away, width;
 };
 
-// Returns the distance to the sides up to which values of the row, minus the shape, may exceed `lowest`; -1
-// if no value may.
+// Returns the largest distance to the sides of the block at which the row's values, minus the shape, may
+// exceed `lowest`; -1 if no value of the row may.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -111,8 +112,8 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// Returns the distance in rows from the block up to which values, minus the shape, may exceed `lowest`; -1 if
-// no value may.
+// Returns the largest distance in rows from the block at which values, minus the shape, may exceed `lowest`;
+// -1 if no value may.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;
@@ -132,8 +133,9 @@ RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowR
   for (int dx = -width; dx <= width; ++dx) take(sums, middle + dx, profile.at(std::abs(dx), row.away));
 }
 
-// Computes the block of samples that begins at x, y of the framed grid. Goes from the middle outwards, so
-// that soon no value farther away can be the largest.
+// Computes the block of samples that begins at x, y of the framed image. Begins with the middle row of the
+// window. The maxima found there bound how far away a larger value can still be, so rows and columns beyond
+// that are skipped.
 RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
   Sums sums;
   for (Float8& v : sums.v) v = Float8{} + least;
@@ -170,7 +172,7 @@ struct Strip {
 void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
   line.resize(strip.n);
   for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
-  std::array<double, lanes> sum{};  // double, so that values which leave the box leave no trace
+  std::array<double, lanes> sum{};  // double, so that values that have left the box leave no rounding errors
   const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
   const auto add = [&](std::ptrdiff_t i, double sign) {
     const Lanes& lane = line[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];

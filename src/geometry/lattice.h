@@ -24,8 +24,8 @@ class Lattice {
     float lowest, highest;
   };
 
-  // gather() and compare() use the points listed in `counted` only, each listed once, and at most 12 per
-  // cell, spread evenly over their order. `cell` > 0 is the side of a cell in the unit of the points.
+  // gather() and compare() use only the points listed in `counted`, each listed once, and of these at most 12
+  // per cell, spread evenly over their order. `cell` > 0 is the side of a cell in the unit of the points.
   Lattice(std::span<const Vec3> points, std::span<const Index> counted, double cell);
 
   std::size_t width() const { return width_; }
@@ -45,7 +45,8 @@ class Lattice {
   // written.
   void refine(std::span<const float> nodes, std::span<Tile> tiles) const;
 
-  // Returns the value of refined nodes at a point, counted or not, bilinear within quarters of a cell.
+  // Returns the value at a point, counted or not, interpolated bilinearly between the nearest four places of
+  // its tile.
   float at(std::size_t point, std::span<const Tile> tiles) const {
     const SplinePlace& p = places_[point];
     const float* t = tiles[p.node].data() + 5 * (p.y >> bits_in_quarter) + (p.x >> bits_in_quarter);
@@ -57,8 +58,8 @@ class Lattice {
   // Returns where a point lies, in cells: node n is at (n % width(), n / width()).
   Vec2 place(std::size_t point) const;
 
-  // Adds an amount to the 4 x 4 nodes around a place, in cells, weighted by the cubic B-splines there: sums
-  // over a region then hardly depend on where the nodes are.
+  // Adds an amount to the 4 x 4 nodes around a place (in cells, see place()), weighted by the cubic B-splines
+  // there. Sums over a region then hardly depend on the positions of the nodes.
   void spread(const Vec2& place, float amount, std::span<float> nodes) const;
 
   // Sets marks[n] to 1 for each node n inside a triangle of points, which must be counter-clockwise. `marks`
@@ -72,8 +73,8 @@ class Lattice {
   }
 
   // Writes to each element of `means` the mean of the values of the counted points around that node, weighted
-  // by the squares of the node's bilinear weights there; 0 without such points. `sums` is scratch memory.
-  // Both have one element per node.
+  // by the squares of the node's bilinear weights at these points; 0 without such points. `sums` is scratch
+  // memory. `means` and `sums` have one element per node.
   template <typename Real>
   void gather(std::span<const Real> values, std::span<Corners> sums, std::span<float> means) const;
 
@@ -99,7 +100,8 @@ class Lattice {
     SplinePlace place;
   };
 
-  // The two highest bits of a packed position are the quarter of the cell, the others the position in it.
+  // The two highest bits of a packed position give the quarter of the cell, the others the position in the
+  // quarter.
   static constexpr int bits_in_quarter = 14;
   static float share_of_quarter(std::uint16_t share) {
     constexpr int whole = 1 << bits_in_quarter;

@@ -30,7 +30,8 @@ class KdTree {
   }
 
   // Writes the numbers and squared distances of the k points nearest to `query` to the arrays, nearest first.
-  // Returns how many there are: k, or all points if the tree has fewer. A point of the tree finds itself.
+  // Returns the number of points found: k, or the size of the tree if that is less. A point of the tree finds
+  // itself.
   std::size_t nearest(const Point& query, std::size_t k, Index* indices, double* distances_sq) const {
     if (!tree_) return 0;
     NearestSet found(k);

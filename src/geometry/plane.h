@@ -28,8 +28,8 @@ inline Circle circle_through(const Vec2& a, const Vec2& b, const Vec2& c) {
   return {a + to_centre, to_centre.norm()};
 }
 
-// Returns the gradients of a triangle's three hat functions; each is 1 at its corner, 0 at the others and
-// linear in between. `twice_area` is that of the triangle, signed.
+// Returns the gradients of a triangle's three hat functions; each is 1 at its own corner, 0 at the others and
+// linear in between. `twice_area` is twice the triangle's signed area.
 inline std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& corners, double twice_area) {
   std::array<Vec2, 3> gradients;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -15,8 +15,8 @@ class PointSet {
  public:
   explicit PointSet(double cell) : cell_(cell) {}
 
-  // Adds a point unless one of the set is nearer than `distance`, which is at most the width of a cell.
-  // Returns whether it was added.
+  // Adds a point unless a point of the set is nearer than `distance`, which is at most the width of a cell.
+  // Returns whether the point was added.
   bool add(const Vec2& p, double distance) {
     if (is_near(p, distance)) return false;
     cells_[key(cell_of(p.x()), cell_of(p.y()))].push_back(p);

@@ -5,8 +5,8 @@
 namespace relievo::detail {
 namespace {
 
-// Error bounds of section 4.4: of the determinant of the rounded differences, of the one with a first-order
-// correction, and of rounding an exact value to an estimate.
+// Three error bounds of section 4.4. The first is for the determinant of the rounded differences, the second
+// for the determinant with a first-order correction, the third for rounding an exact value to an estimate.
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
@@ -57,7 +57,7 @@ double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
   return term(a, b, c) + term(b, c, a) + term(c, a, b);
 }
 
-// Returns the change of a's term of the determinant, to first order in the rounding errors of the
+// Returns how a's term of the determinant changes, to first order, with the rounding errors of the
 // differences.
 double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
@@ -79,8 +79,8 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  // Shewchuk's incircle() in three stages: exact with the rounded differences, which decides if none was
-  // rounded; then with a first-order correction; then fully exact.
+  // Shewchuk's incircle() in three stages. The first is exact for the rounded differences, and decides if no
+  // difference was rounded. The second adds a first-order correction. The third is fully exact.
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();

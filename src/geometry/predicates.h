@@ -3,9 +3,9 @@
 // Each function first evaluates the determinant in doubles and trusts its sign if the value exceeds a proven
 // bound of the rounding error (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
 // Geometric Predicates", 1997, section 4); otherwise it computes with expansions. There is no state and no
-// initialisation, so any thread may call them. They are exact for coordinates that are 0 or of a magnitude
-// between smallest_coordinate and largest_coordinate, if the processor rounds to nearest. The rarest case
-// takes 45 KB of stack.
+// initialisation, so any thread may call the functions. They are exact for coordinates that are 0 or of a
+// magnitude between smallest_coordinate and largest_coordinate, if the processor rounds to nearest. The
+// rarest case takes 45 KB of stack.
 #pragma once
 
 #include <cmath>
@@ -51,8 +51,8 @@ inline int orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return detail::orient2d_exact(a, b, c);
 }
 
-// Returns 1 if d is strictly inside the circle through a, b, c, -1 if strictly outside, 0 if on it, for
-// counter-clockwise a, b, c; the opposite for clockwise ones.
+// Returns 1 if d is strictly inside the circle through a, b, c, -1 if strictly outside, 0 if on it. This is
+// for counter-clockwise a, b, c; for clockwise ones the sign is the opposite.
 inline int incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double ax = a.x() - d.x(), ay = a.y() - d.y();
   const double bx = b.x() - d.x(), by = b.y() - d.y();

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int steps_per_pixel = 256;
 
-// Rounds a coordinate, which is at least -1 pixel. Truncation is faster than rounding but right for positive
-// numbers only, hence the shift by 1 pixel.
+// Rounds a coordinate, which is at least -1 pixel. Truncation is faster than rounding but rounds only
+// positive numbers correctly, hence the shift by 1 pixel.
 int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
@@ -23,13 +23,13 @@ int first_centre(int steps) {
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
-// Returns the first centre at or after `steps`, limited to [0, most].
+// Returns the number of the first pixel whose centre is at or after `steps`, limited to [0, most].
 std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
 
-// A linear function of the pixel, not negative inside the triangle. Its numbers are integers below 2^53, so
-// they are exact.
+// A linear function of the pixel that is not negative inside the triangle. Its values are integers below
+// 2^53, so they are exact.
 struct EdgeFunction {
   double value;  // at the centre of column 0 of the current row
   double per_column, per_row;
@@ -40,7 +40,7 @@ EdgeFunction edge_between(const Corner& a, const Corner& b, int row) {
   const int half = steps_per_pixel / 2;
   const double dx = b.x - a.x, dy = b.y - a.y, y = row * steps_per_pixel + half - a.y;
   EdgeFunction edge{dx * y - dy * (half - a.x), -dy * steps_per_pixel, dx * steps_per_pixel};
-  // A centre on an edge belongs to the triangle on its right, or below it.
+  // A centre on an edge belongs to the triangle on the right of the edge, or below it.
   const bool owns_its_points = edge.per_column > 0 || (edge.per_column == 0 && edge.per_row > 0);
   if (!owns_its_points) edge.value -= 1;
   return edge;
@@ -50,8 +50,9 @@ struct Columns {
   int begin, end;
 };
 
-// Returns the columns of the current row where no edge is negative. The quotients cannot be rounded across an
-// integer: they are at least 2^-31 away from one, or equal to it, and below 2^15.
+// Returns the columns of the current row where no edge function is negative. Rounding cannot move a quotient
+// across an integer: quotients are below 2^15, and either equal an integer or are at least 2^-31 away from
+// it.
 Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
   for (const EdgeFunction& edge : edges) {
@@ -68,8 +69,8 @@ Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   return {floor < first ? floor + 1 : floor, static_cast<int>(last) + 1};
 }
 
-// The height over the picture: the triangle's plane, never above or below its corners, so that slivers cannot
-// spike.
+// The height over the picture: the triangle's plane, limited to the range of its corners, so that slivers
+// cause no spikes.
 struct DepthPlane {
   double value = 0, per_column = 0, per_row = 0;  // value at the picture's corner
   double lowest = 0, highest = 0;
@@ -79,7 +80,7 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  const double least_area = 1e-9;  // of a pixel: a sliver seen edge-on; any of its heights will do
+  const double least_area = 1e-9;  // in square pixels: a sliver seen edge-on may have any of its heights
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
   const double per_row = (p.x() * q.z() - p.z() * q.x()) / area;
@@ -100,8 +101,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether no pixel centre lies between the triangle's corners in x or in y. Most triangles of a fine
-// scan end here, so that few bytes of each are read.
+// Returns whether no pixel centre lies between the triangle's corners in x or in y. This settles most
+// triangles of a fine scan, so that few bytes of each are read.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -111,7 +112,7 @@ bool Rasterizer::slips_through(const Triangle& triangle) const {
 bool Rasterizer::is_facing(const Triangle& triangle) const {
   const Corner &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
   const auto cross = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
-  return cross < 0;  // y points down: what is counter-clockwise to the viewer is negative here
+  return cross < 0;  // y points down: triangles that the viewer sees counter-clockwise are negative here
 }
 
 // Returns the rows with centres between the triangle's corners. A centre at the triangle's lowest corner
@@ -122,7 +123,7 @@ Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   return {top, bottom};
 }
 
-// Returns those of the triangles [begin, end) that face the viewer and may cover a centre, with their bands.
+// Returns the triangles of [begin, end) that face the viewer and may cover a centre, with their bands.
 std::vector<Rasterizer::InBands> Rasterizer::covering(std::size_t begin, std::size_t end) const {
   std::vector<InBands> found;
   for (std::size_t t = begin; t < end; ++t) {
@@ -166,7 +167,7 @@ void Rasterizer::sort_into_bands() {
 
 void Rasterizer::draw_triangle(Index t, Rows rows, RowBand& band) const {
   const auto& [i, j, k] = scene_.triangles[t];
-  const Corner &a = corners_[i], &b = corners_[k], &c = corners_[j];  // turned: y points down
+  const Corner &a = corners_[i], &b = corners_[k], &c = corners_[j];  // reversed, because y points down
   std::array edges{edge_between(a, b, rows.begin), edge_between(b, c, rows.begin),
                    edge_between(c, a, rows.begin)};
   const DepthPlane plane = plane_through(scene_.points[i], scene_.points[j], scene_.points[k]);

@@ -1,4 +1,5 @@
-// Orthographic scan conversion on the CPU: which triangle is seen at the centre of each pixel, and how near.
+// Orthographic scan conversion on the CPU: finds the triangle that is seen at the centre of each pixel, and
+// its height there.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace relievo {
 
-// The triangles to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. They
+// The triangles to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. Points
 // may lie outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5,
 // 0.5).
 struct RasterInput {
@@ -28,7 +29,7 @@ struct Fragment {
   Index triangle = no_index;  // no_index: nothing
 };
 
-// Some full rows of the picture.
+// A band of full rows of the picture.
 struct RowBand {
   int first_row = 0;
   Image<Fragment> fragments;
@@ -49,8 +50,8 @@ class Rasterizer {
   struct Corner {
     int x, y;  // in 1/256 pixel
   };
-  // The first column and the first row whose centres are not left of a corner and not above it; from 0 to the
-  // picture's width and height.
+  // The first column whose centre is not left of a corner, and the first row whose centre is not above it.
+  // Without such a column or row, the picture's width or height.
   struct Cell {
     std::uint16_t column, row;
   };
@@ -84,8 +85,8 @@ void draw_bands(const RasterInput& scene, int band_rows, F&& use) {
       rasterizer.bands(), [&](std::size_t b) { use(rasterizer.draw(b)); }, 1);
 }
 
-// Returns the weights of the triangle's corners at a place in the picture. They are not negative, even for
-// places outside the triangle.
+// Returns the weights of the triangle's corners at a place in the picture. The weights are not negative, even
+// for places outside the triangle.
 Vec3f corner_weights(const RasterInput& scene, Index triangle, double x, double y);
 
 }  // namespace relievo

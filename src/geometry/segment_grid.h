@@ -12,7 +12,7 @@ namespace relievo {
 
 struct Segment {
   Vec2 from, to;
-  Index curve = 0;  // the number of the curve that it belongs to
+  Index curve = 0;  // the number of the segment's curve
 };
 
 // The result of SegmentGrid::nearest().
@@ -25,20 +25,21 @@ struct NearestSegment {
 // Segments in the cells of a square grid.
 class SegmentGrid {
  public:
-  // `cell` is the side of a cell, > 0; queries should reach about as far.
+  // `cell` is the side of a cell, > 0, best about the usual radius of queries.
   SegmentGrid(std::vector<Segment> segments, double cell);
 
   std::span<const Segment> segments() const { return segments_; }
 
-  // Returns the nearest segment within the radius, of all curves but `except`. Beside a point where two
-  // segments of a curve meet, the side is that of the segment whose line is farther away.
+  // Returns the nearest segment within the radius, of all curves except number `except`. Beside a point where
+  // two segments of a curve meet, the side is that of the segment whose line is farther away.
   NearestSegment nearest(const Vec2& place, double radius, Index except = no_index) const;
 
   // Returns the nearest segment within the radius whose direction is at most 107 degrees from the given one,
   // which has unit length.
   NearestSegment nearest_along(const Vec2& place, double radius, const Vec2& direction) const;
 
-  // Returns true if a segment and the line from a to b cross: each has its ends on both sides of the other.
+  // Returns true if a segment and the line from a to b cross: the two ends of each lie on different sides of
+  // the other.
   bool is_crossed(const Vec2& a, const Vec2& b) const;
 
  private:

@@ -16,18 +16,18 @@ namespace {
 // points allow no solution.
 constexpr int most_sweeps = 4000;
 constexpr std::size_t most_visits = 10;  // per triangle of the field, in addition to one per sweep
-// A triangle is made flatter than it must be by this fraction, which grows from the least to the most with
-// the number of sweeps. Without it, neighbours would push each other over the limit forever, by less and
-// less. A larger fraction would push more neighbours over it.
+// A triangle is made flatter than necessary by this fraction, which grows from the least to the most with the
+// number of sweeps. Without it, neighbours would push each other over the limit forever, by less and less. A
+// larger fraction would push more neighbours over the limit.
 constexpr double least_spare = 2e-5, most_spare = 1e-3;
-// Two thin triangles on one short edge can undo each other's moves of its ends; only moving their distant
-// corners helps, which least squares hardly does. So in every 64th sweep triangles are flattened by scaling
-// their heights, by at most most_spare. This breaks such a cycle but moves points further than necessary,
-// hence rarely.
+// Two thin triangles on one short edge can undo each other's moves of its ends. Then only moving their
+// distant corners helps, which least squares hardly does. So in every 64th sweep triangles are flattened by
+// scaling their heights, by at most most_spare. This breaks such a cycle. It is done rarely, because it moves
+// points further than necessary.
 constexpr int sweeps_to_scaling = 64;
 
 // Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely
-// steep, unless they are level: those are slivers that rounding has turned over.
+// steep, unless they are level: a level one is a sliver that rounding has turned over.
 double steepness(const PlaneMesh& field, const Triangle& t, std::span<const double> heights) {
   const Vec2 &a = field.plane[t[0]], &b = field.plane[t[1]], &c = field.plane[t[2]];
   if (!(cross(b - a, c - a) > 0)) {
@@ -66,8 +66,8 @@ class SlopeLimiter {
       if (visits > most_visits * field_.triangles.size() + most_sweeps) return false;
       const bool is_scaling = sweep % sweeps_to_scaling == sweeps_to_scaling - 1;
       const double wanted = max_slope_ * (1 - std::min(most_spare, least_spare * (1 + sweep / 10)));
-      // Triangles are projected one after the other, not concurrently: each projection uses the moves of
-      // those before, which converges faster and gives the same result for any number of threads.
+      // Triangles are projected one after the other, not concurrently. Each projection then uses the moves of
+      // the earlier ones, which converges faster and gives the same result for any number of threads.
       for (const Index t : steep)
         if (is_steep(t)) project(field_.triangles[t], wanted, is_scaling);
       steep = steep_around(steep, stars);
@@ -93,7 +93,7 @@ class SlopeLimiter {
         });
   }
 
-  // Returns the steep triangles among those that share a corner with the ones just changed.
+  // Returns the steep triangles among those that share a corner with a triangle of `worked_on`.
   std::vector<Index> steep_around(const std::vector<Index>& worked_on, const VertexStars& stars) const {
     std::vector<Index> around;
     for (const Index t : worked_on)

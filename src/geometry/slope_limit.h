@@ -26,11 +26,11 @@ Vec2 triangle_slope(const PlaneMesh& field, const Triangle& triangle, std::span<
 // level has no area or is clockwise, and 0 without triangles.
 double steepest_of(const PlaneMesh& field, std::span<const double> heights);
 
-// Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: each
-// triangle that is too steep moves its free corners by the least sum of squares that makes it flat enough,
-// repeatedly, as its neighbours do the same. Meant for a few steep triangles. With Rounding::single_precision
-// every height is representable as a float. Returns whether it succeeded; if not, some triangles are still
-// too steep.
+// Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: a triangle
+// that is too steep moves its free corners by the least sum of squares that makes it flat enough. This is
+// repeated, because it changes the triangle's neighbours. Meant for a few steep triangles. With
+// Rounding::single_precision every height is representable as a float. Returns whether it succeeded; if not,
+// some triangles are still too steep.
 bool limit_slopes(const PlaneMesh& field, double max_slope, Rounding rounding, std::span<double> heights);
 
 }  // namespace relievo

@@ -12,7 +12,7 @@ namespace relievo {
 namespace {
 
 // Limits of the distance of a point's slope from the mean slope of the triangles around it, relative to the
-// largest distance of their own slopes: inside the surface, and at an edge of it.
+// largest distance of a slope of these triangles from their mean: inside the surface, and at an edge of it.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -22,8 +22,8 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// Returns the slope at `centre` of the quadratic through it that fits its neighbours best; `fallback` if they
-// are too few.
+// Returns the slope at the point `centre` of the quadratic through this point that best fits the neighbours;
+// `fallback` if there are too few neighbours.
 Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
                   const Vec2& fallback) {
   if (neighbours.size() < 6) return fallback;
@@ -42,15 +42,15 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
     moments += weight * row * row.transpose();
     products += weight * step.z() * row;
   }
-  // A little bending energy keeps the fit defined where neighbours lie on two lines.
+  // A small amount of bending energy keeps the system solvable where neighbours lie on two lines.
   for (int i = 2; i < 5; ++i) moments(i, i) += 1e-3 * moments(0, 0) + 1e-12;
   const Eigen::Matrix<double, 5, 1> fit = moments.ldlt().solve(products);
   const Vec2 slope = fit.head<2>() / unit;
   return slope.allFinite() ? slope : fallback;
 }
 
-// Returns the weights of a, b and s at a place of the triangle a, b, s; those at the nearest place of the
-// side a-b if the place lies outside or the triangle is too thin.
+// Returns the barycentric weights of a place in the triangle a, b, s. If the place lies outside or the
+// triangle is too thin, returns the weights of the nearest place on the side a-b.
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
   const Vec2 side = b - a;
   const Vec3 areas =
@@ -61,11 +61,11 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
   return {1 - share, share, 0};
 }
 
-// Returns how much the slope in the middle of an edge differs from the mean of its ends; `change` is the
-// slope at the second end less that at the first. The heights along the edge give one component. For the
-// other, the slope is taken to lie on the line through the slopes of the ends, because most surfaces bend in
-// one direction more than in the other. Bends across rows of points then do not depend on the triangles
-// between the rows.
+// Returns how much the slope in the middle of an edge differs from the mean of the slopes at its ends;
+// `change` is the slope at the second end less that at the first. The heights along the edge give one
+// component. For the other, the slope is taken to lie on the line through the slopes of the ends, because
+// most surfaces bend in one direction more than in the other. Bends across rows of points then do not depend
+// on the triangles between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared
@@ -79,8 +79,8 @@ Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   return share / (1 + excess * excess) * change;
 }
 
-// Returns the middle point of a third for which the slope in the middle of the edge a-b deviates from the
-// mean of its ends by middle_deviation().
+// Returns the middle Bezier point of a third. With it, the slope in the middle of the edge a-b deviates from
+// the mean of the slopes at its ends by middle_deviation().
 template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
@@ -100,7 +100,7 @@ SmoothSurface::SmoothSurface(std::span<const Vec3> points, std::span<const Trian
   find_slopes();
 }
 
-// The triangles around a point, and their slopes.
+// The triangles around a point, and the slopes of these triangles.
 struct SmoothSurface::Fan {
   std::span<const Index> triangles;
   std::vector<Vec2>& slopes;
@@ -223,7 +223,7 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
 }
 
 // Evaluates one cubic: six points of a quadratic, then three of a plane, which give height and slope. `inner`
-// are its Bezier points next to the centre, on the lines from a and b, and at it.
+// are the cubic's Bezier points next to the centre, on the lines from a and b, and the one at the centre.
 SmoothSurface::Sample SmoothSurface::de_casteljau(const Third& t, const Vec3& inner, const Vec3& share,
                                                   const std::array<Vec2, 3>& corners) {
   const double u = share.x(), v = share.y(), w = share.z();

@@ -9,12 +9,12 @@
 
 namespace relievo {
 
-// Heights over the plane that interpolate those of points. Their slope is continuous inside each sheet, a set
-// of triangles marked as smooth that share edges. Other triangles stay plane, so that the surface has a
-// crease along their edges. Each smooth triangle is a Clough-Tocher element of three cubics, which reproduces
-// quadratic surfaces. The slope at a point comes from the quadratic that fits the heights of up to two rings
-// of smooth triangles around it. It is limited to the slopes of the triangles that the point touches, or a
-// little beyond.
+// A surface that interpolates the heights of points over the plane. Its slope is continuous inside each
+// sheet, a set of triangles marked as smooth that share edges. Other triangles stay plane, so that the
+// surface has a crease along their edges. Each smooth triangle is a Clough-Tocher element of three cubics,
+// which reproduces quadratic surfaces. The slope at a point comes from the quadratic that fits the heights of
+// up to two rings of smooth triangles around the point. It is limited to the slopes of the triangles that the
+// point touches, or a little beyond.
 class SmoothSurface {
  public:
   // The height and slope of the surface at a place.
@@ -23,8 +23,8 @@ class SmoothSurface {
     Vec2 slope = Vec2::Zero();
   };
 
-  // Keeps views of the points and triangles, counter-clockwise, which must outlive it; `is_smooth` has a flag
-  // per triangle.
+  // Keeps views of the points and of the triangles, which are counter-clockwise; both must outlive the
+  // surface. `is_smooth` has a flag per triangle.
   SmoothSurface(std::span<const Vec3> points, std::span<const Triangle> triangles,
                 std::span<const std::uint8_t> is_smooth);
 

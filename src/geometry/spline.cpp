@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// Returns a node of the refined lattice from three nodes of the coarser one, at even places, or from two
-// (section 4).
+// Returns a node of the refined lattice: at even places from three nodes of the coarser lattice, at odd
+// places from two (section 4).
 float halved(const float* node, bool is_even) {
   return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
 }
@@ -60,7 +60,8 @@ MultilevelSpline::MultilevelSpline(std::span<const Vec2> sites, std::span<const 
   const auto cells = [&](double length) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(std::ldexp(length / options.cell, -coarsest))));
   };
-  // All lattices have whole cells of the coarsest one, so that each refines the one before exactly.
+  // All lattices consist of whole cells of the coarsest one, so that each lattice refines the one before
+  // exactly.
   const Vec2 size = max_ - min_;
   levels_.resize(static_cast<std::size_t>(options.levels));
   for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -82,8 +83,8 @@ MultilevelSpline::Position MultilevelSpline::locate(const Level& level, const Ve
           static_cast<float>(at.y() - static_cast<double>(row))};
 }
 
-// Precomputes all of a level's fit that does not depend on the values: the basis functions at each site and
-// the sum of the weights around each node.
+// Precomputes the parts of a level's fit that do not depend on the values: the basis functions at each site
+// and the sum of the weights around each node.
 void MultilevelSpline::prepare(Level& level, std::span<const Vec2> sites, double damping) const {
   std::vector<double> weight(level.columns * level.rows, damping);
   level.sites.resize(sites.size());
@@ -136,7 +137,7 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
 void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, std::vector<float>& copy) {
   std::copy_n(nodes.begin(), coarse.columns * coarse.rows, copy.begin());
   const std::size_t columns = 2 * coarse.columns - 3, rows = 2 * coarse.rows - 3;
-  // The first node lies one cell outside the domain, an odd place of the finer lattice.
+  // The first node lies one cell outside the domain, at an odd place of the finer lattice.
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       const float* node = copy.data() + (r / 2) * coarse.columns + c / 2;

@@ -37,11 +37,11 @@ constexpr Index previous(Index e) {
 
 class Builder {
  public:
-  // `points` are in the order of the curve; `names` are their numbers in the result.
+  // `points` are in the order of the curve; `names` are the numbers of these points in the result.
   Builder(const std::vector<Vec2>& points, std::vector<Index> names)
       : points_(points), names_(std::move(names)) {}
 
-  // Finds three points that span a triangle and starts from it. Returns false if there are none.
+  // Finds three points that span a triangle and starts from that triangle. Returns false if there are none.
   bool start();
   void insert(Index p);
   Triangulation result() const;
@@ -128,8 +128,8 @@ Index Builder::vertex_at(const Vec2& p, Index e) const {
   return no_index;
 }
 
-// Returns whether p is strictly inside the circle of e's triangle, or in the open half-plane, or on the open
-// edge, if it is a ghost.
+// Returns whether p is strictly inside the circle of e's triangle. For a ghost, returns whether p is in the
+// open half-plane or on the open edge.
 bool Builder::circle_contains(Index e, const Vec2& p) const {
   const Index a = edges_[e].origin, b = edges_[next(e)].origin, c = edges_[previous(e)].origin;
   if (a != infinity && b != infinity && c != infinity) {
@@ -247,8 +247,8 @@ Triangulation delaunay(std::span<const Vec2> points) {
   if (!builder.start()) return {};
 
   // Inserts every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even
-  // sample. The curve alone would build long slivers first, and pay for it in flips where points lie on few
-  // lines.
+  // sample. The order of the curve alone would build long slivers first, which cost many flips where points
+  // lie on few lines.
   std::size_t step = 1, coarser = points.size();
   while (step * 4 < points.size()) step *= 4;
   for (; step > 0; coarser = step, step /= 4) {

@@ -21,10 +21,10 @@ inline std::uint64_t bits_of(double coordinate) {
 // coordinates have the same bits, where 0 and -0 are the same.
 class PointTable {
  public:
-  // Takes the number of different points to expect; more of them make the table grow.
+  // `expected` is the number of different points to expect; more points make the table grow.
   explicit PointTable(std::size_t expected);
 
-  // Returns a hash in which each coordinate changes all high bits, which determine the place in the table.
+  // Returns a hash in which each coordinate changes all high bits. These determine the slot in the table.
   static std::uint64_t hash_of(const Vec3& point) {
     constexpr std::uint64_t factor = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
     std::uint64_t hash = 0;
@@ -39,8 +39,9 @@ class PointTable {
   // reading it for one point at a time would wait for memory most of the time.
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash >> shift_]); }
 
-  // Returns the number of the point in the table that coincides with `point`, or adds it as number `next` and
-  // returns that. points[i] must be the point that was added as number i, that of `next` included.
+  // Returns the number of the point in the table that coincides with `point`. Without such a point, adds
+  // `point` as number `next` and returns `next`. points[i] must be the point that was added as number i, also
+  // for `next`.
   Index find_or_add(const Vec3& point, std::uint64_t hash, const Vec3* points, Index next);
 
  private:
@@ -53,7 +54,7 @@ class PointTable {
   void grow(const Vec3* points);
 
   std::vector<Slot> slots_;
-  int shift_ = 0;  // low bits of a hash, which do not determine its place
+  int shift_ = 0;  // number of low bits of a hash, which do not determine the slot
   std::size_t used_ = 0;
 };
 
@@ -77,10 +78,10 @@ std::vector<Index> first_coincident(std::span<const Vec3> points);
 // The used points of a mesh and their new numbers.
 struct UsedPoints {
   std::vector<Index> points;      // the old numbers of the used points, ascending
-  std::vector<Index> new_number;  // per old point its place in `points`, no_index if it is not used
+  std::vector<Index> new_number;  // per old point, its position in `points`; no_index if it is not used
 
-  // Returns the elements of an array over the old points that belong to used ones; an empty array for an
-  // empty one.
+  // Returns the elements of the used points, given one element per old point; an empty array for an empty
+  // one.
   template <typename T>
   std::vector<T> pick(const std::vector<T>& old) const {
     std::vector<T> picked;

@@ -1,8 +1,9 @@
-// Multilevel B-splines: smooth functions of the plane that fit values at scattered sites known beforehand.
+// Multilevel B-splines: smooth functions of the plane, fitted to values at scattered sites that stay the
+// same.
 //
 // Lee, Wolberg and Shin, "Scattered Data Interpolation with Multilevel B-Splines", 1997: uniform cubic
-// B-splines on lattices whose cells halve from level to level, each fitted to the residual of the coarser
-// ones.
+// B-splines on lattices whose cells halve from level to level. Each level is fitted to the residual of the
+// coarser ones.
 #pragma once
 
 #include <span>
@@ -15,7 +16,7 @@ namespace relievo {
 struct SplineOptions {
   Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; points outside take the value at its edge
   double cell = .01;                            // side of the finest lattice's cells, > 0
-  int levels = 5;  // number of lattices, [1, 16]; cells are twice as wide from each to the next coarser
+  int levels = 5;  // number of lattices, [1, 16]; each has cells twice as wide as the next finer one
   // The levels that are fitted, counted from the coarsest, 0; the others only refine the coarser function.
   int first_fitted = 0, last_fitted = 15;
   // The damping in units of the mean weight of the sites, >= 0; see MultilevelSpline::fit().
@@ -68,12 +69,11 @@ class MultilevelSpline {
   void evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
                 std::span<float> values) const;
 
-  // Interleaves the nodes of two functions into `pair`, which is overwritten. They may belong to another
-  // spline with the same domain, cell size and number of levels.
+  // Interleaves the nodes of two functions into `pair`, which is overwritten. The functions may belong to
+  // another spline with the same domain, cell size and number of levels.
   static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
 
-  // Writes the values of both functions, without their means, at each place. Runs in the calling thread
-  // alone.
+  // Writes the values of both functions, without their means, at each place. Uses only the calling thread.
   struct PairValues {
     std::span<float> a, b;
   };
@@ -88,7 +88,7 @@ class MultilevelSpline {
   struct Site {
     Eigen::Array4f x, y;  // weights of the 4 nodes along each axis
     Index node = 0;
-    float scale = 0;  // the site's weight divided by the sum of their squares
+    float scale = 0;  // the site's weight divided by the sum of the squared node weights
   };
   struct Level {
     std::size_t columns = 0, rows = 0;  // numbers of nodes: cells + 3
