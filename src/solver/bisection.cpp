@@ -24,7 +24,8 @@ bool is_in_band(const Sweep& sweep, Index v) {
   return sweep.value[v] >= sweep.low && sweep.value[v] <= sweep.high;
 }
 
-// Sets the limits of the band. Quantiles of a sample of 1,024 are accurate enough: the flow finds the line.
+// Sets the limits of the band. Quantiles of a sample of 1,024 are accurate enough, because the flow then
+// finds the separator within the band.
 void find_band(Sweep& sweep) {
   const std::size_t most = 1024, n = sweep.value.size(), step = (n + most - 1) / most;
   std::vector<float> sample;
@@ -45,7 +46,7 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
 
 // Returns the direction in which the positions spread most: the principal axis of their covariance.
 // Separators across it are mostly short. If all directions are alike, rounding decides. The direction is
-// still the same everywhere, because sums, quotients and square roots have the same bits everywhere.
+// still the same on every machine, because sums, quotients and square roots have the same bits everywhere.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2f& p : positions) mean += p.cast<double>();
@@ -99,8 +100,8 @@ void count_sides(Bisection& cut) {
     ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
 }
 
-// Edges that cross the whole band are not part of its graph and may still join the sides: their ends on the
-// first side are moved to the separator.
+// Edges that cross the whole band are not part of its graph, so they may still join the two sides. Their ends
+// on the first side are moved to the separator.
 void close_gaps(const Graph& graph, Bisection& cut) {
   for (Index v = 0; v < graph.size(); ++v) {
     if (cut.side[v] != Side::first) continue;
@@ -112,8 +113,8 @@ void close_gaps(const Graph& graph, Bisection& cut) {
 }
 
 // Estimates the factor entries that a bisection causes. The separator of s vertices is eliminated as a dense
-// triangle, s^2 / 2, plus s times the rows below it, on average 2.2 sqrt(n). The other term is what unequal
-// sides need more than equal ones: 2 n (1 - H), with H the entropy of the split in bits. See
+// triangle of s^2 / 2 entries, plus s entries in each row below it, on average 2.2 sqrt(n) rows. Sides of
+// unequal size cause 2 n (1 - H) entries more than equal ones, with H the entropy of the split in bits. See
 // docs/decisions/solver.md.
 double cost(const Bisection& cut) {
   if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
@@ -164,7 +165,7 @@ std::vector<Index> wave(const Graph& graph, Index start) {
   return order;
 }
 
-// Uses breadth-first rank from a vertex at the graph's rim in place of a coordinate.
+// Bisects by the breadth-first rank from a vertex at the graph's rim, which replaces a coordinate.
 Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());

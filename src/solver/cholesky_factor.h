@@ -13,12 +13,13 @@
 namespace relievo::solver {
 
 // A run of consecutive columns that one thread works on at a time: either whole subtrees of the assembly tree
-// or a single supernode above them. How the tree is cut into tasks depends on the matrix alone, not on the
+// or a single supernode above them. How the tree is cut into tasks depends only on the matrix, not on the
 // number of threads.
 //
-// Each task has a work vector: one number per own column, then one per boundary row, which is a row of its
-// supernodes that belongs to a task above. A task writes to its own work vector only; the parent fetches what
-// the task has added to its boundary. So results do not depend on the number of threads.
+// Each task has a work vector: one number per own column, then one per boundary row. A boundary row is a row
+// of the task's supernodes that is a column of a task above. A task writes only to its own work vector; the
+// parent fetches the amounts that the task has added to its boundary. So results do not depend on the number
+// of threads.
 struct Task {
   Index first_column = 0, end_column = 0;
   Index first_node = 0, end_node = 0;      // supernodes
@@ -69,8 +70,8 @@ struct Cholesky::Factor {
 // Cuts the structure into tasks. Returns a factor that lacks only its values and its matrix.
 std::unique_ptr<Cholesky::Factor> build_task_tree(const Supernodes& supernodes);
 
-// Returns the position of a column in the task's work vector; the column is one of its own or on its
-// boundary.
+// Returns the position of a column in the task's work vector. The column must be one of the task's own or on
+// its boundary.
 Index work_row(const Cholesky::Factor& factor, const Task& task, Index column);
 
 // The graph of a symmetric matrix, with the matrix entry of each edge and each vertex.

@@ -1,7 +1,7 @@
 // Numeric factorisation by the multifrontal method (Duff and Reid 1983). Each supernode assembles a dense
 // frontal matrix from its part of A and the contribution blocks of its children, eliminates its columns in
-// double precision and stores them in single precision. The Schur complement of the remaining rows is its own
-// contribution block, which it passes to its parent. Declared in cholesky_factor.h, tested by
+// double precision and stores them in single precision. It passes the Schur complement of the remaining rows
+// to its parent as its own contribution block. Declared in cholesky_factor.h, tested by
 // tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <atomic>
@@ -88,8 +88,8 @@ void Multifrontal::fill_matrix() {
   parallel_for(n, [&](std::size_t j) { matrix.diagonal[j] = A_.diagonal[factor_.order[j]]; });
 }
 
-// Adds the entries of `width` columns of A to the front; slot[r] is the row of the front that belongs to row
-// r of the work vector.
+// Adds the entries of `width` columns of A to the frontal matrix; slot[r] is its row that belongs to row r of
+// the work vector.
 void Multifrontal::add_matrix(const Task& task, Index first, Index width, std::span<const Index> slot,
                               FrontalMatrix& front) const {
   const TaskMatrix& matrix = factor_.matrix;
@@ -131,7 +131,7 @@ std::size_t packed_size(std::size_t rows) {
   return rows * (rows + 1) / 2;
 }
 
-// Eliminates a task that is a single supernode. Its rows are its work vector, in order.
+// Eliminates a task that is a single supernode. The supernode's rows are the task's work vector, in order.
 void Multifrontal::eliminate_supernode(std::size_t t) {
   const Task& task = factor_.tasks[t];
   FrontalMatrix front;
@@ -152,8 +152,8 @@ void Multifrontal::eliminate_supernode(std::size_t t) {
   pack(front, task.own(), contribution_[t].data());
 }
 
-// Eliminates the supernodes of a subtree in postorder, so that the contribution blocks of its children are on
-// top of a stack when a supernode is assembled.
+// Eliminates the supernodes of a subtree in postorder. When a supernode is assembled, the contribution blocks
+// of its children are then on top of a stack.
 class Multifrontal::Subtree {
  public:
   Subtree(Multifrontal& outer, std::size_t t)
@@ -179,7 +179,7 @@ class Multifrontal::Subtree {
 
  private:
   struct Pending {
-    std::span<const std::uint16_t> rows;  // positions in the work vector; the parent owns the first
+    std::span<const std::uint16_t> rows;  // positions in the work vector; the first is a column of the parent
     std::size_t begin;
   };
 

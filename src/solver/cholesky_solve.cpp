@@ -86,7 +86,7 @@ struct Substitution {
 
 // Solves for one right-hand side: load(column) returns its elements, store(column, value) receives those of
 // the solution. All tasks go forward from the leaves, then backward from the roots, in a single parallel
-// call; flags make a task wait for its children or its parent only, so that there is no barrier in between.
+// call. Flags make a task wait only for its children or its parent, so that there is no barrier in between.
 template <typename Load, typename Store>
 void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& store) {
   const std::size_t n = s.factor.tasks.size();

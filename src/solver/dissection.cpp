@@ -11,17 +11,18 @@
 namespace relievo::solver {
 namespace {
 
-// Orders pieces of one graph. The object keeps its storage: use one for many pieces.
+// Orders pieces of one graph. The object keeps its storage, so one object should order many pieces.
 class MinimumDegree {
  public:
-  // Both arguments must outlive the object. `slots` has one element per vertex of the graph, all no_index,
-  // and is left so. Objects may share it and order pieces concurrently if no edge joins these pieces.
+  // Both arguments must outlive the object. `slots` has one element per vertex of the graph. All are
+  // no_index, and are so again after each call. Objects may share `slots` and order pieces concurrently if no
+  // edge joins these pieces.
   MinimumDegree(const Graph& graph, std::span<Index> slots) : graph_(graph), slots_(slots) {}
 
   // Permutes the vertices of `piece` so that eliminating them in that order, before all others, causes little
   // fill: the next vertex is always one with the fewest remaining neighbours, those outside the piece
   // included. The degrees are exact, kept with bit sets, so that time and memory grow at least with the
-  // square of the size; it is meant for pieces of up to a few hundred vertices.
+  // square of the size; the function is meant for pieces of up to a few hundred vertices.
   void order(std::span<Index> piece) {
     gather(piece);
     std::vector<Index> sequence;
@@ -133,7 +134,7 @@ class Dissection {
       : graph_(graph), order_(order), slots_(graph.size(), no_index) {}
 
   // Bisects level by level while parts are large, so that the parts of a level are cut concurrently, and
-  // orders the many small parts concurrently afterwards. Whether a part is large depends on sizes alone, so
+  // orders the many small parts concurrently afterwards. Whether a part is large depends only on sizes, so
   // that the result does not depend on the number of threads.
   void run(Part whole) {
     const Index small = std::max<Index>(2048, whole.graph.size() / 32);
@@ -152,8 +153,8 @@ class Dissection {
   }
 
  private:
-  // Writes the separator to the end of the part's range in the order and returns the two sides; two empty
-  // parts if the part was small and is ordered as a leaf.
+  // Writes the separator to the end of the part's range in the order and returns the two sides. If the part
+  // is small, orders it as a leaf and returns two empty parts.
   std::array<Part, 2> split(Part& part) {
     if (part.graph.size() <= leaf_size) {
       order_leaf(part);

@@ -1,6 +1,6 @@
-// Elimination order of planar graphs by geometric nested dissection: graphs, their cuts in two along a short line of
-// vertices, and the minimum separators inside a band by maximum flow. Tested by tests/solver/dissection_test.cpp and
-// tests/solver/vertex_separator_test.cpp.
+// Elimination orders of planar graphs by geometric nested dissection. A graph is cut in two along a
+// separator, a short line of vertices; a maximum flow finds the shortest one inside a band. Tested by
+// tests/solver/dissection_test.cpp and tests/solver/vertex_separator_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -55,8 +55,8 @@ struct Bisection {
 
 // Returns a bisection with few vertices in the separator and sides of similar size. `positions`, one per
 // vertex, only guide the search: the shortest separator is found in a straight band across the direction in
-// which they spread most. If they are of no use (coincident points, positions unrelated to the graph),
-// distances in the graph replace them. A side may be empty if nothing better was found.
+// which the positions spread most. If they are of no use (coincident points, positions unrelated to the
+// graph), distances in the graph replace them. A side may be empty if nothing better was found.
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
 // Returns the vertices in an elimination order that causes little fill. The order is made recursively:

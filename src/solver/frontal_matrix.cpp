@@ -141,7 +141,7 @@ void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vec
     for (Index r = 0; r < rest; ++r) scratch[c + std::size_t{r} * half] = -inside[r];
     std::fill_n(inside, rest, 0.0);
   }
-  // Elements above the diagonal of Wc are not defined; the product reads them.
+  // Elements above the diagonal of Wc are not defined, and the product reads them, so they are set to 0.
   for (Index c = 1; c < rest; ++c) std::fill_n(front.column(middle + c) + middle, c, 0.0);
   subtract_product({front.column(begin) + middle, front.column(middle) + middle, scratch.data(), front.stride,
                     front.stride, half, front.rows - middle, half, rest, false});
@@ -153,7 +153,7 @@ void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vec
 void FrontalMatrix::reset(Index new_rows) {
   rows = new_rows;
   stride =
-      (new_rows + 3 + 3) / 4 * 4;  // at least three elements of padding, and a multiple of a vector's four
+      (new_rows + 3 + 3) / 4 * 4;  // at least three elements of padding, and whole vectors of four elements
   data.assign(std::size_t{stride} * new_rows + 8, 0.0);
 }
 

@@ -9,14 +9,15 @@ namespace relievo::solver {
 namespace {
 
 // Sweeps per level, from fine to coarse. Coarse levels resolve the long waves, which converge slowly, but a
-// sweep there costs a quarter of one on the next finer level: the four take about as long as 14 fine sweeps.
-// That is enough: see docs/decisions/height-correction.md.
+// sweep there costs a quarter of one on the next finer level: the sweeps of all four levels take about as
+// long as 14 of the finest. These numbers suffice: see docs/decisions/height-correction.md.
 constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
-// Successive over-relaxation converges for factors in (0, 2). The best one grows towards 2 with the number of
-// nodes per side; 1.6 suits the short waves that are left to the finer levels.
+// Successive over-relaxation converges for factors in (0, 2). The best factor grows towards 2 with the number
+// of nodes per side; 1.6 suits the short waves that are left to the finer levels.
 constexpr float over_relaxation = 1.6F;
 
-// Returns the weights of bilinear interpolation at a place within a cell, for its nodes row by row.
+// Returns the weights of bilinear interpolation at a place within a cell, one per node of the cell, row by
+// row.
 std::array<float, 4> weights(const Vec2f& at) {
   const float x = at.x(), y = at.y();
   return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
@@ -39,7 +40,8 @@ ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector
     if (is_free(n)) couple(n, tie_of);
 }
 
-// Joins the ties of the cells that lie in one coarse cell, at their middle.
+// Replaces the ties that lie in one coarse cell by one tie at the mean of their places, weighted by
+// stiffness.
 std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   std::vector<Tie> coarse;
   std::vector<Index> tie_of(diagonal_.size(), no_index);
@@ -57,7 +59,7 @@ std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   return coarse;
 }
 
-// Puts a free node into its colour, with its shares in the ties of the cells around it.
+// Puts a free node into its colour, with its weights in the ties of the cells around it.
 void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of) {
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];
@@ -90,8 +92,9 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Keeps every other node of every other row. A coarse node takes the least bending stiffness of its five fine
-// nodes and the harmonic mean of their tensions, so that thin hinges between stiff regions are not lost.
+// Keeps every other node of every other row. A coarse node gets the least bending stiffness and the harmonic
+// mean of the tensions of the fine node there and its four neighbours, so that thin hinges between stiff
+// regions are not lost.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
@@ -134,7 +137,7 @@ void ObstacleSolver::Level::prolong_from(const Level& coarser, const Fields& fro
   });
 }
 
-// Clamps b to its bounds and computes the moments and the values at the ties from it.
+// Clamps b to its bounds, then computes the moments and the values at the ties.
 void ObstacleSolver::Level::start(Fields& f) const {
   std::vector<float>& b = f.b;
   each_node([&](Index n) { b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
@@ -148,9 +151,9 @@ void ObstacleSolver::Level::start(Fields& f) const {
   }
 }
 
-// One step of projected over-relaxation: moves a node to the minimum of the energy along it, overshooting by
-// the factor above, clamps it to its bounds and updates the moments of the node and its neighbours. Returns
-// by how much the node moved.
+// One step of projected over-relaxation. Changes b at a node by over_relaxation times the step to the minimum
+// of the energy, clamps it to its bounds and updates the moments of the node and its neighbours. Returns the
+// change.
 inline float ObstacleSolver::Level::move(Index n, const Springs& springs, const Slope& ties,
                                          Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
@@ -170,7 +173,7 @@ inline float ObstacleSolver::Level::move(Index n, const Springs& springs, const 
   return change;
 }
 
-// Moves a node of cells with ties, and updates the values at these ties.
+// Does the same at a node whose cells have ties, and updates the values at these ties.
 inline void ObstacleSolver::Level::move_tied(const TiedNode& tied, const Springs& springs, Fields& f) const {
   float* at_ties = f.at_ties.data();
   Slope slope;
@@ -221,7 +224,7 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     // A node of level l represents 4^l of the finest nodes.
     Springs here = springs;
     here.stiffness *= static_cast<float>(1 << 2 * l);
-    // The ties of a coarse cell are joined, and would be too stiff for the sweeps to converge.
+    // The joined ties of a coarse cell would be too stiff for the sweeps to converge.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], here, w[l]);

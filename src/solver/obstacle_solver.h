@@ -1,4 +1,4 @@
-// Solves an obstacle problem on a lattice: the smoothest field between two bounds, from coarse to fine.
+// Solves an obstacle problem on a lattice: finds the smoothest field between two bounds, from coarse to fine.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace relievo::solver {
 struct Springs {
   float stiffness = 0;      // factor of b^2 at each free node, >= 0
   float tie_stiffness = 1;  // factor of the ties, >= 0
-  // Ties pull b back with stop_stiffness where it falls below this.
+  // Where b at a tie is below this value, the tie also pulls it back to this value.
   float least_at_ties = -std::numeric_limits<float>::infinity();
-  float stop_stiffness = 10;  // factor of the ties there, >= 0
+  float stop_stiffness = 10;  // factor of that pull, >= 0
 };
 
 // Ties the field to zero at a place within a cell, for curves that pass between the nodes.
@@ -26,7 +26,7 @@ struct Tie {
   float stiffness;   // factor of the square of the value that is interpolated bilinearly there, > 0
 };
 
-// The material, per node of a lattice, row by row.
+// The stiffness of the material: one element per node of a lattice, row by row.
 struct Stiffness {
   std::vector<float> bending;  // factor of (lap b)^2, >= 0; a node where it is 0 is fixed at b = 0
   std::vector<float> tension;  // > 0, at fixed nodes, too; an edge has the mean of its two nodes
@@ -43,11 +43,11 @@ class ObstacleSolver {
  public:
   static constexpr std::size_t levels = 4;
 
-  // Data of one level, each vector with one element per node.
+  // Data of one level. Each vector except at_ties has one element per node.
   struct Fields {
     std::vector<float> lowest, highest, wanted, b;
     std::vector<float> moment;   // bending times lap b
-    std::vector<float> at_ties;  // per tie: b at its place; then per tied node a 0, see TiedNode
+    std::vector<float> at_ties;  // per tie, b at the tie; then a 0 per tied node, see TiedNode
 
     std::size_t memory() const;
   };
@@ -70,9 +70,9 @@ class ObstacleSolver {
     levels_[0].each_node(f);
   }
 
-  // Writes the solution to b of workspace[0], given its lowest <= highest and wanted. The other levels are
-  // overwritten. Values at fixed nodes do not matter, but b and moment there must be 0, as make_workspace()
-  // leaves them.
+  // Writes the solution to b of workspace[0], given `wanted` and lowest <= highest in workspace[0]. The other
+  // levels are overwritten. Values at fixed nodes do not matter, but b and moment there must be 0, as
+  // make_workspace() leaves them.
   void solve(const Springs& springs, Workspace& workspace) const;
 
  private:
@@ -104,15 +104,17 @@ class ObstacleSolver {
     struct Slope {
       float first = 0, second = 0;  // first and second derivative of the energy by the value of a node
     };
-    // The share of one node of a tie's cell in the tie.
+    // A node's part in a tie: the value at the tie is the sum of weight times b over the four nodes of its
+    // cell.
     struct Share {
       Index tie;
       float weight = 0, stiffness = 0;  // weight of the node; stiffness of the tie times this weight
     };
     struct TiedNode {
       Index node;
-      // A cell without a tie has a share of weight 0, with a value that no other node uses: if nodes shared
-      // one, each would have to wait until the one before had written it.
+      // For a cell without a tie the share has weight 0, and its `tie` is the index of a dummy value in
+      // at_ties that only this node uses. With one dummy for all nodes, each update would have to wait for
+      // the write of the update before.
       std::array<Share, 4> shares;
     };
     struct Colour {

@@ -1,8 +1,8 @@
-// Dense arithmetic on the frontal matrices of a multifrontal factorisation; storage of a supernode's panel, the dense
-// part of W that belongs to it; and the products with a panel that make up a substitution. Tested by
-// tests/solver/cholesky_test.cpp.
+// Dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal method, and on the
+// panels that substitutions multiply by. The panel of a supernode is the dense part of W that belongs to it.
+// Tested by tests/solver/cholesky_test.cpp.
 //
-// A panel consists of strips of eight columns, each from its own first row down, since the columns of a
+// A panel consists of strips of eight columns. Each strip begins at its own first row, since the columns of a
 // supernode are lower triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are
 // stored in blocks of eight, by columns within a block, with a last block of four if that many rows remain.
 // Forward substitution reads the values from front to back, backward substitution from back to front.
@@ -44,7 +44,7 @@ inline Index padded_rows(Index width, Index below) {
 }
 
 // Writes the first `width` columns of an inverted front to `values`, rounded to single precision. Returns the
-// end of what was written.
+// end of the written values.
 float* write_panel(FrontalMatrix& front, Index width, float* values);
 
 struct NodeSize {
@@ -54,8 +54,8 @@ struct NodeSize {
 // The largest number of rows of a supernode inside a subtree: the products keep a copy on the stack.
 inline constexpr Index largest_subtree_rows = 2048;
 
-// A run of supernodes in postorder. Their columns are consecutive elements of `work`, the task's work vector;
-// `rows` lists for each supernode the positions of its rows there, its own columns included, padded to
+// A run of supernodes in postorder. Their columns are consecutive elements of `work`, the task's work vector.
+// `rows` lists for each supernode the positions in `work` of its rows, its own columns included, padded to
 // padded_rows() with any valid position.
 struct Subtree {
   std::span<const NodeSize> nodes;
@@ -64,13 +64,13 @@ struct Subtree {
   float* work;
 };
 
-// Forward substitution: replaces the subtree's columns of the work vector by L^-1 times them and updates the
-// rows below.
+// Forward substitution: multiplies the elements of the subtree's columns in the work vector by L^-1 and
+// updates the elements of the rows below.
 void substitute_forward(const Subtree& subtree);
 
-// Backward substitution: replaces the subtree's columns by L^-T times (columns, rows below). It goes from the
-// last supernode to the first, so `values` and `rows` of `end` point behind the last supernode's; `work` is
-// as for the forward direction.
+// Backward substitution: replaces the elements of the subtree's columns by L^-T times the elements of these
+// columns and of the rows below. It goes from the last supernode to the first, so `values` and `rows` of
+// `end` point behind the last supernode's; `work` is as for the forward direction.
 void substitute_backward(const Subtree& end);
 
 // Do the same for a single supernode of any size whose rows are the whole work vector, in order. The work

@@ -58,8 +58,8 @@ std::vector<Index> postorder(std::span<const Index> parent) {
   return order;
 }
 
-// Finds the fundamental supernodes, those that store no zeros. Their rows are in no particular order, all of
-// them below the last column.
+// Finds the fundamental supernodes, which store no zeros. The rows of each are in no particular order, all of
+// them below its last column.
 class Fundamental {
  public:
   Fundamental(const Graph& graph, std::vector<Index> order) : graph_(graph), order_(std::move(order)) {
@@ -96,8 +96,8 @@ class Fundamental {
     column_parent_ = std::move(parent);
   }
 
-  // Returns whether column j has the same structure as the open supernode: its only child is the column
-  // before, and all its later neighbours are rows of the supernode already.
+  // Returns whether column j has the same structure as the open supernode: the only child of j is the column
+  // before, and all later neighbours of j are rows of the supernode already.
   bool continues(Index j, std::span<const Index> place) const {
     if (j == 0 || column_parent_[j - 1] != j || children_[j] != 1) return false;
     const auto nearby = graph_.neighbours(order_[j]);
@@ -157,14 +157,14 @@ class Fundamental {
   Supernodes result_;
 };
 
-// The cost of a supernode in a substitution, in units of one float read from memory: its panel, gathering and
-// scattering each row below, and about 40 for starting on it. The figures were measured; they decide how far
-// supernodes are merged.
+// The cost of a supernode in a substitution, in units of one float read from memory: reading its panel,
+// gathering and scattering each row below, and about 40 for starting on it. The figures were measured; they
+// decide how far supernodes are merged.
 double substitution_cost(Index width, Index below) {
   return static_cast<double>(panel_floats(width, below)) + 2.0 * below + 40;
 }
 
-// Decides which supernodes join their parents. Returns the group of each, named by its topmost member.
+// Decides which supernodes join their parents. Returns for each supernode the topmost member of its group.
 std::vector<Index> amalgamate(const Supernodes& nodes) {
   const Index n = nodes.size();
   std::vector<Index> width(n), group(n);
@@ -187,7 +187,7 @@ std::vector<Index> amalgamate(const Supernodes& nodes) {
   return group;
 }
 
-// The groups in postorder of the merged tree.
+// The groups of joined supernodes, in postorder of the merged tree.
 struct Groups {
   std::vector<Index> top;     // per group, its topmost member
   std::vector<Index> number;  // per old supernode, the group it belongs to
@@ -225,7 +225,8 @@ std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, 
   return moved;
 }
 
-// Joins each group into one supernode. Its rows are those of its topmost member, which contain all others.
+// Joins each group into one supernode. Its rows are those of the topmost member, which include the rows below
+// all other members.
 Supernodes merged(const Supernodes& nodes, std::span<const Index> group) {
   const Groups groups = number_groups(nodes, group);
   Supernodes result;

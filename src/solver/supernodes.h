@@ -1,19 +1,20 @@
-// Symbolic factorisation: which columns of a sparse Cholesky factor form supernodes, and which rows they
-// fill. Tested by tests/solver/cholesky_test.cpp.
+// Symbolic factorisation: finds the columns of a sparse Cholesky factor that form supernodes, and the rows
+// that they fill. Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 
 #include "solver/dissection.h"
 
 namespace relievo::solver {
 
-// The columns in elimination order, grouped into supernodes: consecutive columns stored as one dense panel
-// whose rows are the columns themselves and those of `rows`. Supernodes are in postorder of the assembly
-// tree.
+// The columns in elimination order, grouped into supernodes: consecutive columns stored as one dense panel.
+// The rows of a panel are the columns themselves and the rows in `rows`. Supernodes are in postorder of the
+// assembly tree.
 struct Supernodes {
   std::vector<Index> order;        // per column, the vertex eliminated there
   std::vector<Index> first = {0};  // supernode s has the columns first[s] up to first[s + 1]
   std::vector<Index> parent;       // supernode of the first row below; no_index for a root
-  // The rows of s below its own columns are rows[begin[s]] up to rows[begin[s + 1]], as columns, ascending.
+  // The rows of s below its own columns are rows[begin[s]] up to rows[begin[s + 1]]: numbers of columns,
+  // ascending.
   std::vector<std::size_t> begin = {0};
   std::vector<Index> rows;
 

@@ -9,9 +9,9 @@
 namespace relievo::solver {
 namespace {
 
-// Returns the largest number of columns of a task that is a subtree: small enough that tasks outnumber
-// threads (at least 64 of them), large enough that few rows cross from one task to another. At most 16,384,
-// so that positions in a work vector fit into 16 bits.
+// Returns the largest number of columns of a task that is a subtree. It is small enough that tasks outnumber
+// threads (at least 64 of them), and large enough that few rows cross from one task to another. It is at most
+// 16,384, so that positions in a work vector fit into 16 bits.
 Index subtree_limit(std::size_t columns) {
   return static_cast<Index>(std::clamp<std::size_t>(columns / 64, 1024, 16384));
 }
@@ -162,8 +162,8 @@ class TaskTreeBuilder {
           work_row(*result_, result_->tasks[task.parent], result_->boundary[task.first_boundary + i]));
   }
 
-  // Lists the work rows of each supernode of a subtree, padded with the supernode's first row as the products
-  // need it.
+  // Lists the work rows of each supernode of a subtree. They are padded with the supernode's first row, as
+  // the products need it.
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
     std::vector<std::uint16_t>& rows = result_->rows;

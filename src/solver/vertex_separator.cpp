@@ -24,15 +24,15 @@ class PathFlow {
   }
 
   // Finds first paths greedily, before maximise(). Each path begins at the uppermost unused start and always
-  // takes the leftmost turn. A vertex that such a walk has left behind lies above it. In a planar graph no
-  // lower path gets there without crossing the walk, so no vertex is visited twice.
+  // takes the leftmost turn. A vertex from which such a walk has turned back lies above the walk. In a planar
+  // graph no lower path gets there without crossing the walk, so no vertex is visited twice.
   void take_uppermost_paths() {
     std::vector<std::uint8_t> is_seen(graph_.size(), 0);
     for (const Index start : starts_from_above())
       if (!is_seen[start] && find_uppermost_path(start, is_seen)) keep_path();
   }
 
-  // Dinic's algorithm: augments along shortest residual paths until there are none.
+  // Dinic's algorithm: augments along shortest residual paths until no path is left.
   void maximise() {
     while (find_levels()) {
       arc_ = graph_.begin;

@@ -1,4 +1,5 @@
-// Factor once, solve per frame: a sparse symmetric positive definite system whose graph is nearly planar.
+// Solves sparse symmetric positive definite systems whose graph is nearly planar. A matrix is factored once,
+// and systems with it are solved in every frame.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -18,8 +19,8 @@ class Cholesky {
   struct Factor;
 
   // Scratch memory of solves: about 5 floats per unknown, and 2 doubles more from the first solve in double
-  // precision on. It belongs to the factorisation that made it, which must outlive it. One solve at a time
-  // may use it.
+  // precision on. A workspace belongs to the factorisation that made it, which must outlive it. Only one
+  // solve at a time may use it.
   class Workspace {
    public:
     Workspace(Workspace&&) noexcept;
@@ -37,12 +38,12 @@ class Cholesky {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Factors A, reading its lower triangle only. A 0 x 0 matrix is allowed.
+  // Factors A, reading only its lower triangle. A 0 x 0 matrix is allowed.
   //
   // `positions` are the places of the unknowns in the plane if A belongs to a planar graph such as a
-  // triangulation: one point per unknown, or none. They only guide the elimination order; wrong ones cost
-  // memory and time, never correctness. Errors: kind geometry if A is not square, has an entry that is not
-  // finite, or is not positive definite (a pivot at most 1e-14 times its diagonal entry); kind option if
+  // triangulation: one point per unknown, or none. They only guide the elimination order; wrong positions
+  // cost memory and time, never correctness. Errors: kind geometry if A is not square, has an entry that is
+  // not finite, or is not positive definite (a pivot at most 1e-14 times its diagonal entry); kind option if
   // there are positions, but not one per unknown.
   static Result<Cholesky> factor(const Eigen::SparseMatrix<double>& A, std::span<const Vec2> positions = {});
 
@@ -71,7 +72,7 @@ class Cholesky {
   void solve(std::span<const float> b, std::span<float> x, Workspace& workspace) const;
 
   // Substitution, then refinement in double precision until the largest element of the residual is 1e-13 of
-  // that of b or stops falling; two substitutions are usually enough.
+  // the largest element of b or stops falling; two substitutions are usually enough.
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 
