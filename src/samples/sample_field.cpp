@@ -14,7 +14,7 @@
 namespace relievo::field {
 namespace {
 
-// One stream of random numbers per block, so that blocks can run in any order.
+// A stream of random numbers. Each block has its own stream, so that blocks can run in any order.
 class Random : public SplitMix64 {
  public:
   Random(std::uint64_t seed, std::uint64_t stream) : SplitMix64(first_state(seed, stream)) {}
@@ -26,7 +26,7 @@ class Random : public SplitMix64 {
   }
 
  private:
-  // Hashes the two numbers, so that the streams of similar ones have nothing in common.
+  // Hashes the two numbers, so that similar numbers give unrelated streams.
   static std::uint64_t first_state(std::uint64_t seed, std::uint64_t stream) {
     return SplitMix64(seed + step * (stream + 1)).bits();
   }
@@ -134,9 +134,9 @@ struct Block {
   }
 };
 
-// Random lines parallel to the three axes hit a piece of the surface with a probability proportional to its
-// area times |nx| + |ny| + |nz|. Keeping each hit with the inverse of that factor as its probability makes
-// the density of points exactly uniform over the area.
+// Random lines parallel to the three axes hit a small part of the surface with a probability proportional to
+// its area times |nx| + |ny| + |nz|. Keeping each hit with the inverse of that factor as its probability
+// makes the density of points exactly uniform over the area.
 void keep_hit(const Solid& solid, const Vec3& p, double value, Random& random, Block& block) {
   const Vec3 n = unit_gradient(solid, p, value);
   if (random.uniform() * n.lpNorm<1>() <= 1) block.add(p, n);
@@ -183,8 +183,8 @@ double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& c
     return block.lines;
   };
   const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
-  // The lines are spread over three times the cross-section of all cells; the number of lines per kept point
-  // gives the area.
+  // The lines are spread over three times the cross-section of all cells. This area, divided by the number of
+  // lines, is the surface's area per point.
   const double share =
       3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
   return std::sqrt(share);

@@ -58,7 +58,7 @@ double eye(const Vec3& p) {
 struct Ball {
   Vec3 centre;
   double radius;
-  // Returns whether the contents of the ball can change the field where it is `d`.
+  // Returns whether the contents of the ball can change the field at p, where the field is `d` so far.
   bool matters(const Vec3& p, double d, double fillet) const {
     return (p - centre).norm() - radius < std::abs(d) + fillet;
   }
@@ -76,8 +76,8 @@ double face(const Vec3& p) {
   return d;
 }
 
-// A wreath of leaves around the face: they start at `radius` times the face's ellipse, from its crown (0)
-// down to the chin (1).
+// A wreath of leaves around the face. The leaves start on the face's ellipse scaled by `radius`, from its
+// crown (0) down to the chin (1).
 struct Wreath {
   int leaves = 0;
   bool is_staggered = false;

@@ -18,7 +18,7 @@ Solid still_life();
 Solid green_man();
 
 // Returns the field of an ammonite of rim radius 1, coiled in the xy plane, with its aperture on the +x side.
-// It is up to 1.6 times as steep as a distance.
+// The field is up to 1.6 times as steep as a distance.
 double ammonite(const Vec3& p);
 
 inline double square(double x) {
@@ -100,12 +100,12 @@ struct Leaf {
 struct LeafPose {
   Vec3 root;
   Vec3 towards;  // of any length
-  Vec3 facing;   // roughly where the upper side looks; not parallel to `towards`
+  Vec3 facing;   // rough direction of the upper side's normal; not parallel to `towards`
 };
 
 Leaf placed(Leaf shape, const LeafPose& pose);
 
-// Returns the smaller one of the leaf's field at p and `nearest`. Far from the leaf it takes almost no time.
+// Returns the smaller of the leaf's field at p and `nearest`. Takes almost no time far from the leaf.
 double leaf_value(const Leaf& leaf, const Vec3& p, double nearest);
 
 }  // namespace relievo::field

@@ -21,7 +21,7 @@ double rib_phase(const Whorl& w) {
   return ribs_per_turn * w.angle + sickle;
 }
 
-// The cosine and sine of a phase, from which those of its multiples are computed by multiplication.
+// The cosine and sine of a phase. Multiplication gives the cosines and sines of its multiples.
 struct Wave {
   double c, s;
   Wave doubled() const { return {c * c - s * s, 2 * c * s}; }

@@ -85,8 +85,8 @@ struct Height {
   double value = 0, slope = 0;
 };
 
-// Returns the height of overlapping scales, one at each whole pair of numbers; each rises towards its free,
-// upper edge.
+// Returns the height of overlapping scales, one at each pair of whole numbers. Each scale rises towards its
+// free, upper edge.
 Height scales(double a, double b) {
   Height highest;
   for (int i = -1; i <= 1; ++i) {
