@@ -5,11 +5,11 @@
 namespace relievo {
 namespace {
 
-// Central differences at half the resolution smooth twice as much, so the Gaussian is a little narrower than
-// the 2 pixels that 4 pixels of the full picture would be.
+// Detail at 4 pixels of the full picture is detail at 2 pixels here. The Gaussian is a little narrower than 2
+// pixels, because central differences at half the resolution smooth twice as much.
 constexpr double sigma_px = 1.87;
 constexpr int radius_px = 6;
-// A tenth of the pairs of ReliefMetrics: the order is then within 0.005 of the exact one.
+// A tenth of the pairs of ReliefMetrics: the depth order is then within 0.005 of the exact one.
 constexpr std::size_t fewer_pairs = 20000;
 
 PixelMask half_measured(const ModelPicture& picture) {

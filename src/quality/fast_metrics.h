@@ -10,7 +10,7 @@
 namespace relievo {
 
 // Calls f(pixel, first) for every pixel of a picture of half the width, row by row; `first` is the upper left
-// of the four pixels that it is made of.
+// of the four full-size pixels that the pixel covers.
 template <typename F>
 void each_half(const BarycentricMap& grid, F&& f) {
   const int width = grid.width() / 2;
@@ -30,10 +30,10 @@ class FastMetrics {
   explicit FastMetrics(const Surface& surface);
 
   // Returns the number of measured pixels. A pixel is measured if ReliefMetrics measures all four pixels that
-  // it is made of.
+  // it covers.
   std::size_t pixels() const { return where_.pixels.size(); }
 
-  // Draws heights, one per point, in pixels.
+  // Returns the picture of heights, given one per point. Heights in the picture are in pixels.
   Image<float> draw(std::span<const double> heights) const;
 
   // Does the same in a quarter of the time for heights without fine detail: height(i) is that of point i.
@@ -43,7 +43,7 @@ class FastMetrics {
   // Estimates the scores of drawn heights, from curvature smoothed by 2 pixels and from fewer pairs.
   Scores estimate(const Image<float>& z) const;
 
-  // Returns the scores that ReliefMetrics gives heights, one per point. Takes ten times as long.
+  // Returns the scores that ReliefMetrics gives to heights, one per point. Takes ten times as long.
   Scores exact_scores(std::span<const double> heights) const;
 
  private:

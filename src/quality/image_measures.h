@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// A Gaussian with the standard deviation `sigma`, cut at `radius`, both in pixels. The border continues
-// outside.
+// A Gaussian with the standard deviation `sigma`, cut at `radius`, both in pixels. Outside the image the
+// pixels of its border continue.
 class GaussianFilter {
  public:
   GaussianFilter(double sigma, int radius);
@@ -20,10 +20,10 @@ class GaussianFilter {
   std::vector<float> weights_;  // of the centre and of each distance from it
 };
 
-// Returns 1 where some pixel of the square of 2 `radius` + 1 pixels around is not 0, else 0.
+// Returns 1 where any pixel in the surrounding square of 2 `radius` + 1 pixels is not 0, else 0.
 Image8 dilated(const Image8& mask, int radius);
 
-// Some pixels of an image: those that are measured.
+// The pixels of an image that are measured.
 struct PixelMask {
   Image8 mask;                // never set in the first and last row and column
   std::vector<Index> pixels;  // indices of these pixels
@@ -32,11 +32,11 @@ struct PixelMask {
   explicit PixelMask(Image8 image);
 };
 
-// Returns div (x, y) at measured pixels, whatever their neighbours are, 0 elsewhere. y points up, rows run
-// down.
+// Returns the divergence of the vectors (x, y) at measured pixels, also where neighbouring pixels are not
+// measured; 0 elsewhere. y points up, rows run down.
 Image<float> divergence(const Image<float>& x, const Image<float>& y, const PixelMask& where);
 
-// Gaussian blur over measured pixels alone (normalised convolution).
+// Gaussian blur that uses only measured pixels (normalised convolution).
 class MaskedGaussian {
  public:
   MaskedGaussian(double sigma, int radius, const PixelMask& where);
@@ -53,7 +53,7 @@ class MaskedGaussian {
 inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
 inline constexpr std::size_t order_pairs = 200000;
 
-// Returns the blur of the curvature for the detail at a scale.
+// Returns the blur that smooths the curvature for the detail at a scale.
 inline MaskedGaussian detail_gaussian(int scale_px, const PixelMask& where) {
   return {static_cast<double>(scale_px), 3 * scale_px, where};
 }
@@ -61,8 +61,9 @@ inline MaskedGaussian detail_gaussian(int scale_px, const PixelMask& where) {
 // Returns the correlation of values at measured pixels; 0 if all values of an image are equal.
 double correlation(const Image<float>& a, const Image<float>& b, const PixelMask& where);
 
-// Returns the share of random pairs of measured pixels, the same ones every time and further apart in depth
-// than 1 % of the depth range, whose order the heights z keep; 0 if there are none.
+// Compares the order of random pairs of measured pixels that differ in depth by more than 1 % of the depth
+// range; the pairs are the same every time. Returns the share of them whose order the heights z keep; 0 if
+// there are no such pairs.
 double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where,
                   std::size_t pairs);
 

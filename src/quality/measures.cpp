@@ -17,7 +17,7 @@ namespace {
 
 constexpr int lights = 16;
 
-// Returns one of 16 directions: eight azimuths, first at 30, then at 55 degrees above the plane.
+// Returns one of 16 directions: eight azimuths at 30 degrees above the plane, then the same at 55 degrees.
 Vec3f light_direction(int i) {
   const double azimuth = i % 8 * std::numbers::pi / 4;
   const double elevation = to_radians(i < 8 ? 30 : 55);
@@ -140,7 +140,8 @@ struct ReliefMetrics::Reference : ModelPicture {
     return smoothed;
   }
 
-  // Sets the measures that cover the pixels which the other measures leave out.
+  // Sets halo, steep_share, height_used and the steps, which also use the pixels that the other measures
+  // leave out.
   void guard(const Image<float>& z, const NormalMap& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
     const float steep = static_cast<float>(std::cos(to_radians(80)));

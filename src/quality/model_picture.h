@@ -8,8 +8,9 @@
 #include "relievo/scan/surface.h"
 
 namespace relievo {
-// The triangle that covers each pixel's centre, and the weights of its corners there. It depends on where the
-// points are in the plane alone, so that pictures of many reliefs of one surface are drawn with it.
+// The triangle that covers each pixel's centre, and the weights of its corners there. It depends only on the
+// positions of the points in the plane, so that the pictures of many reliefs of one surface are drawn with
+// it.
 class BarycentricMap {
  public:
   // The longer side of the points' box gets `longer_side_px` pixels, with `margin_px` more on each side.
@@ -28,7 +29,7 @@ class BarycentricMap {
     return {width() / 2.0 + p.x(), height() / 2.0 - p.y()};
   }
 
-  // Returns no_index where the pixel is outside the hull.
+  // Returns the triangle at a pixel; no_index outside the hull.
   Index triangle(std::size_t pixel) const { return places_[pixel].triangle; }
 
   // Returns value(point) interpolated at a pixel; `outside` where there is no triangle.
@@ -73,7 +74,7 @@ struct ModelPicture {
 
   int width() const { return grid.width(); }
 
-  // Draws heights, one per point, in pixels.
+  // Returns the picture of heights, given one per point. Heights in the picture are in pixels.
   Image<float> heights_in_pixels(std::span<const double> heights) const;
 
  private:

@@ -12,7 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr std::size_t half_window = 12;  // half the width of the moving mean, in triangles
-constexpr double smooth_turn_deg = 10;   // between the model's normals at both ends of an edge
+constexpr double smooth_turn_deg = 10;   // largest angle between the model's normals at both ends of an edge
 constexpr double quantile_of_facets = .99;
 
 Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) {
@@ -23,7 +23,7 @@ Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) 
   return Vec2(p * v.y() - q * u.y(), q * u.x() - p * v.x()) / twice_area;
 }
 
-// Adds up the squares of the differences between angles along chains and their moving means.
+// Adds up the squared differences between the angles along a chain and the moving means of these angles.
 struct Residuals {
   double sum = 0;
   std::size_t count = 0;
@@ -66,7 +66,8 @@ SurfaceMeasures::SurfaceMeasures(const Surface& surface) : surface_(surface) {
   find_pairs();
 }
 
-// A side lies on the silhouette if both ends do, and at a jump if both ends are on the same edge of its wall.
+// A side lies on the silhouette if both its ends do. It lies at a jump if both ends are on the same edge of
+// the jump's wall. The triangle's third corner must be off the outline.
 void SurfaceMeasures::find_outlines() {
   const Boundary& boundary = surface_.boundary;
   std::vector<Rim> silhouette, front, back;

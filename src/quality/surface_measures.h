@@ -1,4 +1,5 @@
-// Measures of the surface itself, right up to silhouettes and depth jumps, where a cutter follows it.
+// Measures of the surface itself, silhouettes and depth jumps included: a milling cutter follows it there,
+// too.
 #pragma once
 
 #include <span>
@@ -18,23 +19,25 @@ class SurfaceMeasures {
     double silhouette_deg = 0, jump_deg = 0;  // 0 without such an outline
   };
 
-  // Returns how much the tilt of the triangles beside an outline scatters along it: the standard deviation of
-  // their angles across and along the outline from the means of 25 neighbours. Heights are one per point.
+  // Returns how much the tilt of the triangles beside an outline scatters along it. This is the standard
+  // deviation of their angles across and along the outline from the means of 25 neighbours. Heights are one
+  // per point.
   Fray fray(std::span<const double> heights) const;
 
-  // Returns the angle between neighbouring triangles that 99 % of the pairs do not exceed, in degrees, where
-  // the normals of the model turn by less than 10 degrees from one end of their edge to the other.
+  // Returns the 99th percentile of the angles between neighbouring triangles, in degrees. Only pairs count
+  // where the model's normals turn by less than 10 degrees from one end of the shared edge to the other.
   double facet_angle_deg(std::span<const double> heights) const;
 
   // Returns the longest side of the relief's triangles in the view plane, in sampling distances.
   double longest_side() const;
 
  private:
-  // A triangle beside an outline, and the end points of its side on it; the triangle lies on the left.
+  // A triangle beside an outline, and the end points of its side on the outline. The triangle lies on the
+  // left.
   struct Rim {
     Index from, to, triangle;
   };
-  using Chain = std::vector<Rim>;  // each begins where the last one ends
+  using Chain = std::vector<Rim>;  // each rim begins where the one before ends
 
   struct Pair {
     Index left, right;  // triangles

@@ -1,5 +1,5 @@
-// Objective measures of how much a relief shows of its model, and of its faults. docs/quality.md defines each
-// measure and gives its source.
+// Objective measures of how much of its model a relief shows, and of the relief's faults. docs/quality.md
+// defines each measure and gives its source.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@ struct Measures {
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
   std::array<double, 3>
       detail{};      // correlation of div n, smoothed by Gaussians of 1, 2 and 4 pixels, [-1, 1]
-  double order = 0;  // share of random pairs whose depths differ by more than 1 % that keep their order
+  double order = 0;  // share of random pairs, over 1 % apart in depth, whose depth order is kept
 
-  double halo = 0;                 // standard deviation of the background, as a share of `height`
+  double halo = 0;                 // standard deviation of heights in the background, as a share of `height`
   double steep_share = 0;          // share of the silhouette's pixels that are steeper than 80 degrees
   double height_used = 0;          // height from the 1st to the 99th percentile, as a share of `height`
   double jump_step = 0;            // greatest step left at a depth jump of the model, as a share of `height`
   double rim_step = 0;             // greatest height one edge inside the silhouette, as a share of `height`
   double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette around its smoothed values
   double jump_fray_deg = 0;        // the same scatter beside depth jumps, on both sides
-  double facet_angle_deg = 0;      // 99th percentile of angles between neighbours where the model is smooth
+  double facet_angle_deg = 0;      // 99th percentile of angles between triangles where the model is smooth
   double longest_side = 0;         // longest side of a triangle, in sampling distances
   double height = 0;               // lowest to highest, base included, in the surface's units
 };
@@ -46,8 +46,8 @@ class ReliefMetrics {
   ReliefMetrics(ReliefMetrics&&) noexcept;
   ~ReliefMetrics();
 
-  // Measures heights above the base, one per point of the surface. All zeros if no pixel is far enough from
-  // silhouette and jumps; correlations with something constant are 0.
+  // Measures heights above the base, one per point of the surface. All measures are 0 if no pixel is far
+  // enough from silhouette and jumps; correlations with a constant are 0.
   Measures measure(std::span<const double> heights) const;
 
   // Returns the number of pixels that are measured.
