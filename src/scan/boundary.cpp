@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// A limit in rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
+// In rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
 constexpr double gap = 3;
 
 // Returns infinity for a triangle without area.
@@ -54,8 +54,8 @@ class BoundaryFinder {
   }
 
  private:
-  // Marks as inside each connected set of outside triangles that does not touch the hull and into which no
-  // circle of the radius of the largest hole fits.
+  // Marks narrow holes as inside: connected sets of outside triangles that do not touch the hull and into
+  // which no circle of the radius of the largest hole fits.
   void close_narrow_holes(std::vector<std::uint8_t>& is_inside) const {
     DisjointSets sets(is_inside.size());
     for (Index t = 0; t < is_inside.size(); ++t)

@@ -34,7 +34,7 @@ class Grid {
   Grid(const Cloud& cloud, const Mat3& R, NormalSigns signs) {
     for (const Vec3& p : cloud.points) box_.extend(R * p);
     // Cells are at least two spacings wide; otherwise the back would show through gaps in the front. The
-    // factor 2 in the spacing accounts for the points at the back.
+    // factor 2 below is there because about half of the points are at the back.
     const Vec3 size = box_.size();
     const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
     width_ = std::max({box_.diagonal() / cells_along_diagonal, 2 * spacing, 1e-300});

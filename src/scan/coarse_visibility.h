@@ -1,5 +1,5 @@
-// A fast, coarse estimate of what is visible of a cloud, to rank views and check normals. It is too coarse for reliefs.
-// With it, and with the visible points, a cloud gets normals that a relief can be made from. Tested by
+// A fast, coarse estimate of the visible part of a cloud, which ranks views and checks normals. It is too
+// coarse for reliefs. Also has functions that orient a cloud's normals. Tested by
 // tests/scan/view_ranking_test.cpp, tests/scan/normals_test.cpp and tests/scan/surface_test.cpp.
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace relievo {
 
 struct CoarseVisibility {
-  // The fraction of the front points that face the viewer, not counting those seen edge on; 0.5 if there are
-  // none.
+  // Of the cells' front points, the fraction whose normals face the viewer. Points seen nearly edge on are
+  // left out of both counts. 0.5 if no points are left.
   double facing_share = .5;
   // The sum of the normal differences between neighbouring cells, without those across depth jumps.
   double normal_variation = 0;
@@ -23,18 +23,19 @@ struct CoarseVisibility {
   double bulge = 0;  // how much nearer the front is within its outline than on it, in diagonals of the box
 };
 
-// Says whether a cloud's normals point out of the model or into it. `unknown` takes each normal to face the
-// viewer.
+// States whether a cloud's normals point out of the model or into it. With `unknown` each normal is turned to
+// the viewer.
 enum class NormalSigns { outward, inward, unknown };
 
-// Returns one estimate for each view, in the order of the views. Each is made on a grid over the cloud as the
-// view turns it. The cells of the grid are a 160th of the diagonal of the cloud's box wide or wider, and the
-// front of a cell is its point with the largest z. Crops are ignored. Without normals the results are the
-// default.
+// Returns one estimate for each view, in the order of the views. Each is made on a grid over the cloud in
+// that view. The cells of the grid are at least as wide as a 160th of the diagonal of the cloud's box, and
+// the front point of a cell is its point with the largest z. Crops are ignored. The cloud must have normals,
+// or the results are the default.
 std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
                                                 NormalSigns signs = NormalSigns::outward);
 
-// Returns whether the normals of a model point into it, given its six sides along the axes, see normals.h.
+// Returns whether the normals of a model point into it, given the estimates for its six sides along the axes,
+// see normals.h.
 bool normals_point_inward(std::span<const CoarseVisibility> sides);
 
 // The state of a cloud's normals before orient_normals(). Normals are usable if they point outwards, or if
@@ -42,11 +43,11 @@ bool normals_point_inward(std::span<const CoarseVisibility> sides);
 enum class OriginalNormals { usable, missing, inward };
 
 // Estimates the normals of a cloud in view coordinates if it has none, and reverses them if they point
-// inwards. `cloud` is the same cloud in its own frame. Returns what its normals were like before.
+// inwards. `cloud` is the same cloud in its own frame. Returns the state of its normals before.
 OriginalNormals orient_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud);
 
-// Gives the estimated normals of a cloud in view coordinates consistent signs, such that the visible ones
-// face the viewer.
+// Gives the estimated normals of a cloud in view coordinates consistent signs, such that the normals of
+// visible points face the viewer.
 void give_signs(Cloud& viewed, const Spacing& spacing);
 
 // Returns whether the cloud was scanned from the viewer's side, as a depth image of a room is. Such a scan

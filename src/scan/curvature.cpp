@@ -57,8 +57,8 @@ class CurvatureEstimator {
       : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options), tree_(searchable.tree) {}
 
   double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<Neighbour>& neighbours) const {
-    // The spacing is at least rho: near coincident points the local one is almost 0, and the fit would see
-    // noise only.
+    // The spacing is at least rho: near coincident points the local spacing is almost 0, and the fit would
+    // see only noise.
     const double h = options_.scale * std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
     tree_.within(cloud_.points[i], support * h, matches);
     neighbours.clear();

@@ -42,7 +42,7 @@ class DepthBuffer {
   std::vector<float> depth_;
 };
 
-// Returns the change of depth from a disc's centre to the point of its plane that lies (dx, dy) away in x and
+// Returns the change of depth from a disc's centre to the point of its plane at the offset (dx, dy) in x and
 // y. Slopes are limited to 20, so that the result is finite even for discs seen edge on.
 double depth_along_plane(const Vec3f& normal, double dx, double dy);
 

@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns a mask of the grid points without a depth that are enclosed by known ones. It floods all other
-// unknown grid points from the image's border.
+// Returns a mask of the grid points without a depth that are enclosed by known ones. Finds them by flooding
+// all other unknown grid points from the image's border.
 std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
   std::vector<std::uint8_t> is_hole(b.is_known.size());
   for (std::size_t i = 0; i < is_hole.size(); ++i) is_hole[i] = !b.is_known[i];
@@ -31,8 +31,9 @@ std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
   return is_hole;
 }
 
-// Gives each grid point of a hole the lowest of the nearest known heights in the four directions along its
-// row and column, because a hole beside an outline belongs to the surface behind it.
+// Gives each grid point of a hole a height: the lowest of the nearest known heights in the four directions
+// along its row and column. The lowest is right because a hole beside an outline belongs to the surface
+// behind it.
 void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::vector<float>& z) {
   const std::vector<float> known = z;
   parallel_for(

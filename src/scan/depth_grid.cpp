@@ -12,8 +12,8 @@ namespace relievo {
 namespace {
 
 // The least inverse depth, as a share of the largest. Smaller values are raised to it, because estimators
-// return nearly 0 for the sky, whose depth would be unlimited. So no depth is more than 20 times the
-// smallest.
+// return nearly 0 for the sky, whose depth would be unlimited. So no depth is more than 20 times the smallest
+// depth.
 constexpr double farthest_inverse = .05;
 // The slope, 76 degrees, up to which neighbours belong to one surface. Steeper slopes are more often jumps.
 constexpr float steepest = 4;
@@ -31,8 +31,8 @@ class HeightScale {
     const int longer = std::max(image.values.width, image.values.height);
     is_log_ = options.camera.has_value() || kind_ == DepthValues::inverse;
     floor_ = kind_ == DepthValues::inverse ? std::max(farthest_inverse * high, 1e-30) : 1e-30;
-    // The camera of an estimator's image is not known. Most have a field of view of about 50 degrees, for
-    // which the focal length is 1.1 times the image's longer side.
+    // The camera of an estimator's image is not known. Most cameras have a field of view of about 50 degrees,
+    // for which the focal length is 1.1 times the image's longer side.
     const double focal = options.camera ? std::sqrt(options.camera->fx * options.camera->fy) : 1.1 * longer;
     scale_ = is_log_ ? focal : high > low ? options.range * longer / (high - low) : 1;
     if (kind_ == DepthValues::depth) scale_ = -scale_;
@@ -51,11 +51,11 @@ class HeightScale {
 };
 
 // The uncertainty of a depth camera's values, in distances between neighbouring values of the image. Such
-// cameras write millimetres, but far away they resolve only about every tenth one. Noise then decides which
-// of two distant values a depth becomes, so the uncertainty is more than half of their distance.
+// cameras write millimetres, but at large depths only about every tenth millimetre occurs. Noise then decides
+// which of the two nearest values is written, so the uncertainty is more than half of their distance.
 constexpr double sensor_steps = 1.5;
 
-// Estimates the uncertainty of values that is due to their steps: at least half a step of the file.
+// Estimates the uncertainty of values that their steps cause: at least half a step of the file.
 class ValueSteps {
  public:
   explicit ValueSteps(const DepthImage& image) : least_(image.step / 2) {
@@ -67,7 +67,7 @@ class ValueSteps {
       if (count >= 3) values_.push_back(value);
   }
 
-  // Returns whether the values come from a depth camera: whether their steps are coarser than the file's.
+  // Returns whether the values come from a depth camera: their steps are then coarser than the file's.
   bool are_sensors() const {
     return values_.size() > 16 && uncertainty(values_[values_.size() / 2]) > 2 * least_;
   }
@@ -88,11 +88,11 @@ class ValueSteps {
 
  private:
   double least_;
-  std::vector<float> values_;  // those that occur at least three times, ascending
+  std::vector<float> values_;  // the values that occur at least three times, ascending
 };
 
-// The standard deviation of the heights' noise, by depth. It is measured by the twist of 2 x 2 blocks, a - b
-// - c + d, in which planes cancel and curved surfaces nearly so.
+// The standard deviation of the heights' noise, by depth. It is measured by the twist a - b - c + d of 2 x 2
+// blocks, which is 0 on planes and nearly 0 on curved surfaces without noise.
 struct Noise {
   std::array<float, noise_bins> limit;  // highest height of each bin
   std::array<float, noise_bins> sigma;
@@ -132,8 +132,8 @@ Noise measure_noise(const DepthGrid& grid) {
   return noise;
 }
 
-// Extends the bounds of every grid point to the median around it: single values of a depth camera may be far
-// off.
+// Extends the bounds of every grid point to the median around it, because single values of a depth camera may
+// be far off.
 void allow_specks(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
   for (int r = 1; r + 1 < b.height; ++r)
@@ -167,7 +167,7 @@ void allow_noise(DepthGrid& grid) {
 }
 
 // The mean of a square block of pixels, which becomes one grid point. Only pixels near the median count, so
-// that a block on an outline represents one side of it and not the mean of both.
+// that a block on an outline represents one of its two sides and not their mean.
 struct Block {
   float height = 0, low = 0, high = 0;
 };
@@ -233,8 +233,9 @@ DepthGrid make_grid(const DepthImage& image, const DepthOptions& options) {
 
 void join(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
-  // A jump is a difference that the neighbours' bounds do not explain. The bounds of depth cameras are
-  // several times as wide as the differences on a surface, so a smaller part of them suffices.
+  // A difference is a jump if the neighbours' bounds do not explain it. The bounds of depth cameras are
+  // several times as wide as the differences on a surface, so there a smaller part of the bounds is the
+  // limit.
   const float jump = grid.is_sensor ? .45F : 1.8F;
   const auto is_near = [&](std::size_t i, std::size_t j) {
     if (!b.is_known[i] || !b.is_known[j]) return false;
@@ -261,7 +262,7 @@ std::size_t cut_ramps(DepthGrid& grid) {
         const std::size_t i = b.at(c, r);
         if (!b.is_known[i]) continue;
         // On a ramp the heights before and after the grid point differ steeply from its own, in the same
-        // direction, and it is not joined to both.
+        // direction, and the grid point is not joined to both neighbours.
         const auto is_ramp_along = [&](std::ptrdiff_t step, bool has_both, bool joins_before,
                                        bool joins_after) {
           if (!has_both || (joins_before && joins_after)) return false;

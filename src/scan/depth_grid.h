@@ -1,5 +1,5 @@
-// A depth image as a grid of heights, and their smoothing between two bounds at each place, before it is converted into
-// points. Tested by tests/scan/depth_image_test.cpp.
+// A depth image as a grid of heights, before the heights become points: each has bounds, between which it can
+// be smoothed. Tested by tests/scan/depth_image_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -21,19 +21,20 @@ struct BoundedGrid {
   }
 };
 
-// Returns the smoothest heights with low <= z <= high at all known points, 0 at unknown ones: the sum of
-// their squared second differences (along rows, along columns, and twice the mixed one), over joined points,
-// is nearly minimal. Solves from coarse to fine grids in linear time: 2 s for a million points on two cores.
+// Returns the smoothest heights with low <= z <= high at all known points, 0 at unknown ones. Smoothest means
+// that the sum of squared second differences (along rows, along columns, and twice the mixed one), over
+// joined points, is nearly minimal. Solves from coarse to fine grids in linear time: 2 s for a million points
+// on two cores.
 std::vector<float> smoothest(const BoundedGrid& grid);
 
-// Heights towards the viewer, in pixels of the reduced grid, with the interval in which each one lies.
+// Heights towards the viewer, in pixels of the reduced grid, each with an interval that contains it.
 struct DepthGrid {
   BoundedGrid bounds;         // the intervals in which the heights lie
   std::vector<float> height;  // heights of known grid points
   int reduction = 1;
   double noise = 0;
   std::size_t missing = 0;
-  bool is_sensor = false;  // the steps of the values are coarser than the file's, as with depth cameras
+  bool is_sensor = false;  // the steps of the values are coarser than the file's, as from depth cameras
 };
 
 // Returns the grid, reduced to about options.points grid points. The bounds account for the step of the

@@ -59,7 +59,8 @@ std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, con
           const std::size_t i = fine.at(c, r);
           if (!fine.is_known[i]) continue;
           const std::size_t own = half.at(c / 2, r / 2);
-          // A fine point lies a quarter of the way from its coarse point to the next one on its side.
+          // A fine point lies a quarter of the way from its own coarse point to the next coarse point on its
+          // side.
           float value = z[own];
           const int dx = c % 2 ? 1 : -1, dy = r % 2 ? 1 : -1;
           const std::size_t left = dx > 0 ? own : own - 1,

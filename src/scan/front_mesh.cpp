@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns the members of a Surface that is_jump() reads.
+// Returns a Surface that has only the members that is_jump() reads.
 Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   Surface surface;
   surface.rho = spacing.rho;
@@ -34,7 +34,7 @@ bool is_wide(const Surface& surface, const Triangle& t) {
 }
 
 // Returns whether one surface may continue between all corners of a triangle: whether no two normals differ
-// by more than 60 degrees. Over 2.5 rho they hardly do except across an edge of the model.
+// by more than 60 degrees. Over 2.5 rho normals hardly differ so much except across an edge of the model.
 bool look_alike(const Surface& surface, const Triangle& t) {
   const auto& n = surface.normals;
   constexpr float least_cosine = .5F;  // cosine of 60 degrees

@@ -1,5 +1,5 @@
-// A triangle mesh of the visible side of a scattered cloud, from which points between its points can be
-// sampled.
+// A triangle mesh of the visible side of a scattered cloud. It serves to sample points between those of the
+// cloud.
 #pragma once
 
 #include "relievo/scan/mesh.h"
@@ -7,10 +7,10 @@
 
 namespace relievo {
 
-// Returns a triangulation of the visible points of a cloud with normals, in view coordinates: the triangles
-// that its relief would have. A triangle across a depth jump is divided among its corners, and each part
-// continues its corner's tangent plane. Wide triangles over narrow holes get the normal (0, 0, 1). Empty if
-// no point is visible.
+// Returns the triangles that the relief of a cloud would have: a triangulation of its visible points. The
+// cloud has normals and is in view coordinates. A triangle across a depth jump is divided among its corners,
+// and each part continues its corner's tangent plane. Wide triangles over narrow holes get the normal (0, 0,
+// 1). Empty if no point is visible.
 Mesh front_mesh(const Cloud& viewed, const Spacing& spacing);
 
 }  // namespace relievo

@@ -9,8 +9,8 @@
 namespace relievo {
 namespace {
 
-// Returns how far the tangent plane rises along a step. n_z is limited to 0.1, because near the silhouette
-// the plane is too steep to distinguish a jump from a slope.
+// Returns how far a tangent plane rises along a step. n_z is limited to 0.1, because near the silhouette the
+// plane is too steep to distinguish a jump from a slope.
 double rise(const Vec3f& normal, const Vec2& step) {
   const Vec3 n = normal.cast<double>();
   return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1);
@@ -18,8 +18,8 @@ double rise(const Vec3f& normal, const Vec2& step) {
 
 // The weight of edges at a jump in (9). docs/decisions/jumps.md shows the effect of other values.
 constexpr double least_weight = .2;
-// Shares of the longer side: the distance at which edges count fully, and the least height of a jump. Lower
-// jumps leave little misfit, and may be noise.
+// In shares of the surface's longer side: the distance from a jump at which edges count fully, and the least
+// height of a jump. Lower jumps leave little misfit, and may be noise.
 constexpr double full_weight_distance = .008, least_jump_height = .02;
 
 double depth_range(const Surface& surface, const Triangle& t) {

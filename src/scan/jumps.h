@@ -1,4 +1,5 @@
-// Depth jumps inside the silhouette: edges of the triangulation in the view plane that no surface spans.
+// Depth jumps inside the silhouette: edges of the triangulation in the view plane across which the surface is
+// not connected.
 #pragma once
 
 #include <vector>
@@ -8,14 +9,15 @@
 namespace relievo {
 
 // Returns whether there is a depth jump between two neighbouring points: whether their depths differ by more
-// than twice what their normals explain, plus 3 rho.
+// than 3 rho plus twice the difference that their normals explain.
 bool is_jump(const Surface& surface, Index a, Index b);
 
 // Returns for each triangle whether it is inside the relief and one of its edges is a depth jump.
 std::vector<std::uint8_t> jump_triangles(const Surface& surface);
 
-// Returns the weight of each point's edges in (9): 0.2 at a depth jump of 2 % of the longer side or more,
-// growing geometrically to 1 at a distance of 0.8 % from it. docs/decisions/jumps.md gives the reason.
+// Returns the weight of each point's edges in (9). It is 0.2 at a depth jump of at least 2 % of the surface's
+// longer side, and grows geometrically to 1 at a distance of 0.8 % from the jump. docs/decisions/jumps.md
+// gives the reason.
 std::vector<float> jump_weights(const Surface& surface);
 
 }  // namespace relievo

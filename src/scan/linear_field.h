@@ -1,4 +1,4 @@
-// Fits values that vary linearly in the plane to values at scattered points, by weighted least squares.
+// Weighted least squares fits at scattered points in the plane, of values that vary linearly there.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -17,7 +17,7 @@ class LinearField {
   struct Fit {
     Value value = Value::Zero();  // the fitted value at the place
     Eigen::Matrix<double, 2, Values> gradient = Eigen::Matrix<double, 2, Values>::Zero();
-    bool is_sloped = false;  // false if the points lie too near a line: then the value is their mean
+    bool is_sloped = false;  // false if the points lie too near a line; the value is then their mean
     double misfit = 0;       // root mean square of the residuals of a sloped fit
     double count = 0;        // sum of the points' weights
   };

@@ -9,12 +9,12 @@
 
 namespace relievo {
 
-// See measure_spacing() in spacing.h. `tree` is that of `points`. The result is not usable once the progress
-// is cancelled.
+// See measure_spacing() in spacing.h. `tree` contains `points`. The result is not usable once the progress is
+// cancelled.
 Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points,
                         const Progress* progress = nullptr);
 
-// A cloud, its spacing, and the tree of its points.
+// A cloud, its spacing, and the k-d tree of its points.
 struct SearchableCloud {
   const Cloud& cloud;
   const Spacing& spacing;

@@ -27,7 +27,7 @@ Result<void> check_numbers(const Cloud& cloud) {
   return {};
 }
 
-// Refuses clouds whose points coincide or lie on one line, up to rounding.
+// Returns an error if the points coincide or lie on one line, up to rounding.
 Result<void> check_extent(const Cloud& cloud, const Box& box) {
   if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
   const Vec3 centre = box.centre();
@@ -41,8 +41,8 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
-// Returns the step between numbers of single precision at the largest coordinate; 0 if some coordinate has
-// more digits.
+// Returns the step between numbers of single precision at the largest coordinate; 0 if single precision does
+// not represent some coordinate exactly.
 double step_of_digits(const Cloud& cloud) {
   float largest = 0;
   for (const Vec3& p : cloud.points)
@@ -54,7 +54,7 @@ double step_of_digits(const Cloud& cloud) {
   return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest);
 }
 
-// Refuses points that rounding has moved about as far as they are apart.
+// Returns an error if rounding has moved points about as far as they are apart.
 Result<void> check_digits(const Cloud& cloud, double rho) {
   constexpr double least_steps = 1.5;
   const double step = step_of_digits(cloud);
@@ -66,8 +66,8 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
 }
 
 // Removes points from the order so that of coincident points, which follow each other there, at most eight
-// remain. Each search around many of them would read them all, which takes quadratic time. Which eight remain
-// depends on the file's order.
+// remain. Every search near many coincident points would read them all, which takes quadratic time. Which
+// eight remain depends on the file's order.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
   std::size_t same = 0;
@@ -136,8 +136,8 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   return {};
 }
 
-// Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the
-// scan: where several scans overlap, points without noise lie closer together than the surface is sampled.
+// Removes the noise that the view asks for, else the measured noise. The spacing stays that of the scan:
+// where several scans overlap, points without noise lie closer together than the surface is sampled.
 void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
   removed_noise_ = view.noise_to_remove(measured_noise_);
@@ -148,7 +148,7 @@ void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
 }
 
 bool MeasuredCloud::serves(const View& view) const {
-  // Whoever adds a field to views decides here whether it needs other measures; without it this does not compile.
+  // With a new field of View this line does not compile: decide here whether the field needs other measures.
   const auto& [R_view_model, crop, has_crumbs, has_plane, denoise, is_best] = view;
   if (denoise != view_.denoise || crop != view_.crop) return false;
   const bool is_of_any_view = crop == Crop{} && cloud_.outlines.empty();

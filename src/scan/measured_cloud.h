@@ -14,12 +14,12 @@ namespace relievo {
 class MeasuredCloud {
  public:
   // Measures the part of the cloud that the view's crop keeps, after removing the noise that the view asks
-  // for. Errors: those of find_surface() that do not depend on what is visible.
+  // for. Errors: those of find_surface() that do not depend on the visible points.
   static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
                                                               Progress* progress = nullptr);
 
-  // Returns whether the view may show these measures, because measuring for it would give the same. A crop
-  // depends on the direction of the view, and so do the exact outlines of a mesh.
+  // Returns whether the view may use these measures, because measuring for it would give the same. A crop and
+  // the exact outlines of a mesh depend on the direction of the view.
   bool serves(const View& view) const;
 
   // Returns the view that the cloud was measured for.

@@ -14,9 +14,9 @@
 namespace relievo {
 namespace {
 
-constexpr int first_side_px = 512;  // side of the image by which the number of visible pixels is estimated
+constexpr int first_side_px = 512;  // side of the image from which the number of visible pixels is estimated
 constexpr int rows_per_band = 32;
-// Interpolated normals may face away although the triangle does not; they are turned until they just face the
+// Interpolated normals may face away although the triangle does not. They are turned until they just face the
 // viewer.
 constexpr float least_corner_normal_z = .02F;
 
@@ -28,8 +28,9 @@ struct SeenMesh {
   Box box;
 };
 
-// Returns whether the mesh's normals differ from those of its triangles, for more than 1 % of the corners.
-// Some programs write each triangle's own normal, which would show the triangles instead of the smooth shape.
+// Returns whether the mesh's normals differ from those of its flat triangles, for more than 1 % of the
+// corners. Some programs write only the normals of the flat triangles, which would show the triangles instead
+// of the smooth shape.
 bool tells_normals(const Mesh& mesh) {
   const float same = .9999F;  // cosine of 0.8 degrees
   const auto count_told = [&](std::size_t begin, std::size_t end) {
@@ -98,14 +99,14 @@ std::size_t covered_pixels(const RasterInput& scene) {
 }
 
 // Returns the side of the pixels: the spacing asked for, or a side at which about the wanted number of pixels
-// show the mesh. Returns nothing if no pixel shows it.
+// show the mesh. Returns nothing if no pixel shows the mesh.
 std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& options) {
   const double longer = seen.box.longer_side();
   const double finest = longer / (RasterInput::most_pixels / 8.0);
   if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
-  const int tries = 4;  // a wire that the first pixels miss shows in finer ones
+  const int tries = 4;  // a wire that the first pixels miss shows in finer pixels
   for (int i = 0; i < tries; ++i) {
     const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
     const bool is_sure = covered > 1000;  // the area is then known to a few per cent
@@ -115,8 +116,8 @@ std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& option
   return std::nullopt;
 }
 
-// Samples the mesh at the centres of pixels. Draws it with finer pixels, of 1 / `fine` of that side, which
-// show where the outline is between the centres.
+// Samples the mesh at the centres of pixels. Draws the mesh with finer pixels, whose side is 1 / `fine` of a
+// pixel's side, to find where the outline is between the centres.
 class Sampler {
  public:
   static constexpr int fine = 5;  // odd, so that the centre of a pixel is also that of a fine one
@@ -147,8 +148,8 @@ class Sampler {
  private:
   static constexpr int middle = fine / 2;
 
-  // Draws the mesh and keeps the visible triangles along the middle lines of the pixels' rows and columns;
-  // the outline is searched for along these only.
+  // Draws the mesh and keeps the visible triangles along the middle lines of the pixels' rows and columns.
+  // The outline is searched for only along these lines.
   void draw() {
     along_rows_ = filled_image(columns_ * fine, rows_, no_index);
     along_columns_ = filled_image(columns_, rows_ * fine, no_index);
@@ -186,9 +187,9 @@ class Sampler {
     }
   }
 
-  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh: at the
-  // last fine pixel that shows it, unless that is next to the pixel's own point. seen_at(i) returns the
-  // triangle that is visible i fine pixels from the first one.
+  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. The
+  // point is at the last fine pixel that shows the mesh, unless that is next to the pixel's own point.
+  // seen_at(i) returns the triangle that is visible i fine pixels from the first pixel.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {
     const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;
@@ -199,7 +200,7 @@ class Sampler {
     if (steps >= 2) add_at(seen_at(begin + steps * towards), begin + steps * towards);
   }
 
-  // Adds the point of a triangle at the centre of a fine pixel; none for no_index.
+  // Adds the point of a triangle at the centre of a fine pixel; does nothing for no_index.
   void add(Index t, int fine_column, int fine_row, Cloud& to) const {
     if (t == no_index) return;
     const Vec2 place(fine_column + .5, fine_row + .5);

@@ -64,7 +64,7 @@ void turn_to_viewer(Cloud& viewed) {
 
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
   constexpr float seen_well = .5F;  // n_z of 60 degrees; at steeper points the estimated sign is not reliable
-  // Points whose normal has its final sign, in the order in which it got this sign; also the queue of a
+  // The points whose normals have their final signs, in the order in which they got them; also the queue of a
   // breadth-first search.
   std::vector<Index> settled;
   std::vector<std::uint8_t> is_settled(viewed.size(), 0);

@@ -1,5 +1,5 @@
-// These limits decide which points of a scan are visible and which holes and small pieces are closed or left
-// out. The surface of all points and the coarse one of a turned model share them.
+// Limits that decide which points of a scan are visible and which holes and small pieces are closed or left
+// out. The surface of all points and the coarse one of a turned model share these limits.
 #pragma once
 
 namespace relievo {
@@ -7,8 +7,8 @@ namespace relievo {
 struct ScanLimits {
   // Radius, in local spacings, of the disc with which a point hides what is behind it.
   static constexpr double disc_radius = 2;
-  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that one would
-  // look through the surface; a lone point far from all others must not hide an area as large as its spacing.
+  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that the surface
+  // would have gaps there. A lone point far from all others must not hide an area as large as its spacing.
   static constexpr double least_spacing = .25, largest_spacing = 4;
   // A point is visible if it lies behind the front by at most this, in local spacings / n_z.
   static constexpr double depth_tolerance = 2;

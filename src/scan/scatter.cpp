@@ -22,9 +22,9 @@ std::vector<double> areas(const Mesh& mesh) {
   return areas;
 }
 
-// Returns barycentric coordinates for point number i: the R2 sequence of Roberts (2018), which fills a square
-// evenly, folded into the triangle. Its constants are 1 / p and 1 / p^2 for the plastic number p, the root of
-// p^3 = p + 1.
+// Returns barycentric coordinates for point number i. They are from the R2 sequence of Roberts (2018), which
+// fills a square evenly, folded into the triangle. Its constants are 1 / p and 1 / p^2 for the plastic number
+// p, the root of p^3 = p + 1.
 Vec3f spread_weights(std::size_t i) {
   constexpr double first = 0.7548776662466927, second = 0.5698402909980532;
   double whole = 0;
@@ -54,7 +54,7 @@ void add(const Mesh& mesh, const std::array<Vec3f, 3>& normals, std::size_t t, c
 }
 
 // Thousands of triangles may meet at the apex of a cone. An even sample of this size gives the same normal;
-// comparing each with all the others would take quadratic time.
+// comparing each triangle with all the others would take quadratic time.
 constexpr std::size_t enough_members = 512;
 
 double angle_at(const Mesh& mesh, const Triangle& t, std::size_t corner) {

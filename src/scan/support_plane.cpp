@@ -15,10 +15,10 @@
 namespace relievo {
 namespace {
 
-// Planes are tried on a few points, and judged on more of them.
+// Planes are tried on a few points, and the best plane is judged on more points.
 constexpr std::size_t tried_points = 1024, judged_points = 16384;
-// If a plane has a twelfth of all points, one try in 1,728 draws three of its points; 6,000 tries miss it
-// with probability 0.03.
+// If a plane has a twelfth of all points, one try in 1,728 draws three points of this plane; 6,000 tries miss
+// the plane with probability 0.03.
 constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
@@ -29,9 +29,9 @@ constexpr int refinements = 6;
 constexpr double widest_angle_deg =
     30;                               // between a plane and the normals of its points, which noise scatters
 constexpr double least_share = .08;   // of the points: smaller planes do no harm to a relief
-constexpr double least_figure = .02;  // share of the points before the plane in all points
-constexpr double most_behind = .1;    // share of the points behind the plane in those beside it
-constexpr double least_over = .7;     // share of the points before the plane that stand over its points
+constexpr double least_figure = .02;  // points before the plane, as a share of all points
+constexpr double most_behind = .1;    // points behind the plane, as a share of those behind or before it
+constexpr double least_over = .7;     // points over the plane's points, as a share of those before it
 // A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals
 // and letters rise by less.
 constexpr double least_rise = .2;
@@ -66,7 +66,7 @@ bool fits(const Plane& plane, const Vec3f& normal) {
   return plane.normal.dot(normal.cast<double>()) >= least;
 }
 
-// Returns the plane through three points, if their normals agree with it.
+// Returns the plane through three points, if their normals fit the plane.
 std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& of) {
   const Vec3 a = sample.points[of[0]];
   Vec3 n = (sample.points[of[1]] - a).cross(sample.points[of[2]] - a);
@@ -103,7 +103,7 @@ SideCounts sides_of(const Plane& plane, const Sample& sample, double tolerance) 
   return sides;
 }
 
-// Tries planes that have nearly all other points before them, and returns the one with most points: random
+// Tries planes with nearly all other points before them, and returns the plane with most points on it: random
 // sample consensus, after Fischler and Bolles 1981, with normals as in Schnabel, Wahl and Klein 2007.
 std::optional<Plane> best_plane(const Sample& sample, double tolerance) {
   struct Best {
@@ -139,7 +139,7 @@ std::vector<std::size_t> points_on(const Plane& plane, const Sample& sample, dou
   return on;
 }
 
-// Returns the plane of least squares through the points `on`.
+// Returns the least squares plane of the points `on`.
 Plane fitted(const Sample& sample, const std::vector<std::size_t>& on) {
   Vec3 mean = Vec3::Zero();
   for (const std::size_t i : on) mean += sample.points[i];
@@ -172,7 +172,8 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-// Returns the approximate area that points in a plane cover: that of the cells of a grid with points in them.
+// Returns the approximate area that points in a plane cover: the area of the cells of a grid that contain
+// points.
 double covered_area(const std::vector<Vec2>& points) {
   constexpr int side = 64;
   const Box box = Box::of(points);
@@ -239,8 +240,9 @@ std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<co
     plane = fitted(sample, on);
     std::vector<double> off;
     for (const std::size_t i : on) off.push_back(std::abs(plane.height(sample.points[i])));
-    // This is three standard deviations, as 95 % of a normal distribution lie within 1.96. The noise of depth
-    // cameras grows with the distance, so that a tolerance from the median would leave half of a far table.
+    // The tolerance is three standard deviations; 95 % of a normal distribution lie within 1.96. A tolerance
+    // from the median would leave half of a far table, because the noise of depth cameras grows with the
+    // distance.
     tolerance = std::max(3 / 1.96 * quantile(off, .95), rho);
   }
   const std::vector<std::size_t> on = points_on(plane, sample, tolerance);

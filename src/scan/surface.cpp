@@ -24,21 +24,22 @@
 namespace relievo {
 namespace {
 
-// The numbers of a cloud's points that are shown.
+// The indices of a cloud's points that become points of the surface.
 struct ShownPoints {
   std::vector<Index>& visible;
   std::vector<Index>& hole_fill;
 };
 
-// A connected set of the points that remain when the plane is left out: the box of all its points, and the
-// number of its points that are high over the plane.
+// A connected set of the points that remain when the plane is left out: their box, and the number of points
+// that are high over the plane.
 struct LeftPiece {
   Box box;
   std::size_t high = 0;
 };
 
-// Leaves out the remains of a plane: pieces that stay low over it for their size, because depth cameras bend
-// tables, and boards have ridges. Also leaves out debris: pieces that are much smaller than the largest one.
+// Leaves out the remains of a plane: pieces that, for their size, stay low over the plane. They remain
+// because depth cameras bend tables, and boards have ridges. Also leaves out debris: pieces that are much
+// smaller than the largest one.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
   constexpr double low = 4;             // height, in tolerances
@@ -81,8 +82,8 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
   if (!rest.empty()) visible = std::move(rest);
 }
 
-// Removes from the shown points those of the plane, of pieces that stay low over it, and of debris. Removes
-// from the cloud the outlines in the plane.
+// Removes from the shown points those of the plane, of pieces that stay low over the plane, and of debris.
+// Also removes the outlines in the plane from the cloud.
 void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
                      const ShownPoints& shown) {
   const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };
@@ -126,12 +127,12 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
 struct ViewCloud {
   Cloud cloud;  // without its colours
   const MeasuredCloud& measured;
-  double sign = 1;  // sign of the normals, relative to the measured ones
+  double sign = 1;  // -1 if the measured normals were reversed, else 1
 
   const Spacing& spacing() const { return measured.spacing(); }
 };
 
-// Estimates the normals again, from more neighbours because of the noise, and keeps their signs.
+// Estimates the normals again and keeps their signs. Uses more neighbours because of the noise.
 void estimate_again(Cloud& cloud, double noise) {
   constexpr double neighbours = 16, more_neighbours = 48;
   const std::vector<Vec3f> before = cloud.normals;
@@ -140,8 +141,8 @@ void estimate_again(Cloud& cloud, double noise) {
     if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
 }
 
-// Gives estimated normals the signs that the view suggests, and removes the noise, which can only be measured
-// then.
+// Gives estimated normals the signs that the view suggests. Only then can the noise be measured; removes it,
+// too.
 void sign_normals(ViewCloud& viewed, Surface& surface) {
   give_signs(viewed.cloud, viewed.spacing());
   surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());
@@ -207,7 +208,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   if (surface.plane && !surface.view.has_plane)
     leave_out_plane(*surface.plane, spacing, cloud, {visible, hole_fill});
   surface.visible_points = visible.size();
-  // Hole fill points get level normals, as nothing is known of the front there.
+  // Hole fill points get level normals, because the front is not known there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 
   RELIEVO_CHECK(begin_stage(progress, "curvature", .4));
@@ -221,7 +222,8 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Does stage 5, and of stage 6 only `is_inside`: put_points_on_outlines() sets the rest of the boundary.
+// Does stage 5, and the part of stage 6 that sets `is_inside`; put_points_on_outlines() sets the rest of the
+// boundary.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);

@@ -8,8 +8,9 @@ namespace relievo {
 namespace {
 
 constexpr double most_cells = 1 << 24;  // cells of the whole grid
-// The standard deviation of the blur, in cells. Its three steps add up their variances: distributing to cells
-// and interpolating back, both linear, have 1/6 each, averaging neighbours with weights 1, 2, 1 has 1/2.
+// The standard deviation of the blur, in cells. The variances of its three steps add up: distributing to
+// cells and interpolating back, both linear, have 1/6 each; averaging neighbours with weights 1, 2, 1 has
+// 1/2.
 const double sigma_in_cells = std::sqrt(5.0 / 6);
 constexpr std::size_t grain = 512;  // columns that one task averages
 
@@ -23,8 +24,8 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   while (count(0) * count(1) * count(2) > most_cells) side *= 1.1;
   width_ = static_cast<std::size_t>(count(0));
   parallel_for(points.size(), [&](std::size_t i) {
-    // One cell of margin makes room for the neighbours. It is added after rounding down, so that the sum
-    // cannot be rounded up to the next cell.
+    // One cell of margin makes room for the neighbours. The margin is added after rounding down, because the
+    // sum could be rounded up to the next cell.
     const Vec3 from_corner = (points[i] - box.min) / side;
     const Vec3 cell = from_corner.array().floor() + 1, share = from_corner + Vec3::Ones() - cell;
     const auto x = static_cast<std::size_t>(cell.x()), y = static_cast<std::size_t>(cell.y());
@@ -33,7 +34,8 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   columns_ = columns_around_points(width_ * static_cast<std::size_t>(count(1)));
 }
 
-// Returns `count` columns with the cells from which values at the points are averaged, then an empty one.
+// Returns `count` columns of the cells around the points, from which values are interpolated, then an empty
+// column.
 std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points(std::size_t count) const {
   std::vector<Column> filled(count), around(count + 1);
   for (const Place& place : places_)
@@ -63,8 +65,8 @@ void SurfaceBlur::each_corner(const Place& place, F&& f) const {
 }
 
 // Sets each cell to twice itself plus its neighbours in the columns `step` before and after. The column
-// before the first one of a row is the last one of another row; both are margins, whose averages nobody
-// reads.
+// before the first one of a row is the last one of another row. Both are margins whose averages are never
+// used.
 void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& averages) const {
   const std::size_t last = columns_.size() - 1;
   parallel_for(

@@ -1,5 +1,5 @@
-// Gaussian blur along a surface: over points that are near in space, so that points beyond a depth jump do
-// not take part although they are near in the view plane.
+// Gaussian blur along a surface. It averages points that are near each other in space: points beyond a depth
+// jump do not take part although they are near in the view plane.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace relievo {
 
-// A blur with a Gaussian of one width, prepared for given points. Their values are distributed to a grid of
-// cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values are
-// interpolated back. Only cells around the points are kept: in each column of the grid along z, those from
-// the lowest to the highest point around it.
+// A blur with a Gaussian of one width, prepared for given points. The points' values are distributed to a
+// grid of cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values
+// are interpolated back. Only cells around the points are kept: in each column of the grid along z, the cells
+// from the lowest to the highest point around the column.
 class SurfaceBlur {
  public:
   // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.
@@ -25,7 +25,7 @@ class SurfaceBlur {
   std::size_t number_of_cells() const { return columns_.back().first; }
 
  private:
-  // The cells of one x and y whose z is in [low, high). Those of the next column follow in memory.
+  // The cells with one x and y, and z in [low, high). The cells of the next column follow in memory.
   struct Column {
     std::size_t first = 0;  // number of the cell at `low`
     int low = 0, high = 0;

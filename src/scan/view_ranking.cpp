@@ -22,12 +22,12 @@ constexpr Sides z_up{
     {{"bottom", ""}, {"top", "0,0,1"}, {"left", "0,0,1"}, {"right", "0,0,1"}, {"front", ""}, {"back", ""}}};
 
 constexpr double front_weight = 1.6;    // factor of the side that is the front in most files
-constexpr double beside_scan = .25;     // factor of sides at right angles to the direction of a scan
+constexpr double beside_scan = .25;     // factor of the sides at right angles to the direction of a scan
 constexpr double one_layer_share = .8;  // least one_layer of one-sided scans; closed models stay below .45
-constexpr double same_share = .05;      // smaller differences of such shares are ignored
+constexpr double same_share = .05;      // smaller differences of one_layer between axes are ignored
 
-// Returns the area of the box of the lowest points along an axis, as a share of the area of the whole box,
-// both seen along that axis.
+// Returns the area of the box of the lowest points along an axis, as a share of the area of the whole box.
+// Both areas are seen along that axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis) {
   constexpr double foot = .03;  // share of the height
   const double least = box.min[axis] + foot * box.size()[axis];
@@ -53,8 +53,8 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns the first of two opposite sides if one of them shows all that was scanned; 6 if the cloud has
-// several layers.
+// Returns the index of the first of two opposite sides if one of them shows everything that was scanned; 6 if
+// the cloud has several layers.
 std::size_t scanned_axis(const std::vector<CoarseVisibility>& seen) {
   const auto share = [&](std::size_t i) { return std::min(seen[i].one_layer, seen[i + 1].one_layer); };
   const std::array<std::size_t, 3> axes{0, 4, 2};
@@ -64,8 +64,8 @@ std::size_t scanned_axis(const std::vector<CoarseVisibility>& seen) {
   return *std::ranges::find_if(axes, [&](std::size_t axis) { return share(axis) >= most - same_share; });
 }
 
-// Returns how much of a side is the outside of its model. Estimated normals do not show it, but an outside is
-// nearer to the viewer in its middle than along its outline.
+// Returns the share of a side that is the outside of its model. Normals with unknown signs do not show it,
+// but an outside is nearer to the viewer in its middle than along its outline.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   constexpr double perhaps_hollow = .5;
   if (has_signs) return seen.facing_share;

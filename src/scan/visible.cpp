@@ -15,18 +15,18 @@ namespace relievo {
 namespace {
 
 constexpr double pixel_side = 0.5;  // of the depth buffer, in rho: finer than the discs, which overlap
-// In rho: among points closer to each other in the view plane only the one nearest to the viewer is kept.
+// In rho. Of points that are closer together in the view plane, only the one nearest to the viewer is kept.
 constexpr double coincidence_distance = .01;
 // Connected sets of fewer visible points are taken for floating noise.
 constexpr std::size_t smallest_fragment = 32;
 // Neighbours further apart than this, in local spacings, are not connected. A disc of this radius contains 9
 // pi = 28 points.
 constexpr double connection_length = 3;
-// A fragment has fewer points than the visible ones divided by this; otherwise all of a small cloud would be
-// fragments.
+// A set is a fragment only if it has fewer points than the number of visible points divided by this;
+// otherwise all of a small cloud would be fragments.
 constexpr std::size_t fragment_divisor = 8;
-// In rho: the largest local spacing of hole fill points, which come from well sampled surfaces only, and the
-// distance between them.
+// In rho: the largest local spacing of hole fill points, which are taken only from well sampled surfaces, and
+// the least distance between hole fill points.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {
@@ -38,8 +38,8 @@ class Visibility {
     std::vector<Index> visible = in_front();
     std::size_t removed = mark_fragments(visible);
     if (removed > 0) {
-      // Without the fragments other points become visible. New fragments among these are removed without
-      // another round.
+      // Without the fragments other points become visible. New fragments among these points are removed, but
+      // the search is not repeated again.
       visible = in_front();
       removed += mark_fragments(visible);
     }
@@ -73,8 +73,8 @@ class Visibility {
     return facing;
   }
 
-  // Compares depths at the centre of the point's pixel, where the buffer's depth was computed: on a slope the
-  // depth there differs from the point's own.
+  // Compares depths at the centre of the point's pixel, for which the buffer's depth was computed: on a slope
+  // the depth there differs from the point's own.
   bool is_in_front(Index i, const DepthBuffer& buffer) const {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();
@@ -102,7 +102,7 @@ class Visibility {
     return marked;
   }
 
-  // Among points that nearly coincide in the view plane only the one nearest to the viewer is kept: the
+  // Keeps, of points that nearly coincide in the view plane, only the one nearest to the viewer. The
   // triangulation in the plane uses only one of coincident points, and coordinates rounded to single
   // precision in a file must stay distinct.
   std::vector<Index> without_coincident(std::vector<Index> visible) const {
@@ -130,7 +130,8 @@ class Visibility {
   std::vector<std::uint8_t> is_fragment_;
 };
 
-// Returns some of the points, no two of them nearer to each other than `distance` in the view plane.
+// Returns some of the points, such that no two of them are nearer to each other than `distance` in the view
+// plane.
 std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> points, double distance) {
   const auto at = [&](Index i) -> Vec2 { return cloud.points[i].head<2>(); };
   std::ranges::sort(points, {}, [&](Index i) { return std::pair(at(i).x(), i); });

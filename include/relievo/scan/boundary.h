@@ -25,14 +25,14 @@ struct Boundary {
   }
 };
 
-// Returns for each triangle of points in the view plane whether it belongs to the relief, given their
+// Returns for each triangle of points in the view plane whether it belongs to the relief, given the points'
 // Delaunay triangulation and sampling distance rho.
 //
 // A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds 3 rho, unless
-// it belongs to a narrow hole: a connected set of such triangles that does not touch the hull and has no
-// radius above 5 rho. Where the local spacing of all corners exceeds 2 rho, this spacing replaces rho,
-// because the scan is sparse there. `spacing` is Spacing::local of each point, for clouds of uneven density;
-// in other clouds it would close gaps beside surfaces that are seen edge on.
+// it belongs to a narrow hole. A narrow hole is a connected set of such triangles that does not touch the
+// hull and has no radius above 5 rho. Where the local spacing of all corners exceeds 2 rho, this spacing
+// replaces rho, because the scan is sparse there. `spacing` is Spacing::local of each point, for clouds of
+// uneven density; in other clouds it would close gaps beside surfaces that are seen edge on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 

@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// A part of an outline: as seen by the viewer, the visible surface is on its left. On its right is nothing,
+// A part of an outline. As seen by the viewer, the visible surface is on its left. On its right is nothing,
 // or at a jump a surface farther behind.
 struct OutlineSegment {
   Vec3 from, to;
@@ -23,8 +23,7 @@ struct Cloud {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
   std::vector<Colour> colours = {};
-  // The exact outlines of the mesh from which the points were sampled, in the view of the sampling; else
-  // empty.
+  // If the points were sampled from a mesh, its exact outlines in the view of the sampling; else empty.
   std::vector<OutlineSegment> outlines = {};
   // Seen from +Z, no point hides another, as in a depth image.
   bool is_height_field = false;
@@ -37,15 +36,16 @@ struct Cloud {
 // Returns the box of all points; an empty box for an empty cloud.
 Box bounds(const Cloud& cloud);
 
-// Returns the indices, ascending, of points that cannot belong to the model: those further from its middle
-// (the median of each coordinate) than 20 times the distance within which 90 % of the points lie. A single
-// outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its own box.
+// Returns the indices, ascending, of points that cannot belong to the model. Their distance from its middle
+// (the median of each coordinate) is more than 20 times the distance within which 90 % of the points lie. A
+// single outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its
+// own box.
 std::vector<Index> outliers(const Cloud& cloud);
 
 // Returns the cloud with only the first point of each group of points that repeat one another, exactly or
-// nearly; the cloud is unchanged if hardly any do. Points repeat one another if they are much closer together
-// than to all others and their normals do not point apart: both sides of a thin sheet stay. Normals and
-// colours are the means of the group.
+// nearly; the cloud is unchanged if hardly any points do. Points repeat one another if they are much closer
+// together than to all other points and their normals do not point apart: both sides of a thin sheet stay.
+// Normals and colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
 // Returns the cloud without the points with the indices `erased`, which are ascending.

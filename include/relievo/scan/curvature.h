@@ -12,18 +12,19 @@
 namespace relievo {
 
 struct CurvatureOptions {
-  // Width h of the neighbours' weights, about exp(-d^2 / h^2), in local spacings, > 0; more is smoother.
+  // The width h of the weights of neighbours, about exp(-d^2 / h^2), in local spacings, > 0; more is
+  // smoother.
   double scale = 2;
 };
 
 // Returns the mean curvature at the points with the indices `queries`: in 1 / length, positive where the
 // surface is convex, clamped to [-1 / rho, 1 / rho]. It is half the divergence of the normals, fitted
-// linearly in the tangent plane: exact on spheres and cylinders, and several times less noisy on scattered
-// points than the paper's equations (2) and (3), whose second derivatives depend on how unevenly the points
-// lie (see docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin
-// wall, do not count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no
-// normals. Normals must have unit length. Once the progress is cancelled, it ends early and the values have
-// no meaning.
+// linearly in the tangent plane. This is exact on spheres and cylinders, and several times less noisy on
+// scattered points than the paper's equations (2) and (3), whose second derivatives depend on how unevenly
+// the points lie (see docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of
+// a thin wall, do not count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no
+// normals. Normals must have unit length. Once the progress is cancelled, the function ends early and the
+// values have no meaning.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 
@@ -38,7 +39,7 @@ std::vector<double> average_in_plane(std::span<const double> values, std::span<c
 struct NormalisedCurvature {
   std::vector<float> k;  // normalised mean curvature per point, in [-1, 1]
   double delta = 0;      // standard deviation of |k|; 0 for a surface without curvature
-  double unit = 0;       // the mean curvature at k = 1; larger ones were clipped
+  double unit = 0;       // the mean curvature at k = 1; larger values were clipped
 };
 
 // Divides the curvatures by the 99th percentile of their absolute values and clips them to [-1, 1], so that k

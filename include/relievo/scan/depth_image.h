@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// Depths as they are in a file.
+// The depths stored in a file.
 struct DepthImage {
   Image<float> values;  // NaN where there is no value
   double step = 0;      // difference between possible values: 1 for whole numbers, 0 for fractions
@@ -41,7 +41,7 @@ inline constexpr std::array<Choice<DepthValues>, 4> depth_value_choices{
 
 enum class Background {
   keep,
-  remove,    // removes all behind the largest gap in depth, if that is most of the border
+  remove,    // removes the depths behind the largest gap, if these are most of the border
   automatic  // `remove` without a camera, `keep` with one
 };
 
@@ -57,7 +57,7 @@ struct DepthOptions {
   double points = 3e5;  // the image is reduced to about this number of points
 };
 
-// Checks ranges. Errors: kind option, naming the option.
+// Checks that the options are in their ranges. Errors: kind option, naming the option.
 Result<void> check(const DepthOptions& options);
 
 // The points of a depth image, and facts about the conversion.

@@ -23,13 +23,14 @@ struct Mesh {
   bool empty() const { return triangles.empty(); }
 };
 
-// Returns unit normals for the corners of each triangle: the mean of the normals of all triangles that meet
-// there and differ from this one's by at most `sharpest_deg` degrees, weighted by their angles. Triangles
-// also meet where different points have the same position. Normals of triangles without area are zero.
+// Returns unit normals for the corners of each triangle. A corner's normal is the mean of the normals of the
+// triangles that meet there, weighted by their angles; only triangles count whose normals differ by at most
+// `sharpest_deg` degrees from the normal of the corner's own triangle. Triangles also meet where different
+// points have the same position. Normals of triangles without area are zero.
 std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg = 45);
 
-// Returns the corner normals to interpolate on the mesh: its own, or smooth_normals() if it has none or only
-// those of its flat triangles.
+// Returns the corner normals to interpolate on the mesh: the mesh's own, or smooth_normals() if the mesh has
+// none or only the normals of its flat triangles.
 std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh);
 
 struct MeshSampling {

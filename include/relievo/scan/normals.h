@@ -21,15 +21,16 @@ void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress*
 // Reverses the normals of a cloud in view coordinates that face away from the viewer, so that z >= 0.
 void turn_to_viewer(Cloud& viewed);
 
-// Gives consistent signs to the normals of a cloud after turn_to_viewer(). Visible points, `seen`, whose
-// normals are within 60 degrees of the viewer's direction keep theirs. From these the signs spread from
-// neighbour to neighbour, so that the surface continues around edges instead of folding back.
+// Gives consistent signs to the normals of a cloud after turn_to_viewer(). `seen` are the visible points.
+// Those whose normals are within 60 degrees of the viewer's direction keep their signs. From these points the
+// signs spread from neighbour to neighbour, so that the surface continues around edges instead of folding
+// back.
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen);
 
 // Returns whether the normals point into the model: whether, on average over the six sides along the axes,
 // less than a third of the front-most points have normals towards the viewer. For a cloud that was scanned
-// from one side only, this side and the opposite one cancel out and the other four decide. The result is
-// false without normals.
+// from one side only, this side and the opposite one cancel out and the other four sides decide. The result
+// is false without normals.
 bool normals_point_inward(const Cloud& cloud);
 
 // Reverses every normal.

@@ -10,9 +10,9 @@ namespace relievo {
 inline constexpr std::size_t spacing_neighbours = 8;
 
 struct Spacing {
-  // The median of `local` over all points, in the cloud's units, or a quarter of the 98 % quantile of `local`
-  // if that is more, as for clouds of very uneven density. 0 if there are fewer than 2 points or almost all
-  // of them coincide.
+  // The median of `local` over all points, in the cloud's units. If a quarter of the 98 % quantile of `local`
+  // is more, as in clouds of very uneven density, rho is that quarter. 0 if there are fewer than 2 points or
+  // almost all of them coincide.
   double rho = 0;
   bool is_uneven = false;  // rho is not the median
   // The local spacing of each point, sqrt(pi r^2 / k), where r is the distance to the k-th nearest other
@@ -23,7 +23,7 @@ struct Spacing {
   std::vector<std::array<Index, spacing_neighbours>> nearest;
 };
 
-// Returns the spacing of a cloud; rho and local do not depend on the order of the points.
+// Returns the spacing of a cloud. rho and local do not depend on the order of the points.
 Spacing measure_spacing(const Cloud& cloud);
 
 }  // namespace relievo

@@ -11,9 +11,9 @@
 
 namespace relievo {
 
-// The visible points and the hole fill points between them, in view coordinates. They are in the order of a
-// space-filling curve, so that neighbours in the view plane are close in memory and the order of the cloud
-// has no influence.
+// The visible points, and the hole fill points between them, in view coordinates. The points are in the order
+// of a space-filling curve, so that neighbours in the view plane are close in memory and the order of the
+// cloud has no influence.
 struct Surface {
   std::vector<Vec3> points;     // R_view_model (p - centre)
   std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at hole fill points
@@ -31,11 +31,11 @@ struct Surface {
   std::size_t visible_points = 0;   // number of visible points; the rest of `points` are hole fill points
   std::size_t removed_points = 0;   // points that would be visible, but were removed as floating noise
   std::size_t crumbs = 0;           // number of small pieces that were left out
-  // The table or background that was found, in the coordinates of `points`. It is left out unless
-  // View::has_plane.
+  // The table or background that was found, in the coordinates of `points`. Its points are left out unless
+  // View::has_plane is true.
   std::optional<SupportPlane> plane = {};
   double measured_noise = 0;  // along the normals, in sampling distances; 0 if little
-  double removed_noise = 0;   // the value that the view gives, or else the measured noise
+  double removed_noise = 0;   // the noise that the view asks to remove, or else the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 

@@ -30,7 +30,7 @@ struct View {
   bool has_crumbs = false;             // shows small pieces of the surface (crumbs), see find_surface()
   bool has_plane = true;               // shows a table or background, see find_support_plane()
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
-  // The best side is still to be chosen, once the model is known: see chosen_view() in scene.h.
+  // True if the best side is to be chosen once the model is known: see chosen_view() in scene.h.
   bool is_best = false;
 
   bool operator==(const View&) const = default;
@@ -44,14 +44,16 @@ struct View {
 // parallel, another up axis is chosen. Errors: kind option if either is zero or not finite.
 Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::UnitY());
 
-// Returns the view called "front", "back", "left", "right", "top" or "bottom", or towards "X,Y,Z". The front
-// is +Z, the right side +X and the top +Y. Without `up`, -Z and +Z point upwards in the views from the top
-// and the bottom, +Y in all others. "auto" is the best side, still to be chosen (View::is_best), and takes no
-// `up`. Errors: kind option for any other text, and for an `up` that is parallel to the view.
+// Returns the view called "front", "back", "left", "right", "top" or "bottom", or the view from the direction
+// "X,Y,Z", which points from the model to the viewer. "front" shows the side +Z, "right" +X and "top" +Y.
+// Without `up`, -Z points upwards in "top", +Z in "bottom" and +Y in all others. "auto" is the best side,
+// still to be chosen (View::is_best), and takes no `up`. Errors: kind option for any other text, and for an
+// `up` that is parallel to the view.
 Result<View> parse_view(std::string_view text, std::string_view up = {});
 
-// Returns the part of a model given as "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR"; all of it for an empty text.
-// Errors: kind option for anything but such numbers, in [0, 1] and ascending.
+// Returns the part of a model given as "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR"; the whole model for an empty
+// text. Errors: kind option for any other text, for numbers outside [0, 1], and for numbers that do not
+// ascend.
 Result<Crop> parse_crop(std::string_view text);
 
 // Returns the noise to remove, given as "auto" or a number in [0, 1], see View. Errors: kind option for any
@@ -61,13 +63,13 @@ Result<std::optional<double>> parse_denoise(std::string_view text);
 // Returns the points of a cloud that the view's crop shows, in their order.
 Cloud cropped(const Cloud& cloud, const View& view);
 
-// Returns the cloud in view coordinates: R_view_model (p - c), where c is the centre of its box in the
-// model's frame.
+// Returns the cloud in view coordinates: R_view_model (p - c), where c is the centre of the cloud's box in
+// the model's frame.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// A side of a model, as parse_view() takes it, and its score as the view of a relief: the sum of the
-// differences between the normals of neighbouring cells of a coarse image, without those across depth jumps,
-// times a weight.
+// A side of a model, named as parse_view() takes it, and its score as the view of a relief. The score is the
+// sum of the differences between the normals of neighbouring cells of a coarse image, without those across
+// depth jumps, times a weight.
 struct ViewGuess {
   std::string_view name, up;
   double score = 0;

@@ -26,12 +26,12 @@ struct VisiblePoints {
   std::size_t removed = 0;  // number of points that would be visible, but are removed as floating noise
 };
 
-// Returns the same points, and the number of removed ones.
+// Returns the result of visible_points(), and the number of removed points.
 VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing);
 
-// Returns the indices, ascending, of points that replace missing data: points that face away from the viewer
-// and have no visible point near them in the view plane. The scan shows the back of the model there but not
-// its front; with these points the relief has no hole there, only a flat spot. Any two of the returned points
+// Returns the indices, ascending, of points that replace missing data. These points face away from the viewer
+// and have no visible point near them in the view plane: the scan shows the back of the model there but not
+// its front. With these points the relief has no hole there, only a flat spot. Any two of the returned points
 // are at least 0.7 rho apart.
 std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
                                     std::span<const Index> visible);

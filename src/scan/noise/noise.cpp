@@ -20,12 +20,13 @@ constexpr std::size_t enough_places = 4000;
 constexpr std::size_t fewest_places = 100;
 // The number of a point, its neighbours, and the neighbours of these.
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
-// The quantile of the scatter that is used, and the ratio of this quantile to the standard deviation: the
-// root of the same quantile of chi square over its about 15 degrees of freedom.
+// The noise is estimated from this quantile of the local scatters, divided by the ratio of the quantile to
+// the standard deviation. The ratio is the root of q / 15, where q is the same quantile of chi square with 15
+// degrees of freedom, about the number that a fit leaves.
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho: clean scans of fine details scatter by up to this
-// The least scatter of normals where the points scatter by one sampling distance: that of normals estimated
-// from 16 neighbours, measured on spheres and planes.
+// The least scatter of normals where the points scatter by one sampling distance. Normals estimated from 16
+// neighbours scatter so much on spheres and planes.
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {
@@ -48,8 +49,8 @@ std::vector<Index> two_rings(const Spacing& spacing, Index middle) {
   return members;
 }
 
-// Returns how much the points and normals around a point scatter about quadratic polynomials; nothing if
-// there are too few neighbours.
+// Returns how much the points and normals around a point scatter about fitted quadratic polynomials; nothing
+// if there are too few neighbours.
 std::optional<LocalScatter> scatter_around(const Cloud& cloud, const Spacing& spacing, Index middle) {
   constexpr int unknowns = 6, fewest = 14;
   const std::vector<Index> members = two_rings(spacing, middle);
@@ -74,20 +75,20 @@ std::optional<LocalScatter> scatter_around(const Cloud& cloud, const Spacing& sp
   return LocalScatter{std::sqrt(squares[0]), std::sqrt((squares[1] + squares[2]) / 2)};
 }
 
-constexpr int fits = 3;                              // each weighted by the deviations from the one before
+constexpr int fits = 3;                              // each is weighted by the deviations from the fit before
 constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 noise)
 constexpr double least_deviation = to_radians(8),
-                 more_deviation = to_radians(30);  // of normals: the least, and the one per unit of noise
-constexpr double facing = .2;      // cosine of the angle at which a neighbour counts as another side
+                 more_deviation = to_radians(30);  // of normals: the least, and that per unit of noise
+constexpr double facing = .2;      // least cosine between the normals of neighbours on one side of a wall
 constexpr double stiffness = .01;  // keeps the field almost constant where neighbours lie on a line
 
 struct NearPoint {
   Vec3 d;  // from the point to the neighbour, in radii
-  Vec3 n;  // its unit normal
+  Vec3 n;  // the neighbour's unit normal
 };
 
-// The surface around a point: its normals, linear in the tangent plane, and its height above the point in
-// radii.
+// The surface around a point: its normals, which vary linearly in the tangent plane, and its height above the
+// point in radii.
 struct LocalSurface {
   Vec3 axis, t1, t2;
   Eigen::Matrix<double, 3, 2> field = Eigen::Matrix<double, 3, 2>::Zero();
@@ -113,7 +114,7 @@ class NoiseFilter {
   NoiseFilter(const Cloud& cloud, const Spacing& spacing, double noise)
       : cloud_(cloud), spacing_(spacing), noise_(noise), tree_(cloud.points) {}
 
-  // Returns the point and its normal without noise.
+  // Returns the point moved onto the fitted surface, and the surface's normal there.
   std::pair<Vec3, Vec3f> at(Index i, std::vector<KdTree<Vec3>::Match>& matches,
                             std::vector<NearPoint>& neighbours) const {
     const double unit = std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);

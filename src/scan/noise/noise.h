@@ -10,17 +10,17 @@ namespace relievo {
 // Returns the standard deviation of the points along their normals, in sampling distances. It is estimated
 // from the scatter about local quadratic surfaces, at the quarter of the points that scatter least, so that
 // details in parts of a model do not count. The result is lower if the normals scatter less than such noise
-// would make them. Less than 0.12 is taken for detail: then the result is 0, as it is for clouds of fewer
+// would make them. Less than 0.12 is taken for detail: then the result is 0. It is also 0 for clouds of fewer
 // than 100 points or without normals.
 double measure_noise(const Cloud& cloud, const Spacing& spacing);
 
-// Moves each point onto the surface that robust regression fits around it, and turns its normal to that of
-// this surface. Does nothing without normals. `noise`, > 0, is the standard deviation to remove, in sampling
+// Moves each point onto a surface fitted around it by robust regression, and turns its normal to that of this
+// surface. Does nothing without normals. `noise`, > 0, is the standard deviation to remove, in sampling
 // distances: larger values average over wider neighbourhoods and round sharper creases. Normals are fitted
-// linearly in the tangent plane, with less weight for neighbours that deviate from the last fit, as those
-// beyond a crease do (Oeztireli, Guennebaud and Gross, "Feature preserving point set surfaces based on
-// non-linear kernel regression", 2009; there the fit is constant, which flattens curved parts). Leaves the
-// cloud as it was if the progress is cancelled.
+// linearly in the tangent plane. Neighbours that deviate from the last fit, as those beyond a crease do, get
+// less weight (Oeztireli, Guennebaud and Gross, "Feature preserving point set surfaces based on non-linear
+// kernel regression", 2009; there the fit is constant, which flattens curved parts). Leaves the cloud as it
+// was if the progress is cancelled.
 void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress = nullptr);
 
 }  // namespace relievo

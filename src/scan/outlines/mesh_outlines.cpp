@@ -17,7 +17,7 @@ constexpr double just_beyond =
     1e-3;                         // distance from an edge at which the surface behind is looked up, in pixels
 constexpr double least_jump = 1;  // in pixels
 
-// An edge that has more triangles on its left than on its right, as seen.
+// An edge that, as seen by the viewer, has more triangles on its left than on its right.
 struct ContourEdge {
   Index from, to;
 };
@@ -27,8 +27,8 @@ bool has_area(std::span<const Vec3> points, const Triangle& t) {
   return cross(points[t[1]].head<2>() - a, points[t[2]].head<2>() - a) > 0;
 }
 
-// Returns the edges that have more triangles on one side than on the other. Triangles that have no area as
-// seen do not count.
+// Returns the edges that have more triangles on one side than on the other. Triangles without area in the
+// view plane do not count.
 std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<const Triangle> triangles) {
   struct Side {
     Index higher;
@@ -60,8 +60,8 @@ std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<c
   return edges;
 }
 
-// Finds the depth of the nearest surface at given places. A grid lists the triangles of each cell that
-// contains such a place.
+// Finds the depth of the nearest surface at places that are given beforehand. A grid lists the triangles over
+// each of its cells that contains such a place.
 class DepthLookup {
  public:
   DepthLookup(std::span<const Vec3> points, std::span<const Triangle> triangles, std::span<const Vec2> places,
@@ -85,7 +85,7 @@ class DepthLookup {
     });
   }
 
-  // Returns minus infinity where there is no surface.
+  // Returns the depth of the nearest surface; minus infinity where there is none.
   double depth(const Vec2& place) const {
     double nearest = -std::numeric_limits<double>::infinity();
     for (const Index t : in_cell_[cell_of(place)]) {
@@ -109,7 +109,7 @@ class DepthLookup {
     return static_cast<int>(std::clamp(std::floor(offset / cell_), 0.0, count - 1.0));
   }
 
-  // Calls f for the cells of each row between the triangle's leftmost and rightmost place there.
+  // Calls f for the cells of each row from the leftmost to the rightmost part of the triangle in that row.
   template <typename F>
   void each_cell(const Triangle& t, F&& f) const {
     std::array<Vec2, 3> p;
@@ -148,7 +148,7 @@ class DepthLookup {
 
 enum class Beyond : std::uint8_t { surface, nothing, jump };
 
-// A part of an edge, and what is seen beyond its middle.
+// A part of an edge, and the kind of surface that is seen beyond its middle.
 struct Piece {
   Vec3 from, to;
   Index edge;

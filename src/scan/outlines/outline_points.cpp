@@ -21,10 +21,10 @@ constexpr double rows_end = 3.2;         // points nearer than this to an outlin
 constexpr double replaced_within = .65;  // least distance to points of rows
 constexpr double widest_gap = 1.6;       // radius of the largest empty circle inside the surface
 constexpr double sliver_width = .02;
-constexpr double widest_sample = 1.9;  // radius of the largest such circle that one point in its middle fills
-constexpr double cell_size = .7;       // of the set of new points; also their least distance in gaps
+constexpr double widest_sample = 1.9;  // radius of the largest gap that one point in its middle fills
+constexpr double cell_size = .7;       // of the set of new points; also the least distance of points in gaps
 
-// Adds the points of a hexagonal lattice over the plane that lie in a counter-clockwise triangle.
+// Adds the points of a hexagonal lattice that lie in a counter-clockwise triangle.
 void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std::vector<Vec2>& places) {
   const double row_height = spacing * std::sqrt(.75);
   const auto& [a, b, c] = triangle;
@@ -39,8 +39,9 @@ void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std
   }
 }
 
-// Returns places for new points in those triangles inside the surface that are wider than sampling explains:
-// the centres of their circumcircles, then the points of a hexagonal lattice of one rho.
+// Returns places for new points in the gaps inside the surface: triangles with empty circles larger than
+// sampling explains. First come the centres of these circles, then, in large gaps, points of a hexagonal
+// lattice of one rho.
 std::vector<Vec2> places_in_gaps(const Surface& surface) {
   std::vector<Vec2> centres, lattice;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -99,7 +100,8 @@ class NewSurface {
     return segments;
   }
 
-  // Returns per point of the surface whether it lies inside and no point of a row replaces it.
+  // Returns for each point of the surface whether it is kept: it lies inside, and no point of a row replaces
+  // it.
   std::vector<std::uint8_t> kept(const PointSet& rows) {
     outline_distance_.assign(surface_.points.size(), std::numeric_limits<float>::infinity());
     std::vector<std::uint8_t> is_kept(surface_.points.size(), 0);
@@ -164,8 +166,8 @@ class NewSurface {
     }
   }
 
-  // A triangle with a point on the silhouette, or with a long edge, is inside if its centre is. All others
-  // are inside.
+  // A triangle with a point on the silhouette, or with a long edge, is inside if its centre is inside the
+  // silhouette. All other triangles are inside.
   void set_boundary(Surface& surface, const std::vector<Vec2>& plane,
                     const std::vector<Place>& places) const {
     Boundary& boundary = surface.boundary;
@@ -179,8 +181,8 @@ class NewSurface {
       if (!is_on(a) && !is_on(b) && !is_on(c) && longest < 3 * surface.rho) return;
       const Vec2 centre = (plane[a] + plane[b] + plane[c]) / 3;
       const NearestSegment near = silhouettes_.nearest(centre, std::max(3 * surface.rho, longest));
-      // A triangle with all corners on one silhouette, where that is nearly straight, is outside: its empty
-      // circle is too large to be inside.
+      // A thin triangle with all corners on one nearly straight silhouette is outside: its empty circle is
+      // larger than those inside the surface.
       const bool is_sliver = is_on(a) && is_on(b) && is_on(c) && near.distance < sliver_width * surface.rho;
       boundary.is_inside[t] = near.segment == no_index || (near.is_left && !is_sliver);
     });
@@ -195,7 +197,7 @@ class NewSurface {
     set_distances(surface, plane);
   }
 
-  // Near the silhouette the distance is that to its segments, elsewhere to its points.
+  // Near the silhouette the distance is measured to its segments, elsewhere to its points.
   void set_distances(Surface& surface, const std::vector<Vec2>& plane) const {
     Boundary& boundary = surface.boundary;
     boundary.distance = distances_to(plane, boundary.is_boundary);
@@ -221,10 +223,10 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
-// The radius, in rho, of the largest empty circle that sampling leaves where a surface is seen edge on;
-// points are dense there.
+// The radius, in rho, of the largest empty circle that sampling leaves where a surface is seen edge on.
+// Points are dense there.
 constexpr double widest_circle = 1.2;
-// The length of a normal's x and y above which its surface turns away from the viewer, as in outlines.cpp.
+// The least length of (n_x, n_y) at which a surface turns away from the viewer, as in outlines.cpp.
 constexpr double least_turned = .75;
 
 double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {

@@ -19,11 +19,11 @@ constexpr double least_piece = 20, hole_area = 4;
 constexpr double point_spacing = .75, fair_window = 3;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
-// The weight of nodes with places that the normals do not determine. No node counts less.
+// The weight of nodes whose places the normals do not determine. No node has less weight.
 constexpr double uncertain = .03;
-// An estimated place on an outline is trusted by half if its error is this, in rho.
+// The error, in rho, at which an estimated place on an outline has half of the full weight.
 constexpr double trusted_error = .25;
-// The length of a normal's x and y below which it does not show where the surface ends.
+// The least length of (n_x, n_y) at which normals show where the surface ends.
 constexpr double least_lean = .75;
 
 double area_of(const Surface& surface, const Triangle& t) {
@@ -61,15 +61,15 @@ class Pieces {
   std::vector<std::uint8_t> is_open_;
 };
 
-// Finds where the surface ends beyond a point, by the normals around it.
+// Finds where the surface ends beyond a point, from the normals around the point.
 class EdgeFinder {
  public:
   EdgeFinder(const Surface& surface, const PlanePoints& plane)
       : surface_(surface), plane_(plane.places), tree_(plane.tree) {}
 
-  // Returns the place where the normals around a point, continued linearly, become perpendicular to the view.
-  // Returns the point's own place, with little weight, if the normals do not show such a place or it is
-  // farther than `farthest`.
+  // Returns the place where the normals around a point, continued linearly, become perpendicular to the
+  // direction of view. Returns the point's own place, with little weight, if the normals do not show such a
+  // place or the place is farther than `farthest`.
   CurveNode at(Index i, double farthest) const {
     const CurveNode unknown{plane_[i], uncertain};
     std::vector<KdTree<Vec2>::Match> matches;
@@ -84,7 +84,7 @@ class EdgeFinder {
     if (!(growth > 0)) return unknown;
     const double distance = (1 - fit.value.norm()) / growth;
     if (!(std::abs(distance) <= farthest)) return unknown;
-    // Noise of the normals moves the edge of a surface far if it turns slowly.
+    // If a surface turns slowly, noise of its normals moves the estimated place far.
     const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
                  ratio = error / (trusted_error * surface_.rho);
     const double trust = 1 / (1 + ratio * ratio);
@@ -99,7 +99,8 @@ class EdgeFinder {
   const KdTree<Vec2>& tree_;
 };
 
-// Returns the exact outline near places, or a fair curve through guesses if there are no exact outlines.
+// Returns the exact outline near `places`. Without exact outlines, returns a fair curve through the nodes
+// guess(i).
 template <typename Guess>
 OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, const OutlineCurve& kind,
                         const ExactOutlines& exact, double rho) {
@@ -122,7 +123,7 @@ struct Sides {
   Index from(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 1) % 3]; }
   Index to(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 2) % 3]; }
 
-  // Returns the same side as a side of the triangle across, no_index on the hull.
+  // Returns the number of the side in the triangle across it; no_index on the hull.
   Index twin(Index side) const {
     const Index other = surface.triangulation.neighbours[side / 3][side % 3];
     if (other == no_index) return no_index;
@@ -136,7 +137,7 @@ struct Sides {
     return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
   }
 
-  // Returns the boundary side that follows one around the same piece.
+  // Returns the next boundary side around the same piece.
   Index next_boundary(Index side) const {
     Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
     while (!is_boundary(turn)) {
@@ -167,8 +168,8 @@ void add_silhouettes(const Surface& surface, const EdgeFinder& finder, const Exa
   }
 }
 
-// The jumps as lines that cross the sides of triangles. Each crossed side is linked to the next one, with the
-// surface in front on the left.
+// The jumps as lines that cross the sides of triangles. Each crossed side is linked to the next one along the
+// line, with the surface in front on the left.
 class JumpLines {
  public:
   JumpLines(const Surface& surface, const ExactOutlines& exact)
@@ -217,8 +218,8 @@ class JumpLines {
 
   double depth(Index point) const { return surface_.points[point].z(); }
 
-  // Exact outlines show lower jumps than points do, such as the edge of a fold, whose depth the normals
-  // explain.
+  // Exact outlines also show jumps that is_occlusion() does not find, such as the edge of a fold: the normals
+  // there explain the difference in depth.
   bool is_across(Index a, Index b) const {
     const Vec3 &p = surface_.points[a], &q = surface_.points[b];
     if (is_occlusion(surface_, a, b)) return true;
@@ -226,7 +227,8 @@ class JumpLines {
            exact_.is_across_jump(p.head<2>(), q.head<2>());
   }
 
-  // Links the two crossed sides. They meet at the corner that lies in front of, or behind, the other two.
+  // Links the two crossed sides of a triangle. They meet at a corner that lies in front of the other two, or
+  // behind both.
   void cross_triangle(Index t) {
     const Triangle& corners = surface_.triangulation.triangles[t];
     std::array<bool, 3> jumps;
@@ -238,7 +240,7 @@ class JumpLines {
       if (count == 3 ? depth(corners[i]) > depth(corners[alone]) : !jumps[i]) alone = i;
     const Index after = (alone + 1) % 3, before = (alone + 2) % 3;
     const double z = depth(corners[alone]), u = depth(corners[after]), v = depth(corners[before]);
-    const Index leaving = 3 * t + before, arriving = 3 * t + after;  // the sides alone-after and before-alone
+    const Index leaving = 3 * t + before, arriving = 3 * t + after;  // alone to after, before to alone
     if (z > u && z > v) link(leaving, arriving);
     if (z < u && z < v) link(arriving, leaving);
   }

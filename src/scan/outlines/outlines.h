@@ -22,12 +22,12 @@ class ExactOutlines {
   // Returns whether a line in the view plane crosses a depth jump.
   bool is_across_jump(const Vec2& a, const Vec2& b) const { return jumps_.is_crossed(a, b); }
 
-  // Marks as outside those triangles over gaps between samples whose middle lies beyond the silhouette.
+  // Marks triangles over gaps between samples as outside if their middle lies beyond the silhouette.
   void open_gaps(Surface& surface) const;
 
-  // Returns the exact curve of an outline that was found from samples. `places` lie near it, in the order of
-  // the outline, with the surface on their left. Where no exact outline is near place i, the curve goes
-  // through the node `guess(i)` instead.
+  // Returns the exact curve of an outline that was found from samples. `places` lie near the outline, in its
+  // order, with the surface on their left. Where no exact outline is near place i, the curve goes through the
+  // node `guess(i)` instead.
   template <typename Guess>
   FairCurve curve(std::span<const Vec2> places, bool is_closed, bool is_jump, Guess&& guess) const {
     std::vector<CurveNode> nodes;
@@ -37,21 +37,21 @@ class ExactOutlines {
   }
 
  private:
-  // Adds nodes on the exact outlines, nearest to places from the i-th to the next. Returns whether there is a
-  // node for the i-th place itself.
+  // Adds the nodes on exact outlines that are nearest to places from the i-th to the next. Returns whether
+  // there is a node for the i-th place itself.
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest place on an exact outline that leads in that direction. A sampled silhouette may lie
-  // on an exact jump, if too little is seen of the surface behind it.
+  // Returns the nearest place on an exact outline that leads in that direction. The outline of a sampled
+  // silhouette may be an exact jump, if too little is seen of the surface behind it.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;
   SegmentGrid silhouettes_, jumps_;
 };
 
-// A curve in the view plane, the edge of the surface on its left. On its right lies the ground or, at a jump,
-// the surface behind.
+// A curve in the view plane. It is the edge of the surface on its left. On its right lies the ground or, at a
+// jump, the surface behind.
 struct OutlineCurve {
   FairCurve curve;
   bool is_closed = false;
@@ -66,25 +66,26 @@ struct PlanePoints {
   explicit PlanePoints(const Surface& surface) : places(in_plane(surface.points)), tree(places) {}
 };
 
-// Returns whether no surface connects two neighbouring points of a surface, given their normals. The test
-// uses that the chord of a circle is perpendicular to the mean of the normals at its ends. is_jump() would
-// not do: at the edge of a surface that turns away from the viewer, the normal there explains any depth.
+// Returns whether no surface connects two neighbouring points, given their normals. The test uses that the
+// chord of a circle is perpendicular to the mean of the normals at its ends. is_jump() would not suffice: at
+// the edge of a surface that turns away from the viewer, the normal explains any depth.
 bool is_occlusion(const Surface& surface, Index a, Index b);
 
-// Leaves out pieces of less than 0.5 % of the surface, as crumbs of the scan, and closes holes of less than 4
-// rho^2: changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less than 20
-// rho^2, which are too small for an outline, are left out. Returns whether the surface has any triangle left.
+// Leaves out pieces of less than 0.5 % of the surface, which are crumbs of the scan, and closes holes of less
+// than 4 rho^2: changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less
+// than 20 rho^2 are left out, because they are too small for an outline. Returns whether the surface has any
+// triangle left.
 bool drop_crumbs(Surface& surface);
 
 // Returns first the silhouettes, which are closed, then the depth jumps. The surface's triangulation must
-// have neighbours. Where a surface turns away from the viewer, the curve is where its normals, continued, are
-// perpendicular to the view. Elsewhere it goes through the outermost points, or at jumps between the points
-// in front and those behind. Where exact outlines are near, it goes along them instead. Silhouettes shorter
-// than 3 rho and jumps shorter than 6 rho are left out.
+// have neighbours. Where a surface turns away from the viewer, the curve goes where the normals, continued,
+// are perpendicular to the direction of view. Elsewhere it goes through the outermost points, or at jumps
+// between the points in front and those behind. Where exact outlines are near, it goes along them instead.
+// Silhouettes shorter than 3 rho and jumps shorter than 6 rho are left out.
 std::vector<OutlineCurve> find_outlines(const Surface& surface, const PlanePoints& plane,
                                         const ExactOutlines& exact);
 
-// Returns the segments of outlines; curve numbers are those of the outlines.
+// Returns the segments of outlines. Each has the index of its outline as its curve.
 std::vector<Segment> segments_of(const std::vector<OutlineCurve>& outlines);
 
 }  // namespace relievo

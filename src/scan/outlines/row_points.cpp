@@ -11,14 +11,14 @@
 namespace relievo {
 namespace {
 
-// Distances of the rows from an outline, in rho. Only jumps have the first row.
+// Distances of the rows from an outline, in rho. Only jumps have a row at the first distance.
 constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
-// Least distances, in rho, between points of rows; on outlines and in the row next to them they are less.
+// Least distances, in rho, between points of rows. They are less on outlines and in the row next to them.
 constexpr double least_between_rows = .4, least_in_first_row = .28, least_on_outlines = .12;
 // The least distance of a wall from another outline, in rho. Walls end before they meet one.
 constexpr double least_from_other_outline = .35;
 
-// Makes the points of all rows, those nearest to the outlines first.
+// Makes the points of all rows. Rows nearer to the outlines come first.
 class RowMaker {
  public:
   RowMaker(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid, double rho, PointSet& taken)
@@ -38,8 +38,8 @@ class RowMaker {
   }
 
  private:
-  // Returns the unit vector to the left of an outline at one of its points, longer at corners, so that a
-  // parallel through its end has the distance 1.
+  // Returns the unit vector to the left of an outline at one of its points. At corners the vector is longer,
+  // so that a parallel line through its end has the distance 1.
   Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
@@ -91,8 +91,8 @@ class RowMaker {
     bool is_free;
   };
 
-  // Returns whether a place of a row is free: no outline separates it from its own outline, and none is too
-  // near to it.
+  // Returns whether a place of a row is free: no outline separates it from its own outline, and no outline is
+  // too near to it.
   bool is_free(Index c, const Vec2& from, const Vec2& at, std::size_t row) const {
     const double distance = row_distance[row] * rho_, nearest = .9 * distance;
     if (grid_.is_crossed(from, at) || grid_.nearest(at, nearest).segment != no_index) return false;
@@ -106,8 +106,8 @@ class RowMaker {
   std::vector<RowPoint> points_;
 };
 
-constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as far where points are few
-constexpr float least_likeness = .8F;  // cosine of 37 degrees, between normals of one face
+constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as large where points are few
+constexpr float least_likeness = .8F;  // least cosine, of 37 degrees, between normals of one face
 constexpr int least_face_points = 5;
 constexpr double least_nz = .02;  // normals of the result lean at most 88.9 degrees
 
@@ -135,8 +135,8 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
     leave_same_side(p, matches);
     if (matches.size() >= 6) break;
   }
-  // In a sliver between two outlines all points may lie on these. Its silhouette then uses them: without the
-  // silhouette, long triangles would span the sliver.
+  // In a sliver between two outlines all points may lie on these outlines. The sliver's silhouette is then
+  // interpolated from them: without a silhouette, long triangles would span the sliver.
   if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {
@@ -145,9 +145,9 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
   return interpolated(p, radius, matches);
 }
 
-// Keeps only the points on the same side as p. Points on an outline may belong to either side, and noise
-// moves some points across it. So only points count that lie on one surface with the point farthest from all
-// outlines.
+// Keeps only the points on the same side of all outlines as p. Points on an outline are left out, because
+// they may belong to either side. Noise moves some points across an outline, so points are also left out if
+// there is a jump between them and the point that is farthest from all outlines.
 void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& matches) const {
   Index safest = no_index;
   std::erase_if(matches, [&](const auto& m) {
@@ -166,7 +166,8 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
   leave_same_face(matches);
 }
 
-// Across a crease only the face of the nearest point counts.
+// Keeps only the face of the nearest point, if there is a crease among the points and this face has enough
+// points.
 void SideInterpolation::leave_same_face(std::vector<Match>& matches) const {
   if (matches.empty()) return;
   const Index nearest = std::ranges::min_element(matches, {}, &Match::second)->first;
@@ -201,8 +202,8 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   return value;
 }
 
-// Returns the mean of the depths that the nearest points predict. The chord of a circle is perpendicular to
-// the mean of the normals at its ends, which makes this exact where curvature is constant.
+// Returns the mean of the depths that the nearest points predict. A prediction uses that the chord of a
+// circle is perpendicular to the mean of the normals at its ends, so it is exact where curvature is constant.
 double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const {
   const std::size_t count = std::min<std::size_t>(6, matches.size());
   double depths = 0, weights = 0;

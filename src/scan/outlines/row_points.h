@@ -12,34 +12,34 @@ namespace relievo {
 
 // The kind of place where a point of the surface lies.
 enum class Place : std::uint8_t {
-  scan,        // it is a point of the scan
-  silhouette,  // the silhouette
-  front,       // the edge of the wall at a jump, in front or behind
+  scan,        // a point of the scan
+  silhouette,  // on the silhouette
+  front,       // on the front or the back edge of the wall at a jump
   back,
-  row,  // a row farther from an outline, or the middle of a gap
+  row,  // in a row farther from an outline, or in the middle of a gap
 };
 
 // A new point before its depth and normal are known.
 struct RowPoint {
   Vec2 at;
-  Vec2 seen_from;  // a place on the side from whose points it is interpolated
+  Vec2 seen_from;  // a place on one side; the points on that side are interpolated
   Place place;
 };
 
 // In rho: half the width of the wall at a jump, and the distance from the last row to its outline.
 inline constexpr double half_wall = .15, last_row = 2.95;
 
-// Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Those
+// Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points
 // on the silhouette come first, then those on both sides of each jump, then parallel rows in the order of
-// their distance. Points of a row that would lie nearer to another outline, behind one, or too near to a
-// point of an earlier row are left out.
+// their distance from the outline. Points of a row are left out if they would lie nearer to another outline,
+// behind one, or too near to a point of an earlier row.
 std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
                                  double rho, PointSet& taken);
 
-// Measures of the surface's points that only the stages until the boundary need.
+// Values at the surface's points that only the stages up to the boundary need.
 struct PointMeasures {
   std::vector<double> k;       // mean curvature, 0 at hole fill points
-  std::vector<float> spacing;  // Spacing::local of clouds of uneven density, else none
+  std::vector<float> spacing;  // Spacing::local of clouds of uneven density, else empty
 };
 
 // Keeps views of its arguments, which must outlive it.
@@ -63,8 +63,9 @@ class SideInterpolation {
     float spacing = 0;
   };
 
-  // Returns the values at a new point. Normal and curvature come from a linear fit to the points around it
-  // that no outline separates from it, the depth from the chords to the nearest of these points.
+  // Returns the values at a new point, computed from the points around it that no outline separates from it.
+  // Normal and curvature come from a linear fit to these points, the depth from the chords to the nearest of
+  // them.
   Value at(const RowPoint& p) const;
 
  private:

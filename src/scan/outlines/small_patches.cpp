@@ -11,20 +11,21 @@
 namespace relievo {
 namespace {
 
-// Patches of fewer points are small: rows of points, which reach 3 rho from each side, replace all of them.
+// Patches of fewer points are small: rows of points, which reach 3 rho inwards from each side, replace all
+// points of such a patch.
 constexpr std::size_t least_patch = 60;
-constexpr double least_behind = .7;  // share of the jumps around a patch at which it lies behind
+constexpr double least_behind = .7;  // share of the jumps around a patch where it is the farther side
 
-// Edges longer than this, in rho, cross places that the scan does not show: they do not connect points.
+// Edges longer than this, in rho, cross places where the scan has no points: they do not connect points.
 constexpr double connection_length = 3;
 
-// The number of jumps and gaps between points of a patch and others, and at how many of them the patch is
-// behind.
+// The number of jumps and gaps between points of a patch and others, and the number of those at which the
+// patch is behind.
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };
 
-// Returns per point whether it stays.
+// Returns for each point whether it stays.
 std::vector<std::uint8_t> points_to_keep(const Surface& surface) {
   const std::vector<Triangle>& triangles = surface.triangulation.triangles;
   DisjointSets patches(surface.points.size());

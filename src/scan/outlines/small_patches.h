@@ -7,7 +7,7 @@
 namespace relievo {
 
 // Removes the points of small patches: sets of points that depth jumps, or gaps of 3 rho, separate from all
-// others, and that lie behind what surrounds them. Such a patch is too small for rows of points beside its
+// others, and that lie behind the points around them. Such a patch is too small for rows of points beside its
 // outlines, and the surface that it belongs to is not seen. Returns whether points were removed; the
 // triangulation and the boundary then have to be found anew.
 bool drop_small_patches(Surface& surface, PointMeasures& measures);

@@ -26,12 +26,12 @@ struct FrontDisc {
   float spacing;
 };
 
-// Rows of one band, with room behind each row for the last vector of cells that a disc covers.
+// The rows of one band. Behind each row there is room for the last vector of cells that a disc covers.
 class DiscBand {
  public:
   DiscBand(int columns, int first_row, int rows);
 
-  // Raises depths to those of discs. All depths must be drawn before the first normal.
+  // Raises the depths of cells to those of the discs. All depths must be drawn before the first normal.
   void draw_depths(std::span<const FrontDisc> discs);
 
   // Adds the normal of each disc to the cells around it in which the disc is in front.
@@ -40,7 +40,7 @@ class DiscBand {
   // Writes depths and unit normals to the band's rows.
   void write(FrontCells& cells) const;
 
-  // Returns the first cell of a row, which is counted from the band's first row.
+  // Returns a pointer to the first cell of a row. Rows are counted from the band's first row.
   float* depths(int row) { return depth_.data() + row * stride_; }
   float* normals(int axis, int row) { return normal_[static_cast<std::size_t>(axis)].data() + row * stride_; }
   int columns() const { return columns_; }
@@ -54,15 +54,15 @@ class DiscBand {
 };
 
 constexpr int lanes = 8;
-// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the
-// places between scattered points uncovered.
+// Radius, in spacings, of the discs by which normals are averaged. With 1.5, discs of scattered points leave
+// a thousandth of the surface uncovered.
 constexpr float mean_radius = 1.5F;
 constexpr float least_mean_radius = .8F;  // in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
-// For eight cells of one row: the squared distance of their centres from a disc's centre in the plane, and
-// how much higher the disc's plane lies there.
+// For eight cells of one row: the squared distance in the plane from a disc's centre to the cells' centres,
+// and the height of the disc's plane there above the disc's centre.
 struct Steps {
   Float8 distance_sq, rise;
 };
@@ -73,8 +73,8 @@ RELIEVO_INLINE Steps steps_from(const FrontDisc& disc, int x, float dy) {
   return {dx * dx + dy * dy, disc.slope.x() * dx + disc.slope.y() * dy};
 }
 
-// Calls f(x, row, dy) for runs of eight cells of a band, until they contain all cells with centres within the
-// radius of the disc's centre in the plane. `dy` is the row's distance from that centre.
+// Calls f(x, row, dy) for runs of eight cells of a band. The runs contain all cells whose centres are, in the
+// plane, within the radius of the disc's centre. `dy` is the row's distance from the disc's centre.
 template <typename F>
 RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float radius, F&& f) {
   const float y = disc.place.y() - static_cast<float>(band.first_row());
@@ -88,7 +88,7 @@ RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float 
   }
 }
 
-// Raises the cell in which the disc's centre lies: small discs cover the centre of no cell.
+// Raises the cell that contains the disc's centre, because a small disc may cover no cell's centre.
 RELIEVO_INLINE void raise_own_cell(DiscBand& band, const FrontDisc& disc) {
   const int x = static_cast<int>(disc.place.x()), y = static_cast<int>(disc.place.y());
   if (y < band.first_row() || y >= band.first_row() + band.rows()) return;
@@ -226,7 +226,8 @@ class FrontDrawing {
     return is_reversed ? Vec3f(-point.normal) : point.normal;
   }
 
-  // Returns approximately the area that the points cover, from a coarse mask of those that face the viewer.
+  // Returns approximately the area that the points cover, from a coarse mask of the points that face the
+  // viewer.
   float covered_area() const {
     constexpr int side = 64;
     using Mask = std::array<std::uint8_t, static_cast<std::size_t>(side * side)>;
@@ -268,7 +269,7 @@ class FrontDrawing {
     const float longer = std::max({size.x(), size.y(), 1e-30F});
     cells_.cell = std::max({std::sqrt(covered_area() / static_cast<float>(wanted)),
                             least_cell * usual_spacing(), longer / most_side});
-    // A margin of one empty cell surrounds what is drawn.
+    // The grid has a margin of one empty cell.
     cells_.corner = box_.least.head<2>() - Vec2f::Constant(1.5F * cells_.cell);
     const int columns = 3 + static_cast<int>(size.x() / cells_.cell),
               rows = 3 + static_cast<int>(size.y() / cells_.cell);

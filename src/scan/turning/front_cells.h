@@ -1,5 +1,5 @@
 // The front of a cloud on a grid of square cells over the view plane: a quick picture of depths and normals,
-// from which reliefs are made while the model is turned. Tested by tests/scan/turning_test.cpp.
+// from which reliefs are made while the user turns the model. Tested by tests/scan/turning_test.cpp.
 #pragma once
 
 #include <limits>
@@ -28,7 +28,7 @@ struct FrontCells {
   Image<float> depth;            // at the centre of the cell; no_depth where no point covers it
   Image<Vec3f> normal;           // mean of the visible points around, unit length; zero where there are none
   Image8 is_behind;              // whether a point that faces away lies in the cell
-  Image8 is_edge;                // whether the surface ends at a covered cell, or jumps: set by mark_edges()
+  Image8 is_edge;                // whether the surface ends or jumps at a covered cell; mark_edges() sets it
   std::size_t covered = 0;       // number of cells with a normal
 
   Vec2f centre(int x, int y) const {

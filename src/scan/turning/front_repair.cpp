@@ -1,5 +1,5 @@
-// Clears crumbs of fronts that were drawn, closes their small holes, and marks where the surface ends.
-// Declared in front_cells.h, tested by tests/scan/turning_test.cpp.
+// Clears the crumbs of drawn fronts, closes small holes, and marks where the surface ends. Declared in
+// front_cells.h, tested by tests/scan/turning_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,9 +11,9 @@
 namespace relievo {
 namespace {
 
-// Neighbouring cells of one row that are all covered, or all not.
+// Neighbouring cells of one row that are all covered, or all uncovered.
 struct Run {
-  Index begin, end;  // numbers of the first cell and of the one after the last
+  Index begin, end;  // numbers of the first cell and of the cell after the last
   bool is_covered;
   std::size_t piece_size = 0;  // number of cells in the piece that the run belongs to
 };
@@ -41,7 +41,7 @@ std::vector<Run> runs_of(const FrontCells& front) {
   return all;
 }
 
-// Joins runs with those of the row above that touch them, if both are covered or both are not.
+// Joins runs that touch in neighbouring rows, if both are covered or both are uncovered.
 DisjointSets joined(std::span<const Run> runs, Index width) {
   DisjointSets sets(runs.size());
   std::size_t above = 0;
@@ -54,8 +54,8 @@ DisjointSets joined(std::span<const Run> runs, Index width) {
   return sets;
 }
 
-// Returns the runs with the sizes of their pieces, which are connected cells that are all covered, or all
-// not.
+// Returns the runs with the sizes of their pieces. A piece consists of connected cells that are all covered,
+// or all uncovered.
 std::vector<Run> pieces_of(const FrontCells& front) {
   std::vector<Run> runs = runs_of(front);
   DisjointSets sets = joined(runs, static_cast<Index>(front.normal.width));
@@ -141,7 +141,7 @@ class EdgeSearch {
   }
 
  private:
-  // Returns whether no surface spans the cell and its neighbour (u, v) in the same row (axis 0) or column
+  // Returns whether no surface connects the cell and its neighbour (u, v) in the same row (axis 0) or column
   // (axis 1).
   bool is_edge_between(int x, int y, int u, int v, int axis) const {
     if (!front_.is_covered(u, v)) return true;

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// If a scan has more points than this, every second, third, ... of them is drawn: 600,000 points of all sides
-// show a relief's detail at the size of a screen.
+// If a scan has more points than this, only every second, third, ... point is drawn. 600,000 points on all
+// sides suffice for the detail that a relief shows at the size of a screen.
 constexpr std::size_t most_drawn = 600'000;
 constexpr std::size_t cells_per_point = 12;
 constexpr std::size_t least_cells = 16;  // fewer cells show nothing
@@ -28,15 +28,15 @@ class CellChoice {
         hole_reach_(
             static_cast<int>(std::ceil(float{ScanLimits::hole_fill_distance} * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
-    // Shifted rows make nearly equilateral triangles. Steps of two columns and one row choose the black
-    // fields of a chessboard.
+    // Shifted rows make nearly equilateral triangles. With two columns and one row, every second cell is
+    // chosen, as the black fields of a chessboard.
     const int least = cells > std::numbers::sqrt2 ? 2 : 1;
     columns_ = std::max(least, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
     rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
   }
 
-  // Returns the distance between points, in cells. reach() returns about the same in whole cells, at least 2
-  // where cells are left out.
+  // Returns the distance between points, in cells. reach() returns about the same distance as a whole number,
+  // at least 2 if not all cells are chosen.
   double spacing() const { return std::sqrt(columns_ * rows_); }
   int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
@@ -77,7 +77,7 @@ class CellChoice {
   int columns_ = 1, rows_ = 1, hole_reach_;
 };
 
-// Measures the front around the centres of cells, over about as many cells as a point of the surface
+// Measures the front around the centres of cells, each over about as many cells as one point of the surface
 // represents.
 class CellMeasures {
  public:
@@ -118,8 +118,8 @@ float lowest_depth(const FrontCells& front) {
   return lowest;
 }
 
-// Returns a small offset from a cell's centre, in cells. Points in exact rows would be corners of triangles
-// without area on the hull.
+// Returns a small offset from a cell's centre, in cells. In exact rows the points on the hull would be
+// corners of triangles without area.
 Vec2f offset_in(Index cell) {
   constexpr float most = .2F;
   const std::uint32_t x = cell * 2654435761U, y = (x ^ (x >> 15)) * 2246822519U;
@@ -159,8 +159,8 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   return k;
 }
 
-// Returns the boundary. A triangle is inside if the front covers at least three of its centre and the middles
-// of its sides.
+// Returns the boundary. A triangle is inside if the front covers at least three of four places: its centre
+// and the middles of its sides.
 Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, const Triangulation& mesh) {
   const auto is_covered = [&](const Vec2& p) {
     const Vec2f at = (p.cast<float>() - front.corner) / front.cell;
@@ -204,7 +204,7 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
 TurningScan TurningScan::without_plane(const Surface& surface) const {
   TurningScan rest = *this;
   const SupportPlane& plane = *surface.plane;
-  // A few points of noise are farther from the plane than its tolerance, and would be discs of their own.
+  // A few points of noise are farther from the plane than its tolerance, and would be seen as separate discs.
   SupportPlane thicker = plane;
   thicker.tolerance *= 2;
   const Mat3& R = surface.view.R_view_model;

@@ -1,4 +1,4 @@
-// Surfaces of some 18,000 points, for reliefs that follow while the model is turned. Tested by
+// Surfaces of some 18,000 points, from which reliefs are made while the user turns the model. Tested by
 // tests/scan/turning_test.cpp.
 #pragma once
 
@@ -10,12 +10,12 @@ namespace relievo {
 
 class MeasuredCloud;
 
-// The points of a scan as they are drawn, at most 600,000, evenly taken from larger scans.
+// The points of a scan that are drawn: at most 600,000, evenly taken from larger scans.
 struct TurningScan {
   explicit TurningScan(const MeasuredCloud& measured);
 
   std::vector<FrontPoint> points;
-  bool do_normals_face_viewer = false;  // signs are unknown: each normal is turned towards the viewer
+  bool do_normals_face_viewer = false;  // signs are unknown, so each normal is turned towards the viewer
   Vec3 centre = Vec3::Zero();           // see Surface
   double rho = 0, diagonal = 0;
 
@@ -29,8 +29,8 @@ struct TurnedSurface {
   FrontCells front;  // drawn from all points of the scan
 };
 
-// Returns a surface of about `points` points in that view: one for every few cells, more along silhouettes
-// and depth jumps. Errors: kind geometry if the view shows no area; kind cancelled.
+// Returns a surface of about `points` points in that view: one point for every few cells, more along
+// silhouettes and depth jumps. Errors: kind geometry if the view shows no area; kind cancelled.
 Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
                                      Progress* progress = nullptr);
 
