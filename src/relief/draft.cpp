@@ -17,9 +17,9 @@
 namespace relievo {
 namespace {
 
-// Shares of the limit. The relief stays below the first, which leaves a thousandth for the rounding of all
-// later steps. The least squares aim at the second, because they end with a few triangles up to 0.4 % above
-// it.
+// Both are shares of the limit. The relief stays below kept_share, which leaves a thousandth for the rounding
+// of all later steps. The least squares aim at solved_share, because they end with a few triangles up to 0.4
+// % above their target.
 constexpr double kept_share = .999, solved_share = .9945;
 
 double draft_deg_of(double slope) {
@@ -36,7 +36,7 @@ class Limiter {
       if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }
 
-  // Returns whether the heights stay within the limit, with the thousandth to spare.
+  // Returns whether relief and base together stay below kept_share of the limit.
   bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_share * options_.max_slope;
   }
@@ -74,8 +74,8 @@ class Limiter {
     return whole;
   }
 
-  // Creates the least-squares solver at the first call. It cannot use the model's system, because it needs
-  // one in which all slopes count alike.
+  // Creates the least-squares solver at the first call. It cannot use the model's system, in which slopes at
+  // depth jumps have less weight: here all slopes count alike.
   Result<void> build_nearest() {
     if (nearest_) return {};
     const Surface& surface = model_->surface();
@@ -85,14 +85,14 @@ class Limiter {
     return {};
   }
 
-  // The least squares can end far from the limit, as with walls a hundred times too steep. Heights are then
-  // lowered before limit_slopes() tries again, this often at most.
+  // The least squares can end far above the limit, for example if walls are a hundred times too steep. Then
+  // all heights are lowered before limit_slopes() tries again. `most_tries` is the largest number of tries.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;
   DraftOptions options_;
   std::vector<Vec2> plane_;
-  std::vector<Triangle> triangles_;  // triangles of the relief; the base lies around it
+  std::vector<Triangle> triangles_;  // all triangles inside the relief
   std::optional<HeightSystem> system_;
   std::optional<NearestDraft> nearest_;
 };
@@ -104,7 +104,7 @@ class DraftSearch {
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
       : model_(model), order_(order), limiter_(limiter), progress_(progress) {}
 
-  // `start` is the relief of that height without the limit; null if there is none.
+  // `start` is the relief of the wanted height without the limit; null if there is no such relief.
   Result<Relief> run(const Relief* start) {
     if (!start) return at_most();
     start_ = start;
@@ -115,12 +115,12 @@ class DraftSearch {
   }
 
  private:
-  // Beyond u = e^4.5 the weights of (6) are nearly 1, in all layers unless detail is large.
+  // Beyond u = e^4.5 the weights of (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // At 64 times the height that the steepest slope reaches on half of the relief, the reliefs of baselines
-  // consist of walls. This scale does not depend on the height asked for, so that the largest height is the
-  // same for all of them.
+  // A baseline's relief is highest if it consists of walls only. So its scale may grow until it is 64 times
+  // as high as a relief of the largest slope over half the longer side. This limit does not depend on the
+  // requested height, so the largest height is the same for all requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);

@@ -1,6 +1,7 @@
-// The weight of an edge in equation (9), for the systems of all points and of control points, and for the steps at depth
-// jumps. JumpLift and TriangleSlopes weigh triangles without factors: they take half_edge_weight() and needle_share().
-// tests/relief/heights_test.cpp states the weight once more.
+// The weight of an edge in equation (9). It is used by the systems of all points and of control points, and
+// for the steps at depth jumps. JumpLift and TriangleSlopes need weights of triangles without factors, so
+// they use half_edge_weight() and needle_share(). tests/relief/heights_test.cpp computes the weight
+// independently.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +13,10 @@
 
 namespace relievo {
 
-// The limit for edges opposite to very small angles: larger weights would drown the others in single
-// precision.
+// The largest weight, for edges opposite to very small angles. Beside larger weights all others would be lost
+// in single precision.
 inline constexpr float largest_edge_weight = 1e3F;
-// Cocircular points give weights of 0. This least weight keeps the matrix positive definite whatever the
-// points are.
+// Cocircular points give weights of 0. This least weight keeps the matrix positive definite for all points.
 inline constexpr float least_edge_weight = 1e-4F;
 
 // Returns half the cotangent of a triangle's angle at `apex`, which the triangle adds to the weight of the
@@ -27,23 +27,23 @@ inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
 }
 
 // Returns the factor, in [0, 1], by which edge_weight() reduces a triangle with the largest half weight
-// `stiffest`. The weight of an edge is the sum of two halves, so that half of the bound applies to a
+// `stiffest`. The weight of an edge is the sum of two half weights, so half of the bound applies to a
 // triangle.
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
 }
 
-// Returns the factor of the edge from a to b: the mean of its ends' `weights`, one per point, see
-// jump_weights(). Walls at jumps are narrower than the sampling distance, and would tie both sides together
-// more than edges between scattered points do; edges across them count a tenth.
+// Returns the factor of the edge from a to b: the mean of `weights` at its two ends, see jump_weights().
+// Edges across walls get a tenth of that. Walls at jumps are narrower than the sampling distance, so their
+// edges would tie both sides together more than edges between scattered points do.
 inline float edge_factor(const Boundary& boundary, std::span<const float> weights, Index a, Index b) {
   const float factor = (weights[a] + weights[b]) / 2;
   return boundary.is_across_wall(a, b) ? .1F * factor : factor;
 }
 
-// Returns the weight of the edge from a to b, whose triangles add up to `sum`. Without `weights` it has no factor, as
-// the right-hand side of TriangleSlopes has none.
+// Returns the weight of the edge from a to b; `sum` is the sum of its half weights. If `weights` is empty,
+// the weight has no factor, like the right-hand side of TriangleSlopes.
 inline float edge_weight(float sum, const Boundary& boundary, std::span<const float> weights, Index a,
                          Index b) {
   const float weight = std::clamp(sum, least_edge_weight, largest_edge_weight);

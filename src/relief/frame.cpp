@@ -48,12 +48,12 @@ struct FrameMaker::State {
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
   SlopeInput input = slope_input(surface, model.layers(), boundary_weight);
-  double boundary_width = 0;  // for which boundary_weight was computed
+  double boundary_width = 0;  // the boundary width for which boundary_weight was computed
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
   Shape made = {};                              // shape of the last frame
-  HeightSearch::Track last_height, last_steps;  // where the last locked height was found, by u or by steps
-  bool needs_steps = false;                     // whether slopes alone did not reach that height
+  HeightSearch::Track last_height, last_steps;  // results of the last searches by u and by steps
+  bool needs_steps = false;                     // whether slopes alone did not reach the last locked height
 
   explicit State(const ReliefModel& m) : model(m) {}
 
@@ -103,7 +103,8 @@ struct FrameMaker::State {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of that shape without the last step of its style; frame.height is final already.
+  // Makes the relief of that shape without the last step of its style. That step does not change
+  // frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = model.with_membrane(shape);
     if (const HeightSystem* system = model.system())
@@ -120,7 +121,7 @@ struct FrameMaker::State {
     });
   }
 
-  // Searches for u, starting from that of the last frame, in one or two solves as a rule. See
+  // Searches for u, starting from the u of the last frame. One or two solves are usually enough. See
   // ReliefModel::make_at_height().
   void raise_to(double height, Shape shape, Frame& frame) {
     const HeightSearch search(height, frame.options.height_tolerance);
@@ -144,8 +145,7 @@ struct FrameMaker::State {
     });
   }
 
-  // Scales the relief down if the search leapt over the height asked for and ended above it, see
-  // HeightSearch::bracket().
+  // Scales the relief down if the search ended above the requested height, see HeightSearch::bracket().
   static void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))

@@ -13,21 +13,23 @@
 
 namespace relievo {
 
-// Returns the error of a height that no relief of the view reaches; `most_mm` is the largest.
+// Returns the error for a height that no relief of this view reaches; `most_mm` is the largest possible
+// height.
 inline std::unexpected<Error> out_of_reach(double most_mm, double wanted_mm) {
   return geometry_error(cat("expected a height that can be reached, at most ", most_mm,
                             " mm for this view and width, found ", wanted_mm, " mm",
                             most_mm > 0 ? "" : ": this view shows a level face alone; choose another"));
 }
 
-// Every search calls height_at(ln u), which makes the relief and returns its height; the last call made the
-// relief that was found. To end a search early, as after an error, height_at() returns the height asked for.
+// Every search calls height_at(ln u), which makes a relief and returns its height. The relief of the last
+// call is the result. To end a search early, for example after an error, height_at() returns the height asked
+// for.
 class HeightSearch {
  public:
-  // `tolerance` is that of ln(height).
+  // `tolerance` is the largest accepted error of ln(height).
   HeightSearch(double height, double tolerance) : height_(height), tolerance_(tolerance) {}
 
-  // A limited secant step in ln u. The elasticity is the change of ln height with ln u.
+  // A secant step in ln u, limited to [least, most]. The elasticity is the change of ln height with ln u.
   struct SecantStep {
     double gain = 1, least = -2, most = 2;
 
@@ -39,13 +41,13 @@ class HeightSearch {
   // The result of the last search of a series.
   struct Track {
     double log_u = 0, elasticity = 1;
-    std::optional<double> log_height = {};  // at that u; none until a height was met
+    std::optional<double> log_height = {};  // ln height at that u; empty until a height was met
   };
 
-  // Searches the height of a single relief, without a guess: tries u = infinity, to see whether the height
-  // can be reached, then brackets u. Returns whether the height is reached; if not, the last relief is the
-  // highest one. If the heights jump past the wanted one, or all lie above it, the last relief is too high,
-  // and the caller has to scale it down.
+  // Searches the height of a single relief without a first guess. Tries u = infinity, to see whether the
+  // height can be reached, then brackets u. Returns whether the height is reached; if not, the last relief is
+  // the highest one. If the height jumps past the wanted height as u grows, or is above it for every u, the
+  // last relief is too high, and the caller has to scale it down.
   template <typename F>
   bool bracket(F&& height_at) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -56,9 +58,10 @@ class HeightSearch {
     return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
-  // Searches the height of each in a series of reliefs that change little: starts at the u that the last
-  // height and elasticity predict and takes secants, one or two calls as a rule. It brackets u where six
-  // secants do not suffice: after far jumps, and for heights at or out of reach.
+  // Searches the height of one relief after the other in a series that changes little. Starts at the u that
+  // the last height and elasticity predict, and takes secant steps; one or two calls are usually enough.
+  // Brackets u if six secant steps are not enough: after large changes, and for heights at or above the
+  // largest.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
@@ -88,18 +91,19 @@ class HeightSearch {
     return is_met;
   }
 
-  // For reliefs that take long to make: climbs by secants from `low`, which is too low or just right, then
-  // narrows the bracket by false position and, every third time, by halves. The relief found is not lower
-  // than asked for and at most twice the tolerance higher. Returns false if the relief at `last` is too low.
+  // Searches with few calls, for reliefs that take long to make. Secant steps lead upwards from `low`, which
+  // must give a height that is too low or just right. Then the bracket is narrowed by false position and,
+  // every third time, by bisection. The relief found is not lower than asked for and at most twice the
+  // tolerance higher. Returns false if the relief at `last` is too low.
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // Steps go a tenth further than the secant asks for: ending a little too high saves a relief.
+    // Steps are a tenth longer than the secant's: a bracket that ends a little too high saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
     // Heights always grow with u, but more slowly than u if the steepest walls are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;
-    // Within this distance of the end, the relief at the end is tried instead: if it is too low, the search
-    // is over.
+    // If the next step comes within this distance of `last`, the relief at `last` is made instead. If it is
+    // too low, the search is over.
     constexpr double near_last = .3;
     const auto excess_at = [&](double x) { return excess_of(height_at(x)) - tolerance_; };
     double excess = excess_at(low), low_excess = excess, high = last, high_excess = 0, elasticity = 1;

@@ -10,7 +10,7 @@ namespace relievo {
 
 template <typename Real>
 struct HeightSpan {
-  Real lowest = 0, highest = 0;  // the base, 0, is part of it
+  Real lowest = 0, highest = 0;  // start at 0, because the base counts as a height
 
   void extend(Real z) {
     lowest = z < lowest ? z : lowest;
@@ -23,8 +23,8 @@ struct HeightSpan {
   Real size() const { return highest - lowest; }
 };
 
-// Returns the span of a run of heights, in the calling thread. Eight spans side by side let the compiler use
-// vectors.
+// Returns the span of a run of heights, in the calling thread. Eight spans are computed side by side so that
+// the compiler uses vector instructions.
 template <typename Real>
 HeightSpan<Real> span_of_run(std::span<const Real> heights) {
   constexpr std::size_t lanes = 8;

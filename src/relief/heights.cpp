@@ -18,8 +18,8 @@
 namespace relievo {
 namespace {
 
-// Returns for each point its corners in triangles inside, ascending; corner i of triangle t has the number 3
-// t + i.
+// Returns, for each point, the numbers of its corners in triangles inside the relief, in ascending order.
+// Corner i of triangle t has the number 3 t + i.
 Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& triangles,
                              const Boundary& boundary) {
   return grouped<Index>(points, [&](auto&& add) {
@@ -56,10 +56,10 @@ Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
 struct HeightEquations {
   std::vector<Index> free_points;  // point of each unknown; points on the boundary have none
   Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
-  // The edges of each point, in ascending order of the other points. Every point has an edge to itself, too,
+  // The edges of each point, in ascending order of the other points. Every point also has an edge to itself,
   // so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times
-  // the step from the other point; it is 0 at boundary points, whose heights are 0. The right-hand side is
-  // SlicedEllMatrix::divergence().
+  // the vector from the other point; it is 0 at boundary points, whose heights are 0.
+  // SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
   Groups<MatrixEntry> edges;
 };
 
@@ -100,7 +100,7 @@ class EdgeRows {
     return static_cast<float>(half_edge_weight(points_[apex], points_[a], points_[b]));
   }
 
-  // Keeps the terms sorted; those of one edge stay in the order in which they came.
+  // Keeps the terms sorted by point. Terms of the same edge stay in the order of insertion.
   void insert(const WeightedEdge& term) {
     terms_.insert(std::ranges::upper_bound(terms_, term.to, {}, &WeightedEdge::to), term);
   }
@@ -110,7 +110,7 @@ class EdgeRows {
   std::vector<WeightedEdge> terms_;
 };
 
-// Returns the edges of triangles inside, with their edge_weight().
+// Returns the edges of triangles inside the relief, with their edge_weight().
 Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
                        const Boundary& boundary, std::span<const float> weights) {
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
@@ -180,7 +180,7 @@ Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacenc
   });
 }
 
-// Returns the equations. `weights` are those of HeightSystem::build().
+// Returns the equations. `weights` are the same as for HeightSystem::build().
 HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
                                  const Boundary& boundary, std::span<const float> weights) {
   HeightEquations equations;
@@ -205,14 +205,15 @@ double twice_area(std::span<const Vec2> points, const Triangle& t) {
   return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
-// Makes rows of the matrix one after the other. Corner i of triangle t has the number 3 t + i.
+// Makes the rows of vertex_normal_matrix() one after the other. Corner i of triangle t has the number 3 t +
+// i.
 class NormalRows {
  public:
   NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
-  // Adds the row of a point to `entries`: the derivatives, by heights, of the sum of its triangles' cross
-  // products, divided by z of that sum, which does not depend on heights.
+  // Adds the row of a point to `entries`. The row consists of the derivatives of N by heights, divided by the
+  // z of N. N is the sum of the cross products of the point's triangles; its z does not depend on heights.
   void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
     terms_.clear();
     double z = 0;
@@ -224,7 +225,7 @@ class NormalRows {
       Vec2 coefficient = Vec2::Zero();
       const Index other = term->other;
       for (; term != terms_.end() && term->other == other; ++term) coefficient += term->coefficient;
-      // The point's own height cancels where triangles close around it.
+      // The derivative by the point's own height is 0 if triangles surround the point.
       const bool cancels = coefficient.norm() <= 1e-12 * std::sqrt(z);
       if (!cancels && z > 0) entries.push_back({other, (coefficient / z).cast<float>()});
     }
@@ -240,7 +241,7 @@ class NormalRows {
     insert({c, {ab.y(), -ab.x()}});
   }
 
-  // Keeps the terms sorted; those of one point stay in the order in which they came.
+  // Keeps the terms sorted by point. Terms of the same point stay in the order of insertion.
   void insert(const Term& term) {
     terms_.insert(std::ranges::upper_bound(terms_, term.other, {}, &Term::other), term);
   }
@@ -277,8 +278,8 @@ std::size_t HeightSystem::memory() const {
   return factor_.memory() + edges_->memory();
 }
 
-// The right-hand side of boundary points is 0, because their coefficients are 0. Solving does not change it,
-// and it is their height.
+// The coefficients of boundary points are 0, so their right-hand side is 0. Solving leaves it unchanged, so
+// their heights are 0, too.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   edges_->divergence(slopes, heights);
   factor_.solve(heights, heights);

@@ -15,8 +15,8 @@
 namespace relievo {
 namespace {
 
-// The distance over which the field falls by the factor e, as a share of the longer side, and how many such
-// distances it extends. See docs/decisions/jump-lift.md.
+// The field falls by the factor e over `fading_distance`, a share of the longer side, and ends after `extent`
+// such distances. See docs/decisions/jump-lift.md.
 constexpr double fading_distance = .015, extent = 3;
 // Inversions below this share of the longer side are too small to be seen.
 constexpr double least_inversion = 1e-5;
@@ -34,9 +34,9 @@ struct HalfEdge {
   float weight;
 };
 
-// Returns the edges of a triangle with their half weights of (9): with equal weights a field would depend on
-// how uneven the triangles are. Triangles of walls are too thin for these weights: edges across a wall have
-// the weight that equilateral triangles give, and the other edges of such triangles have weight 0.
+// Returns the edges of a triangle with their half weights in (9). With equal weights a field would depend on
+// how uneven the triangles are. Triangles of walls are too thin for the weights of (9): their edges across
+// the wall get the weight of edges of equilateral triangles, and their other edges get weight 0.
 std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corners) {
   std::array<HalfEdge, 3> edges;
   const auto plane = [&](std::size_t i) { return Vec2(surface.points[corners[i % 3]].head<2>()); };
@@ -56,7 +56,7 @@ std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corne
   return edges;
 }
 
-// Returns the edges of triangles inside the relief that have a movable end.
+// Returns the edges of triangles inside the relief that have at least one movable end.
 std::vector<HalfEdge> movable_edges(const Surface& surface, std::span<const std::uint8_t> is_movable) {
   std::vector<HalfEdge> edges;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -98,10 +98,11 @@ std::vector<Field> reference_heights(const JumpLiftInput& input) {
   return heights;
 }
 
-// The points around inverted jumps, which may move, with their edges.
+// The movable points around inverted jumps, with their edges.
 struct Band {
   struct Edge {
-    Index to;  // number in the band; points.size() stands for all points outside, which do not move
+    Index
+        to;  // the point's number in the band; points.size() stands for all points outside, which do not move
     int side;  // see side_of_jump()
     float weight;
   };
@@ -127,8 +128,8 @@ std::vector<Vec2> inverted_places(const Surface& surface, std::span<const Field>
   return inverted;
 }
 
-// Decides whether points are near one of the places in a tree. Neighbouring points are asked for in turn, so
-// that the distance of one mostly decides for the next.
+// Decides whether points are near one of the positions in a tree. Points are asked for in an order in which
+// neighbours follow each other, so the distance of one point often decides for the next.
 class NearPlaces {
  public:
   NearPlaces(const KdTree<Vec2>& tree, double distance) : tree_(tree), distance_(distance) {}
@@ -184,8 +185,8 @@ Band band_of(const Surface& surface, std::span<const std::uint8_t> is_movable) {
   return band;
 }
 
-// Minimises, for all knots at once, the sum over the band's edges of weight (y_p - y_q - aim)^2 plus the sum
-// over its points of screen y_p^2.
+// Computes the fields y for all knots at once. They minimise the sum over the band's edges of weight (y_p -
+// y_q - aim)^2 plus the sum over the band's points of screen y_p^2.
 class BandFields {
  public:
   BandFields(const Band& band, std::span<const Field> heights, float screen)
@@ -212,7 +213,7 @@ class BandFields {
   }
 
  private:
-  // Raises the aim of each edge across a jump by what is left of its inversion.
+  // Raises the aim of each edge across a jump by the inversion that is left.
   void raise_aims() {
     for (Index i = 0; i < band_.points.size(); ++i) {
       pulls_[i] = Values::Zero();
@@ -239,7 +240,7 @@ class BandFields {
   std::vector<Values> heights_, y_;  // with one more element for all points outside
   std::vector<Values> aims_;         // per edge
   std::vector<Values> pulls_;        // per point: the sum of weight times aim over its edges
-  std::vector<float> weights_;       // per point: the screen and the sum over its edges
+  std::vector<float> weights_;       // per point: the screen plus the sum of its edges' weights
 };
 
 }  // namespace
@@ -260,14 +261,16 @@ JumpLift JumpLift::find(const JumpLiftInput& input) {
 
 namespace {
 
-// Returns the exponent of the weight of coarse layers.
+// Returns the exponent in the weight of the coarse layer, 1 - exp(-exponent).
 double coarse_exponent(double u, double gamma) {
   return -std::log1p(-static_cast<double>(LayerWeights::of(u, gamma, 1).coarse));
 }
 
 }  // namespace
 
-// Inversions come from coarse layers. Gamma changes their weight as u does, so both are turned into one u.
+// Coarse layers cause the inversions of depth jumps, and the weight of these layers depends on u and gamma.
+// Both are converted to the u that gives the same weight with the gamma of layered_shape(), for which the
+// knots' fields are computed.
 Eigen::Array4f JumpLift::shares_at(const Shape& shape) const {
   Eigen::Array4f shares = Eigen::Array4f::Zero();
   if (shape.style != Style::layered || std::isinf(shape.membrane->pull_length)) return shares;

@@ -1,6 +1,6 @@
-// Keeps what is in front in front at depth jumps, and finds their heights. Equation (9) sees slopes alone, and the
-// misfit that it leaves at a jump can put the front edge below the surface behind it, which looks like a crack.
-// docs/decisions/jump-lift.md
+// Keeps the front side of each depth jump in front, and computes the heights of depth jumps. Equation (9)
+// uses only slopes. The misfit that it leaves at a jump can put the front edge below the surface behind it,
+// which looks like a crack: the jump is inverted. See docs/decisions/jump-lift.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ namespace relievo {
 class HeightSystem;
 struct Surface;
 
-// `system` is that of all points.
+// `system` is the system of all points.
 struct JumpLiftInput {
   const Surface& surface;
   std::span<const PointLayers> layers;
@@ -39,11 +39,12 @@ class JumpLift {
   // Constructs a lift without fields: add_to() changes nothing.
   JumpLift() = default;
 
-  // Finds fields with which hardly any jump is inverted. Silhouettes do not move.
+  // Finds fields that leave hardly any jump inverted. Silhouettes do not move.
   static JumpLift find(const JumpLiftInput& input);
 
-  // Adds the field for a layered shape, whose membrane is set, to its heights from (9), one for each point of
-  // the surface. Changes nothing if the height correction does not act, so that level parts stay level.
+  // Adds the field for a layered shape to the shape's heights from (9), one per point of the surface. The
+  // shape's membrane must be set. Changes nothing if the height correction is switched off, so that level
+  // parts stay level.
   template <typename Real>
   void add_to(std::span<Real> z, const Shape& shape) const {
     const Eigen::Array4f shares = shares_at(shape);
@@ -55,32 +56,32 @@ class JumpLift {
   std::size_t memory() const;
 
  private:
-  // Returns how much of the field of each knot a shape gets.
+  // Returns the factors of the knots' fields for a shape.
   Eigen::Array4f shares_at(const Shape& shape) const;
 
   std::vector<Index> points_;           // the points that move
   std::vector<Eigen::Array4f> fields_;  // field of each of these points, for each knot
 };
 
-// The heights of depth jumps, in units of the surface; without a depth jump there are none. Equation (9) sees slopes
-// alone, so a form that lies in steps, such as letters on a plate, would vanish. The relief of such a form takes these
-// heights in addition.
+// The heights of depth jumps, in units of the surface. Equation (9) uses only slopes, so a form that consists
+// of steps, such as letters on a plate, would vanish. The relief of such a form gets these heights in
+// addition.
 struct StepHeights {
-  std::vector<float> z;  // per point; 0 at the boundary
+  std::vector<float> z;  // per point, 0 at the boundary; empty if the surface has no depth jump
   double span = 0;       // highest minus lowest; 0 counts as a height
 
   bool empty() const { return z.empty(); }
 };
 
-// Returns the least-squares solution of (9) for given height differences along the edges: across a depth
-// jump, the part of the depth difference that the slopes do not explain; along all other edges, 0. `weights`
-// are those of the system.
+// Returns the least-squares solution of (9) for given height differences along the edges. Across a depth jump
+// the difference is the part of the depth difference that the slopes do not explain; along all other edges it
+// is 0. `weights` are the weights of the system.
 StepHeights find_step_heights(const Surface& surface, std::span<const float> weights,
                               const HeightSystem& system);
 
-// Adds the step heights to those of slopes, so that the steps take `share` of the height. `height` is the
-// height of the relief before its style compresses it. Without it the slopes determine the height; the share
-// must then be below 1.
+// Adds the step heights to the heights z that slopes give, so that the steps take `share` of the height.
+// `height` is the height of the relief before its style compresses it. If it is not given, the slopes
+// determine the height, and the share must be below 1.
 template <typename Real>
 void add_steps(const StepHeights& steps, double share, std::optional<double> height, std::span<Real> z) {
   if (steps.empty() || share == 0) return;
@@ -89,8 +90,8 @@ void add_steps(const StepHeights& steps, double share, std::optional<double> hei
   parallel_for(z.size(), [&](std::size_t i) { z[i] += factor * static_cast<Real>(steps.z[i]); });
 }
 
-// Prepares a shape for a search of the share of its steps, where slopes alone do not reach the height. Slopes
-// are kept whole. Then nothing has to be compressed, so the height correction is turned off, and level parts
+// Prepares a shape for a search of step_share(), if slopes alone do not reach the height. The slopes stay
+// uncompressed. Then nothing has to be compressed, so the height correction is turned off, and level parts
 // stay level.
 inline void keep_slopes(Shape& shape) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -98,9 +99,9 @@ inline void keep_slopes(Shape& shape) {
   shape.membrane = MembraneParams{1, infinity};
 }
 
-// Returns a share of the height for the depth jumps, as a function of x. HeightSearch varies x like ln u
-// until slopes and jumps together reach the height. The share is 0 at -infinity; at infinity the jumps are as
-// deep as in the model.
+// Returns the share of the height for the depth jumps, as a function of x. HeightSearch varies x like ln u
+// until slopes and jumps together reach the height. At x = -infinity the share is 0; at x = infinity the
+// jumps are as deep as in the model.
 inline double step_share(const StepHeights& steps, double height, double x) {
   return steps.span / height / (1 + std::exp(-x));
 }

@@ -22,7 +22,7 @@ struct SlopeParams {
   float scale, max_slope;
 };
 
-// Writes the slopes of points first to first + 7: layered_slope() for each.
+// Writes layered_slope() for each of the points first to first + 7.
 RELIEVO_INLINE void write_eight(const SlopeParams& params, std::size_t first, Vec2f* slopes) {
   const LayerWeights& w = params.layers;
   Float8 x, y, weight;
@@ -45,11 +45,11 @@ RELIEVO_INLINE void write_eights(const SlopeParams& params, std::size_t first, s
 // Standard deviations of the Gaussians between the layers, as shares of the longer side. docs/method.md
 // has the formula, docs/decisions/layers.md the reason.
 constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
-// The slope, 85 degrees, at which half of a normal's x and y is left.
+// The slope at which faded_xy() halves the x and y of a normal; 12 is 85 degrees.
 constexpr double half_kept_slope = 12;
 
-// The attenuation of a layer is exp(-25 detail share): at the default detail of 0.04 the exponent is the
-// share itself. See docs/method.md, "Slopes".
+// The u of a layer is multiplied by exp(-attenuation detail share). At the default detail of 0.04 the
+// exponent is -share. See docs/method.md, "Slopes".
 constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The slopes of the layered style, of one point or of eight at a time.
-// Tested by tests/relief/layers_test.cpp and tests/relief/layered_slopes_test.cpp.
+// Computes the slopes of the layered style, of one point or of eight at a time. Tested by
+// tests/relief/layers_test.cpp and tests/relief/layered_slopes_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -38,10 +38,10 @@ struct EightFloats {
   }
 };
 
-// Turns the weighted layers (x, y) of points into their target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2))
-// with t the height share, which anticipates the tilt that the height correction leaves. At t = 1 that is the
-// slope of the normal with this x and y; near 0, where surfaces end up almost level, it is (x, y) itself.
-// Slopes are shortened to at most `max_slope`.
+// Turns the weighted layers (x, y) of points into target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where t
+// is the height share. The root anticipates the tilt that the height correction leaves. At t = 1 the result
+// is the slope of the normal with this x and y. Near t = 0, where surfaces end up almost level, it is (x, y)
+// itself. Slopes are shortened to at most `max_slope`.
 template <typename Numbers, typename Real>
 RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::Values& y,
                                 Real height_share_sq, Real max_slope) {
@@ -54,7 +54,7 @@ RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::V
   x *= scale, y *= scale;
 }
 
-// Returns the target slope of a point whose layers are multiplied by `weight` first.
+// Returns the target slope of a point. Its weighted layers are multiplied by `weight`.
 template <typename Real>
 Eigen::Vector2<Real> layered_slope(const PointLayers& layers, const LayerWeights& w, Real weight,
                                    Real max_slope) {

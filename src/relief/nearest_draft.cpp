@@ -21,11 +21,11 @@ double weight_of(const std::array<Vec2, 3>& p) {
   return area * needle_share(stiffest);
 }
 
-// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds,
-// 20 to 60.
+// The penalty parameter and the over-relaxation of the splitting. With these values scans took the fewest
+// rounds, 20 to 60.
 constexpr float penalty = 10, relaxation = 1.7F;
-// Given slopes are shortened to this many times the limit, because walls at depth jumps, which may be
-// arbitrarily steep, would pull everything else along with them.
+// Given slopes are shortened to this many times the limit. Walls at depth jumps may be arbitrarily steep, and
+// would otherwise pull everything else along with them.
 constexpr float steepest_given = 2;
 
 // The splitting stops when at most 1 in 5,000 triangles exceeds the limit by more than 0.4 %; limit_slopes()

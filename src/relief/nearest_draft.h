@@ -1,4 +1,4 @@
-// Finds the relief within a slope limit that is nearest, by its slopes, to a given one.
+// Changes the slopes of a relief as little as possible, so that they keep a limit.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ class TriangleSlopes {
   // Returns the number of triangles.
   std::size_t size() const { return triangles_.size(); }
 
-  // Returns the slope of triangle t under heights, one per point.
+  // Returns the slope of triangle t for heights, one per point.
   template <typename Real>
   Eigen::Vector2<Real> slope(std::size_t t, std::span<const Real> heights) const {
     const auto& [corners, first, second] = triangles_[t];
@@ -45,24 +45,25 @@ class TriangleSlopes {
   };
 
   std::vector<Corners> triangles_;
-  std::vector<Index> begin_;  // shares of point i: shares_[begin_[i]] up to shares_[begin_[i + 1]]
+  std::vector<Index> begin_;  // point i has shares_[begin_[i]] up to shares_[begin_[i + 1]]
   std::vector<Share> shares_;
 };
 
-// Minimises, over triangles, the squares of (slope - given slope) under |slope + slope of the base| <= limit.
-// It does so by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
-// Eckstein, 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a
-// system that is factored once, and a dual variable carries over the part that each projection removed, until
-// both agree. Each call starts from the result of the last one. Not for concurrent use.
+// Minimises the weighted sum over triangles of |slope - given slope|^2 under |slope + slope of the base| <=
+// limit. The method is splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
+// Eckstein, 2011). Slopes are projected onto the limit triangle by triangle. Heights are fitted to the
+// projected slopes by a system that is factored once. A dual variable carries over the part that each
+// projection removed. This is repeated until slopes and heights agree. Each call starts from the result of
+// the last one. Not for concurrent use.
 class NearestDraft {
  public:
-  // `system` is that of the surface, without jump weights; both must outlive this. `base` has a height per
-  // point, or is empty.
+  // `system` is the surface's system without jump weights; surface and system must outlive this object.
+  // `base` has a height per point, or is empty.
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 
-  // Changes the heights to those of the nearest relief. A few triangles stay steeper, as a rule by 0.4 % at
-  // most. Ends early when is_cancelled() returns true; the heights are then meaningless.
+  // Changes the heights to those of the nearest relief. A few triangles stay steeper than the limit, usually
+  // by at most 0.4 %. Ends early when is_cancelled() returns true; the heights are then meaningless.
   template <typename F>
   void apply(std::span<double> heights, F&& is_cancelled) {
     begin(heights);

@@ -25,8 +25,8 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 }
 
 struct ReliefModel::State {
-  // The parts that depend on the surface alone. `solver` is the system of all points or that of the control
-  // points.
+  // The parts that depend only on the surface. `solver` is the system of all points or the model of the
+  // control points.
   struct Parts {
     std::vector<PointLayers> layers;
     StepHeights steps;
@@ -77,13 +77,13 @@ MembraneParams ReliefModel::membrane_at(double u) const {
 
 namespace {
 
-// Prepares the system of the control points from that of all points, which it consumes.
+// Prepares the model of the control points. Consumes `system`, the system of all points.
 Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const PointLayers> layers,
                                        HeightSystem system, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
   const SubspaceOptions options;
   const auto reference = [&] {
-    const HeightSystem all = std::move(system);  // freed at once: it is most of the memory
+    const HeightSystem all = std::move(system);  // freed at once, because it takes most of the memory
     return reference_heights(surface, all, options.max_slope);
   }();
   return SubspaceModel::prepare(surface, options, {reference, layers}, progress);

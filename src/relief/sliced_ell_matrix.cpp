@@ -36,7 +36,7 @@ RELIEVO_INLINE Pairs eight_pairs(const Vec2f* from, const Index* at) {
 }
 
 RELIEVO_INLINE Pairs pairs(const SlicedEllMatrix::Coefficients& values) {
-  // The type is not `auto`, with which GCC forgets that these vectors need no alignment.
+  // The type is not `auto`, because GCC then ignores that these vectors need no alignment.
   const Float8* const v = reinterpret_cast<const Float8*>(values.data());
   return {v[0], v[1]};
 }
@@ -84,7 +84,6 @@ RELIEVO_INLINE void normals_of(const Slice& slice, const float* z, Vec3f* normal
     normals[slice.points[lane]] = {nx[lane], ny[lane], nz[lane]};
 }
 
-// A run of slices.
 struct Slices {
   const SlicedEllMatrix::Pattern& pattern;
   const SlicedEllMatrix::Coefficients* coefficients;
@@ -108,7 +107,7 @@ RELIEVO_INLINE void normals_of(const Slices& slices, const float* heights, Vec3f
   for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
 }
 
-// The entries of each row, as the constructors take them.
+// The entries of each row, as the constructors get them.
 using Rows = Groups<MatrixEntry>;
 
 SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
@@ -142,7 +141,7 @@ SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
   return pattern;
 }
 
-// Writes the coefficients of the row in one lane. Returns whether there is a slot for each.
+// Writes the coefficients of one row into its lane. Returns whether there is a slot for each.
 bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix::Others> others,
            std::size_t lane, SlicedEllMatrix::Coefficients* coefficients) {
   std::size_t l = 0;
@@ -156,7 +155,7 @@ bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix
   return true;
 }
 
-// Returns the coefficients in the order of the pattern's slots; none if the pattern lacks an entry.
+// Returns the coefficients in the order of the pattern's slots; an empty list if the pattern lacks an entry.
 std::vector<SlicedEllMatrix::Coefficients> coefficients_in(const SlicedEllMatrix::Pattern& pattern,
                                                            const Rows& rows) {
   std::vector<SlicedEllMatrix::Coefficients> coefficients(pattern.others.size());

@@ -29,14 +29,14 @@ class SlicedEllMatrix {
   // Copies the entries of each point.
   explicit SlicedEllMatrix(const Groups<MatrixEntry>& rows);
 
-  // Does the same, but reuses the sparsity pattern of `like` if it contains all these entries in order;
-  // unused slots get coefficient 0.
+  // Copies the entries, but reuses the sparsity pattern of `like` if it contains all these entries in order.
+  // Unused slots get coefficient 0.
   SlicedEllMatrix(const Groups<MatrixEntry>& rows, const SlicedEllMatrix& like);
 
   // Returns the number of points.
   std::size_t size() const { return pattern_->size; }
 
-  // Returns the bytes of memory in use, the pattern included unless it is that of `like`.
+  // Returns the bytes of memory in use. A pattern shared with `like` is not counted.
   std::size_t memory() const;
 
   // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient: the right-hand side of equation (9).

@@ -12,8 +12,8 @@
 namespace relievo {
 namespace {
 
-// Slopes are limited to this where they explain a part of a jump: near a silhouette normals say little about
-// the depth.
+// The limit for slopes that explain a part of a depth jump. Near a silhouette normals say little about the
+// depth.
 constexpr double steepest_slope = 4;
 
 struct JumpEdge {
@@ -39,7 +39,7 @@ std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> 
   return edges;
 }
 
-// Returns by how much the depth of b exceeds that of a beyond what their slopes explain.
+// Returns by how much the depth of b exceeds that of a beyond the difference that their slopes explain.
 double step_between(const Surface& surface, Index a, Index b) {
   const Vec3 step = surface.points[b] - surface.points[a];
   const auto rise = [&](Index i) {

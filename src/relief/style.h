@@ -1,4 +1,4 @@
-// The two styles of reliefs. Everything in which they differ is in this file.
+// The two styles of reliefs. All their differences are in this file.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayer
   return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
 }
 
-// Returns the rho to use in equation (7) for a boundary `width` rho wide. The boundary of (7) itself is 2 rho
-// wide.
+// Returns the rho to use in equation (7), so that the boundary is `width` times the surface's rho wide. (7)
+// makes a boundary 2 rho wide.
 inline double boundary_rho(const Surface& surface, double width) {
   return surface.rho * width / 2;
 }
@@ -34,7 +34,7 @@ struct RaisedHeights {
   HeightSpan<Real> span = {};            // span of z, set by raise() and finish()
   double height = 0;                     // height of the relief, set by raise() and finish()
 
-  // Calls change(i, z) for every height, which may change it, and returns the span of the results.
+  // Calls change(i, z), which may change the height z, for every height. Returns the span of the results.
   template <typename Change>
   HeightSpan<Real> change_all(Change change) const {
     spans.resize((z.size() + default_grain - 1) / default_grain);
@@ -57,9 +57,9 @@ struct RaisedHeights {
 // much near the steepest slopes.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order: slope() for every point, with the w_k of weighted(); solving (9) for the
-// heights; raise(), which sets the height that the relief will have; finish(), once that is the height
-// wanted.
+// A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of
+// (9) for the heights; then raise(), which determines the relief's height; and finish(), once this is the
+// wanted height.
 
 // The paper's style: equations (5) to (7), and the paper's second equation (9), which adds detail in
 // proportion to the curvature.
@@ -76,7 +76,7 @@ class PaperStyle {
                             static_cast<Real>(shape_.max_slope));
   }
 
-  // Returns by how much the slope changes with -(n_x, n_y).
+  // Returns the change of the slope per change of -(n_x, n_y).
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
     const float w = w_k * w_b;
     return w / std::max(w * input.normals[i].z() + 1 - w, least_gain_divisor);
@@ -123,7 +123,7 @@ class LayeredStyle {
     return layered_slope(input.layers[i], weights_, saturation * w_b, static_cast<Real>(shape_.max_slope));
   }
 
-  // Returns by how much the slope changes with the fine layer.
+  // Returns the change of the slope per change of the fine layer.
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
     const float weight = static_cast<float>(scale_) * w_k * w_b, t = weights_.height_share;
     const float sine_sq = weight * weight * weighted_sum(input.layers[i], weights_).squaredNorm();

@@ -41,7 +41,7 @@ class WeightTable {
 
  private:
   static constexpr std::uint32_t fraction_bits =
-      16;  // of the 23 bits of a float's fraction: 7 are left for the place
+      16;  // of the 23 bits of a float's fraction: 7 are left for the index
   static constexpr std::uint32_t first_place = std::bit_cast<std::uint32_t>(0x1p-24F) >> fraction_bits;
   static constexpr std::uint32_t last_place = std::bit_cast<std::uint32_t>(1.F) >> fraction_bits;
 

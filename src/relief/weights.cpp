@@ -35,7 +35,6 @@ double tone_weight(double share, double u) {
 
 }  // namespace
 
-// Computes equation (6).
 double curvature_weight(double k, double delta, const Compression& compression) {
   const double u = compression.u, beta = compression.beta;
   if (!(delta > 0)) return -std::expm1(-u);
@@ -45,7 +44,6 @@ double curvature_weight(double k, double delta, const Compression& compression) 
   return -std::expm1(-std::exp(std::log(u) + beta * (std::log(std::abs(k)) - std::log(delta))));
 }
 
-// Computes equation (7).
 double boundary_weight(double distance, double rho) {
   const double ratio = distance / (2 * rho);
   return -std::expm1(-ratio * ratio);

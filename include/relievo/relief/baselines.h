@@ -12,50 +12,50 @@ namespace relievo {
 
 struct Surface;
 
-// Gradient-domain compression: a baseline, and what the height correction is tuned against. After Weyrich, Deng,
+// Gradient-domain compression. The height correction is tuned against this baseline. Source: Weyrich, Deng,
 // Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes, 2007.
 struct GradientOptions {
-  double attenuation = 5;     // a, > 0
+  double attenuation = 5;     // a in log(1 + a |g|) / a, > 0
   double steepest_kept = 10;  // gradients steeper than this are removed
   // Weights of the bands, from the finest on. A band is the difference between blurs by two Gaussians, each
-  // twice as wide as the one before; the last band is the rest.
+  // twice as wide as the one before; the last band is the remainder.
   std::vector<double> band_weights{1, 1, .8, .6};
   double finest_band = .01;  // the first Gaussian's standard deviation, as a share of the longer side
 };
 
-// Returns a slope per point: gradients at silhouettes are removed, the others attenuated by log(1 + a |g|) /
-// a and their frequency bands weighted. The gradients come from the scan's normals instead of differences of
-// a height map: they are free of its noise, and no gradient needs to be removed across a depth jump.
+// Returns a slope per point. Gradients at silhouettes are removed. All others are attenuated, see
+// attenuated(), and their frequency bands are weighted. The gradients are computed from the scan's normals.
+// These are free of the noise of a height map, and no gradient needs to be removed across a depth jump.
 std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options = {});
 
 // Returns the surface's slope (dz/dx, dz/dy) at a normal with z > 0, at most 1e3.
 Vec2 slope_of(const Vec3f& normal);
 
-// Returns log(1 + a |g|) / a along the gradient's direction.
+// Returns the gradient g with its length reduced to log(1 + a |g|) / a.
 Vec2 attenuated(const Vec2& gradient, double a);
 
-// Returns the depths themselves, scaled to the height.
+// Returns the relief whose heights are the depths, scaled linearly to `height`.
 Relief linear_relief(const Surface& surface, double height);
 
 // Adaptive histogram equalisation of the depths. Local histograms on a picture of the depths are weighted by
-// gradients and clipped; the results for several sizes of neighbourhood are averaged. After Sun, Rosin,
+// gradients and clipped; the results for several sizes of neighbourhood are averaged. Source: Sun, Rosin,
 // Martin and Langbein, Bas-relief generation using adaptive histogram equalization, 2009.
 struct EqualiseOptions {
   int picture_px = 512;         // longer side of the picture, [16, 4096]
-  int largest_window_px = 128;  // the largest neighbourhood, at most picture_px; each next is half as wide
-  int windows = 2;              // number of sizes, >= 1
-  int bins = 256;               // number of bins of a histogram, over all depths
+  int largest_window_px = 128;  // the largest neighbourhood, at most picture_px; others are half as wide each
+  int windows = 2;              // number of neighbourhood sizes, >= 1
+  int bins = 256;               // number of bins of a histogram, which covers all depths
   double clip = 12;             // limit of a bin, in units of the mean bin; the excess is spread over all
   double gradient_gain = 5;     // a in log(1 + a |g|) / a, the weight of a pixel with gradient g
 };
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options = {});
 
-// Gradient-domain compression: gradient_slopes() integrated with the background at the base.
+// Integrates gradient_slopes() to a relief of that height. The background lies at the base.
 Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options);
 
-// A linearly compressed base with amplified detail, which is the difference between the heights that the
-// normals give and a Gaussian blur of them in the view plane. After Ji, Sun, Li and Wang, Real-time
-// bas-relief generation from depth-and-normal maps on GPU, 2014.
+// A linearly compressed base with amplified detail. The detail is the difference between the heights that the
+// normals give and a Gaussian blur of these heights in the view plane. Source: Ji, Sun, Li and Wang,
+// Real-time bas-relief generation from depth-and-normal maps on GPU, 2014.
 struct DetailOptions {
   double amplification = 10;  // factor of the detail relative to the base
   double scale = .08;         // the Gaussian's standard deviation, as a share of the surface's longer side

@@ -1,4 +1,4 @@
-// Control points (stage 7): a few thousand of the visible points, which represent all of them. Paper, section
+// Control points (stage 7): a few thousand visible points that represent all visible points. Paper, section
 // 4.2.
 #pragma once
 
@@ -11,25 +11,23 @@ namespace relievo {
 
 struct ControlPointOptions {
   std::size_t count = 8000;  // approximate number of control points, the paper's n2; > 0
-  double at_boundary =
-      .5;  // radius at the boundary, as a share of the radius inside, (0, 1]: the rim is denser
+  double at_boundary = .5;   // spacing at the boundary, as a share of the spacing inside, (0, 1]
 };
 
 struct ControlPoints {
   // Indices of the control points; those on the boundary come first.
   std::vector<Index> points;
   std::size_t boundary_points = 0;
-  double radius = 0;  // r2: every point has a control point this near; 0 if all are chosen
+  double radius = 0;  // the paper's r2: every point has a control point within it; 0 if all are chosen
 };
 
-// Returns control points of the points in the view plane, about as many as wanted, by growing regions from
-// the boundary inwards.
+// Chooses about `count` of the points in the view plane, by growing regions from the boundary inwards.
+// `boundary_distance` is the distance of each point to the boundary, 0 on it.
 //
-// `boundary_distance` is the distance of each point to the boundary, 0 on it. No two chosen boundary points
-// are nearer to each other than `at_boundary` radii. Towards the inside this spacing widens by half the
-// distance to the boundary until it is one radius, and no chosen inner point is nearer to an earlier one than
-// the spacing. All points are chosen if that many are wanted. The result does not depend on the order of the
-// points, except for coincident ones.
+// A point is chosen unless an earlier chosen point is nearer than the spacing. On the boundary the spacing is
+// `at_boundary` times the result's `radius`. Inwards it grows by half the distance to the boundary, up to
+// `radius`. All points are chosen if there are no more than `count`. The result does not depend on the order
+// of the points, except for coincident ones.
 ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const float> boundary_distance,
                                   const ControlPointOptions& options = {});
 

@@ -1,4 +1,4 @@
-// Heights (stage 8): the surface that fits given slopes. Paper, equation (9).
+// Heights (stage 8): computes the surface that fits given slopes. Paper, equation (9).
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace relievo {
 
 class SlicedEllMatrix;
 
-// Equation (9) for fixed points, written for slopes. Over all edges pq of triangles inside the relief, it
-// solves z_p - z_q = (s_p + s_q) / 2 . (p - q) by least squares with cotangent weights, and z = 0 at boundary
-// points exactly. The matrix does not depend on the slopes: it is factored once. Slopes are (dz/dx, dz/dy).
-// Concurrent solves are safe, each with a workspace of its own.
+// Equation (9) for a fixed set of points. Over all edges pq of triangles inside the relief, it fits z_p - z_q
+// to (s_p + s_q) / 2 . (p - q) by least squares with cotangent weights; s is the slope (dz/dx, dz/dy). At
+// boundary points z is exactly 0. The matrix does not depend on the slopes and is factored once. Concurrent
+// solves are safe if each has its own workspace.
 class HeightSystem {
  public:
   // Scratch memory of solves, so that they allocate nothing.
@@ -26,13 +26,13 @@ class HeightSystem {
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies the parts of its arguments that it needs. The weight of an edge is multiplied by the mean of its
-  // ends' `weights`, one per point, in (0, 1]; without them by 1. Errors: those of
-  // solver::Cholesky::factor(), which a Delaunay triangulation with its boundary does not cause.
+  // Copies the parts of its arguments that it needs. `weights` has a weight per point, in (0, 1], or is
+  // empty, which means 1. The weight of an edge is multiplied by the mean weight of its two ends. Errors:
+  // those of solver::Cholesky::factor(), which a Delaunay triangulation with its boundary does not cause.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
                                     const Boundary& boundary, std::span<const float> weights = {});
 
-  // Returns the number of points, and so of slopes and of heights.
+  // Returns the number of points. Slopes and heights have one entry per point.
   std::size_t size() const;
 
   // Returns the memory used, in bytes.
@@ -40,18 +40,19 @@ class HeightSystem {
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Returns the matrix of the right-hand side: entries between neighbours and from every point to itself.
-  // Other matrices over the same points reuse its pattern.
+  // Returns the matrix of the right-hand side. It has an entry for every pair of neighbours, and for every
+  // point with itself. Other matrices over the same points reuse its pattern.
   const SlicedEllMatrix& divergence_matrix() const { return *edges_; }
 
   // Writes the height of every point above the base to `heights`; boundary points get 0. The solution is
   // exact: its residual is at the level of rounding.
   void solve(std::span<const Vec2> slopes, std::span<double> heights) const;
 
-  // Does the same in single precision, for frames. The error is about 1e-6 of the span of the heights.
+  // Solves in single precision, for frames. The error is about 1e-6 of the span of the heights.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
-  // Solve in place for a right-hand side that the caller wrote; boundary points stay as they are.
+  // Solve in place: the right-hand side that the caller wrote is replaced by the heights. Values at boundary
+  // points stay as they are.
   void solve_in_place(std::span<double> heights) const;
   void solve_in_place(std::span<float> heights, Workspace& workspace) const;
 
@@ -59,8 +60,8 @@ class HeightSystem {
   HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges);
 
   solver::Cholesky factor_;
-  // Coefficients of the right-hand side: half the weight times the step from the other point; 0 at boundary
-  // points.
+  // Coefficients of the right-hand side: half an edge's weight times the vector from the other point; 0 at
+  // boundary points.
   std::unique_ptr<const SlicedEllMatrix> edges_;
 };
 

@@ -1,4 +1,4 @@
-// Normals split into layers by the size of the forms that they show: the layered style compresses coarse
+// Splits normals into layers by the size of the forms that cause them. The layered style compresses coarse
 // layers more than fine ones.
 #pragma once
 
@@ -43,14 +43,15 @@ Vec2f faded_xy(const Vec3f& normal);
 // Returns the layers of every point of a surface. Takes about 0.1 s for 180k points.
 std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals);
 
-// The share of each layer that a relief keeps: w_k = 1 - exp(-u), equation (6), per layer, times
-// (2 - height_share), which compensates for the contrast that the height correction removes.
+// The share of each layer that a relief keeps: w_k = 1 - exp(-u) of equation (6), times (2 - height_share).
+// The second factor compensates for the contrast that the height correction removes.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
   float height_share = 1;  // MembraneParams::height_share
 
-  // Returns the weights at u in [0, infinity]. `detail` >= 0, which is Shape::gamma, lowers the u of the coarser layers, by
-  // factors of exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all alike. `height_share` in [0, 1].
+  // Returns the weights at u in [0, infinity]. `detail` >= 0 is Shape::gamma. It multiplies the u of the
+  // middle, coarse and broad layers by exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all
+  // layers alike. `height_share` is in [0, 1].
   static LayerWeights of(double u, double detail, double height_share);
 };
 

@@ -1,5 +1,5 @@
-// The methods of making a relief, their names, and the number of points that they use. To add a baseline,
-// give it an enumerator, a declaration and a row here, and write it in src/relief/baselines/.
+// The methods of making a relief, their names, and the number of points that they use. To add a baseline, add
+// an enumerator, a declaration and a row here, and implement it in src/relief/baselines/.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@ struct Shape;
 
 enum class Method { layered, paper, linear, equalise, gradient, base_detail };
 
-// Makes a relief by a published method, for comparison. It has exactly the height asked for, > 0, and its
-// boundary points are on the base; it is flat if the surface has no height to scale. Relief::shape of the
-// result has no meaning.
+// Makes a relief by a published method, for comparison. The relief has exactly the height asked for, > 0, and
+// its boundary points are on the base. It is flat if the surface has no height to scale. Its Relief::shape
+// has no meaning.
 using Baseline = Relief(const ReliefModel& model, double height);
 
 // baselines.h declares variants with options.
@@ -31,15 +31,15 @@ struct MethodInfo {
   std::string_view name;  // the word that users type
   // Makes the relief of a baseline; null for methods that shape a relief by Shape.
   Baseline* make = nullptr;
-  bool needs_all_points = false;  // if so, it has no subspace mode
+  bool needs_all_points = false;  // if true, the method has no subspace mode
 };
 
 inline constexpr std::array methods{
-    // Normals compressed layer by layer, heights by a smooth correction.
+    // Compresses normals layer by layer, and heights by a smooth correction.
     MethodInfo{Method::layered, "layered"},
     // Normal space compression as in the paper.
     MethodInfo{Method::paper, "paper"},
-    // Depths, scaled.
+    // Scales the depths.
     MethodInfo{Method::linear, "linear", linear_relief},
     // Adaptive histogram equalisation of the depths (Sun et al. 2009).
     MethodInfo{Method::equalise, "equalise", equalised_relief},
@@ -53,16 +53,16 @@ inline constexpr std::array methods{
 Result<Method> parse_method(std::string_view name, std::string_view option = "method");
 std::string_view name_of(Method method);
 
-// Returns all names, for people: "layered, paper, ...".
+// Returns all names, for messages: "layered, paper, ...".
 std::string method_names();
 
 // Returns whether the method shapes a relief by Shape; baselines have options of their own.
 bool has_shape(Method method);
 
-// Returns the default shape of a method that has one, for a height that is asked for.
+// Returns the default shape of a method with has_shape(), for reliefs of a requested height.
 Shape default_shape(Method method);
 
-// Returns the relief of that height by that method: ReliefModel::make_at_height(), or a baseline with its
+// Makes a relief of that height by that method: by ReliefModel::make_at_height(), or by a baseline with its
 // default options, which ignores `shape`. Errors: those of make_at_height(); kind option if the method needs
 // the system of all points and the model has none.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,

@@ -1,4 +1,4 @@
-// The relief of a surface: prepared once, shaped many times. Stages 7 to 12 and 14.
+// Reliefs of a surface. A model is prepared once and makes reliefs of many shapes. Stages 7 to 12 and 14.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ struct Surface;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
-  double height = 0;            // h: highest minus lowest of the heights and 0, detail included
-  Shape shape;                  // the shape that it was made with
+  double height = 0;            // h: highest minus lowest height, detail included; 0 counts as a height
+  Shape shape;                  // the shape that the relief was made with
 };
 
 // Above this number of visible points Mode::automatic means subspace: exact frames would take more than 40 ms
@@ -43,9 +43,9 @@ class ReliefModel {
   // cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
-  // Does the same for exact reliefs, without tuning: the height correction has the parameters of `other`, a
-  // model of the same scan in another view, or the defaults if `other` is null. It is for reliefs that are
-  // shown only briefly.
+  // Prepares a model for exact reliefs that are shown only briefly. Nothing is tuned: the height correction
+  // has the parameters of `other`, a model of the same scan in another view, or the defaults if `other` is
+  // null.
   static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface,
                                           Progress* progress = nullptr);
 
@@ -55,10 +55,12 @@ class ReliefModel {
 
   const Surface& surface() const;
 
-  // Returns the layers of the surface's normals; empty in subspace mode, whose control points have their own.
+  // Returns the layers of the surface's normals. They are empty in subspace mode, where the control points
+  // have their own layers.
   std::span<const PointLayers> layers() const;
 
-  // Returns the system of all points, or of the control points; the other is null.
+  // Return the system of all points (exact mode) or the model of the control points (subspace mode); the
+  // other pointer is null.
   const HeightSystem* system() const;
   const SubspaceModel* subspace() const;
 
@@ -76,7 +78,7 @@ class ReliefModel {
   // gradient-domain compression does, where that is possible.
   MembraneParams membrane_at(double u) const;
 
-  // Returns the shape, with the parameters of membrane_at() for its u if it is layered and sets none.
+  // Returns the shape. A layered shape without membrane parameters gets those of membrane_at() for its u.
   Shape with_membrane(Shape shape) const;
 
   // Returns the memory used, in bytes.
@@ -85,11 +87,12 @@ class ReliefModel {
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
 
-  // Returns the relief whose height is `height`, detail included, by changing the compression's u at the
-  // beta, gamma and slope asked for (the intent of Algorithm 1, section 3.6). If no u gives that height, u is
-  // infinite and depth jumps supply the missing height, at most their depth: Shape::steps of the result.
-  // Errors: kind geometry if that does not suffice; the message states the largest height that is reached, in
-  // units of `unit_mm` millimetres. Kind cancelled.
+  // Returns the relief whose height, detail included, is `height`. To find it, u of the compression is
+  // changed, while beta, gamma and the slope limit stay as asked for (the intent of Algorithm 1, section
+  // 3.6). If no u gives that height, u is infinite, and depth jumps of at most their real depth supply the
+  // missing height; Shape::steps of the result is their share. Errors: kind geometry if that does not
+  // suffice; the message states the largest possible height in millimetres, computed with `unit_mm`
+  // millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

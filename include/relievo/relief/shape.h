@@ -16,25 +16,26 @@ enum class Style {
 
 // Parameters of HeightCorrection, which compresses layered heights.
 struct MembraneParams {
-  // Height of the relief, as a share of the height that (9) gives its slopes, (0, 1].
+  // Height of the relief, as a share of the height that (9) gives for its slopes, (0, 1].
   double height_share = 1;
-  // Pull length, as a share of the longer side, > 0. A shorter one pulls points harder to their depth's rank;
-  // infinity switches the correction off.
+  // Pull length, as a share of the longer side, > 0. A shorter pull length pulls each point harder to a
+  // height that is proportional to the rank of its depth among all points. Infinity switches the correction
+  // off.
   double pull_length = .1;
 
   bool operator==(const MembraneParams&) const = default;
 };
 
-// Height and saturation of a relief. The paper's height coefficient is alpha; u = alpha^-beta is equivalent
-// to it for every beta > 0, and gives every height also at beta = 0, where alpha has no effect.
+// Height and saturation of a relief. The paper's height coefficient is alpha. For every beta > 0, u =
+// alpha^-beta is equivalent to alpha; u also gives every height at beta = 0, where alpha has no effect.
 struct Compression {
   double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal that has curvature
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
-  // Replaces the exponential of (6): w_k = 1 - (1 - curve(|k|))^u, so that u still sets the height and u = 1
-  // keeps the share that the curve gives. Beta has no effect then.
+  // If set, it replaces the exponential of (6): w_k = 1 - (1 - curve(|k|))^u. So u still determines the
+  // height, and at u = 1 the share of the curve is kept. Beta then has no effect.
   std::shared_ptr<const ToneCurve> curve = nullptr;
 
-  // Two curves are equal if they go through the same points.
+  // Two curves are equal if they pass through the same points.
   bool operator==(const Compression& other) const;
 
   // Returns the compression of the paper's alpha, in [0, infinity), and beta.
@@ -45,14 +46,14 @@ struct Compression {
 
 struct Shape {
   Compression compression;    // height and saturation
-  double gamma = 0;           // detail coefficient, [0, 1]; in layers it attenuates the coarse ones
-  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
-  double boundary_width = 2;  // width of (7), in rho, > 0: a wider one softens the rim
-  // Least share of the height that depth jumps take, [0, 0.95]; 0 removes them. Where slopes alone do not
-  // reach a height that is asked for, jumps take the share that is missing.
+  double gamma = 0;           // detail coefficient, [0, 1]; in the layered style it attenuates coarse layers
+  double max_slope = 4;       // largest target slope, > 0; 4 is 76 degrees
+  double boundary_width = 2;  // width of (7), in units of rho, > 0; a larger width softens the rim
+  // Least share of the height for depth jumps, [0, 0.95]; 0 removes the jumps. If slopes alone do not reach a
+  // requested height, jumps supply the rest.
   double steps = 0;
   Style style = Style::paper;
-  // Used by the layered style alone; if not set, ReliefModel::membrane_at() of the model applies.
+  // Used only by the layered style. If not set, ReliefModel::membrane_at() of the model applies.
   std::optional<MembraneParams> membrane = {};
 
   bool operator==(const Shape&) const = default;

@@ -1,5 +1,5 @@
-// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. Most of a
-// relief costs the same however large the cloud is.
+// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. Most of the
+// work for a relief does not depend on the size of the cloud.
 #pragma once
 
 #include <memory>
@@ -16,22 +16,22 @@ namespace relievo {
 
 struct SubspaceOptions {
   ControlPointOptions control;
-  std::size_t normals_per_point = 8;  // samples whose mean slope a control point gets, > 0
+  std::size_t normals_per_point = 8;  // number of samples whose mean slope a control point gets, > 0
   double max_slope = 4;               // slope limit of the reference heights, see Shape
 };
 
-// Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
+// Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is the system of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
-// Control points with their factored system. The heights of all points follow from those of the control
-// points: z = ratio z_ref + offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of
-// compressed and reference heights, both solved on the control points; the offset is the part of the
-// compressed heights that a smooth ratio cannot represent, above all where z_ref passes 0. Multilevel
-// B-splines extend both to all points.
+// Control points with their factored system. The height of any point is z = ratio z_ref + offset, where z_ref
+// is its reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by
+// the reference height, both solved on the control points. The offset is the part of the compressed height
+// that a smooth ratio cannot represent, above all where z_ref passes 0. Multilevel B-splines extend ratio and
+// offset to all points.
 //
-// Reliefs differ from the exact ones by about 1 % of the height (root mean square), layered ones by 1 to 4 %;
-// low reliefs differ most: docs/decisions/subspace.md. Const calls may run concurrently, each with a
-// workspace of its own.
+// Reliefs differ from exact reliefs by about 1 % of the height (root mean square), layered reliefs by 1 to 4
+// %. Low reliefs differ most: see docs/decisions/subspace.md. Const calls may run concurrently if each has
+// its own workspace.
 class SubspaceModel {
  public:
   // Scratch memory of a relief, so that frames allocate nothing.
@@ -41,7 +41,7 @@ class SubspaceModel {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Returns the memory used, in bytes, except for a few per control point.
+    // Returns the memory used, in bytes, without a few bytes per control point.
     std::size_t memory() const;
 
    private:
@@ -51,9 +51,9 @@ class SubspaceModel {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Results that callers may already have; prepare() computes the empty ones.
+  // Results that the caller may already have. prepare() computes those that are empty.
   struct Known {
-    std::span<const double> reference = {};    // reference_heights() for the same greatest slope
+    std::span<const double> reference = {};    // reference_heights() for the same max_slope
     std::span<const PointLayers> layers = {};  // normal_layers() of the surface
   };
 
@@ -79,7 +79,7 @@ class SubspaceModel {
   // shape's boundary width.
   void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
 
-  // Extends the solution to all points: writes the heights above the base, before detail.
+  // Extends the solution to all points: writes their heights above the base, without detail.
   void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
 
  private:

@@ -1,4 +1,5 @@
-// Saturation as a tone curve: the share of a normal that is kept, drawn by hand over the curvature |k|.
+// Saturation as a tone curve that the user draws: the share of a normal that is kept, as a function of the
+// curvature |k|.
 #pragma once
 
 #include <string>
@@ -10,14 +11,14 @@
 
 namespace relievo {
 
-// A smooth curve through points, over the square root of |k|: most of a scan's curvature is slight, and the
-// root gives slight curvature more room. Between two points the curve stays between their values; before the
-// first and after the last it is level. Immutable.
+// A smooth curve through given points, as a function of the square root of |k|. The root gives more room to
+// slight curvature, which most points of a scan have. Between two given points the curve stays between their
+// values; before the first and after the last it is level. Immutable.
 class ToneCurve {
  public:
   static constexpr std::size_t most_points = 16;
 
-  // Takes 1 to 16 points (sqrt(|k|), share kept), both in [0, 1], in ascending order of the first. Errors:
+  // Takes 1 to 16 points (sqrt(|k|), share kept), both in [0, 1], in ascending order of sqrt(|k|). Errors:
   // kind option for anything else.
   static Result<ToneCurve> through(std::vector<Vec2> points);
 
@@ -32,10 +33,11 @@ class ToneCurve {
   explicit ToneCurve(std::vector<Vec2> points);
 
   std::vector<Vec2> points_;
-  std::vector<double> slopes_;  // at the points
+  std::vector<double> slopes_;  // derivatives of the curve at the points
 };
 
-// Parses "0,0.2;0.5,0.4;1,1", pairs of numbers with semicolons between. Errors: kind option, as through().
+// Parses pairs of numbers with semicolons between them, such as "0,0.2;0.5,0.4;1,1". Errors: kind option, as
+// for through().
 Result<ToneCurve> parse_tone_curve(std::string_view text);
 
 }  // namespace relievo

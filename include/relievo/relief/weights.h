@@ -14,18 +14,19 @@
 
 namespace relievo {
 
-// Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
-// overflows. Where delta is 0 (no curvature anywhere), all points get the same weight, as for beta = 0.
+// Returns w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), equation (6), in [0,
+// 1]. Never overflows. If delta is 0 (no curvature anywhere), all points get the same weight, as for beta =
+// 0.
 double curvature_weight(double k, double delta, const Compression& compression);
 
-// Equation (7), w_b = 1 - exp(-(distance / (2 rho))^2), in [0, 1].
+// Returns w_b = 1 - exp(-(distance / (2 rho))^2), equation (7), in [0, 1].
 double boundary_weight(double distance, double rho);
 
-// Returns w_b for distances to the boundary.
+// Returns w_b for each distance to the boundary.
 std::vector<float> boundary_weights(std::span<const float> distance, double rho);
 
-// Equation (5), divided by its z: returns the slope (dz/dx, dz/dy) of the compressed normal w n + (1 - w)
-// (0, 0, 1), shortened to at most `max_slope`. The normal is a unit vector with z >= 0.
+// Returns the slope (dz/dx, dz/dy) of the compressed normal w n + (1 - w) (0, 0, 1) of equation (5),
+// shortened to at most `max_slope`. The normal is a unit vector with z >= 0.
 template <typename Real>
 Eigen::Vector2<Real> compressed_slope(const std::type_identity_t<Eigen::Vector3<Real>>& normal, Real w,
                                       std::type_identity_t<Real> max_slope) {
@@ -44,18 +45,20 @@ struct SlopeInput {
   std::span<const float> k;                  // normalised mean curvature
   std::span<const float> boundary_weight;    // w_b
   double delta = 0;                          // standard deviation of |k|
-  std::span<const PointLayers> layers = {};  // used by the layered style alone
+  std::span<const PointLayers> layers = {};  // used only by the layered style
 };
 
-// Writes the target slope of every point: in the paper's style compressed_slope() with w = w_k w_b, in the
-// layered style layered_slope() with layer_weights(shape), times w_b and the factor of the saturation.
+// Writes the target slope of every point. In the paper's style it is compressed_slope() with w = w_k w_b. In
+// the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied by w_b
+// and by the factor of the saturation.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
-// Returns the weights of a layered shape; without membrane parameters, those at a height share of 1.
+// Returns the layer weights of a layered shape. If the shape has no membrane parameters, the height share is
+// 1.
 LayerWeights layer_weights(const Shape& shape);
 
-// Splits off the saturation: w_k of saturation_alone(c), times saturation_scale(c), is the factor that
-// saturation or tone curve apply to a layered slope. It is 1 everywhere for saturation 0.
+// Splits the saturation off a compression c. The factor that saturation or tone curve apply to a layered
+// slope is saturation_scale(c) times w_k of saturation_alone(c). It is 1 everywhere for saturation 0.
 Compression saturation_alone(const Compression& compression);
 double saturation_scale(const Compression& compression);
 

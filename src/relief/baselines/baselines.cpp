@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Returns the slopes of the normals, shortened to 76 degrees, the default of our own Shape::max_slope: a few
-// steeper ones at silhouettes would take most of the height.
+// Returns the slopes of the normals, shortened to 76 degrees, the default of Shape::max_slope. Without that,
+// a few steeper slopes at silhouettes would take most of the height.
 std::vector<Vec2> moderate_slopes(const Surface& surface) {
   constexpr double steepest = 4;
   std::vector<Vec2> slopes(surface.points.size());
@@ -26,8 +26,8 @@ std::vector<Vec2> moderate_slopes(const Surface& surface) {
   return slopes;
 }
 
-// Blurs in the view plane, where these heights have no jumps. The cells of a blur are as wide as its Gaussian
-// and would show once amplified, so sixteen narrow blurs take the place of one.
+// Blurs heights of (9) in the view plane, in which they have no jumps. The cells of a blur are as wide as its
+// Gaussian. Amplified detail would show them, so sixteen narrow blurs replace one wide blur.
 std::vector<Vec2f> smoothed(const std::vector<double>& heights, const Surface& surface, double sigma) {
   std::vector<Vec3> flat = surface.points;
   for (Vec3& p : flat) p.z() = 0;

@@ -24,7 +24,7 @@ struct Depths {
   Depths(const Surface& surface, int bins_) : bins(bins_) {
     for (const Vec3& p : surface.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
   }
-  // Returns a depth in bins, at least 0 and below their number.
+  // Returns a depth in units of bins, from 0 to less than the number of bins.
   double place(double z) const {
     const double span = std::max(highest - lowest, 1e-300);
     return std::clamp((z - lowest) / span * bins, 0.0, std::nextafter(static_cast<double>(bins), 0.0));
@@ -60,8 +60,8 @@ Histogram histogram_around(const DepthPicture& picture, int column, int row, int
   return counts;
 }
 
-// Turns counts into the equalising curve: clips bins at the limit, spreads the excess over all bins, and sums
-// up to values in [0, 1] at the bins' upper ends. Without any weight the curve is the identity.
+// Turns counts into the equalising curve: clips bins at the limit, spreads the excess over all bins, and adds
+// up the bins to values in [0, 1] at their upper ends. If all counts are 0, the curve is the identity.
 void equalise(Histogram& counts, double clip) {
   const auto bins = static_cast<double>(counts.size());
   double total = 0, cut = 0;

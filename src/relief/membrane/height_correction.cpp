@@ -16,20 +16,23 @@
 namespace relievo {
 namespace {
 
-// The width of a cell, as a share of the longer side: a quarter of the bending length, so that cells resolve
-// it. Where points are too sparse for that, cells have the least width, in sampling distances.
+// The width of a cell is `cell_size` of the longer side, a quarter of the bending length, so that cells
+// resolve this length. If points are too sparse for that, it is `least_cell_size` sampling distances.
 constexpr double cell_size = .007, least_cell_size = 2;
-// The bending stiffness of a hinge, as a share of that elsewhere: next to none, but the system stays regular.
+// The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is almost 0, but keeps the
+// system regular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// The coverage from which on nodes are free, and the one from which on they have a lower limit. Nearer to the
-// silhouette the ties keep the field up. Heights rise steeply there, and limits would jump from node to node.
+// Nodes are free if their coverage is above `least_coverage`, and have a lower limit above
+// `limited_coverage`. Nearer to the silhouette the ties keep the field up. Heights rise steeply there, and
+// limits would jump from node to node.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
-// The tension outside, as a share of that inside: with it the field continues evenly outside.
+// The tension outside, as a share of the tension inside. It makes the field continue evenly outside.
 constexpr float least_tension = .1F;
 // The stiffness of a tie per length of silhouette in cells, in units of the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// The least height of the field on the silhouette, as a share of the relief's: ties yield by about as much.
+// The lower limit of the field on the silhouette, as a share of the relief's height. The field falls below
+// the limit by about as much, so to about 0.
 constexpr float least_at_silhouette = .03F;
 
 std::vector<Index> free_points(const Boundary& boundary) {
@@ -51,8 +54,8 @@ struct Scale {
   }
 };
 
-// Returns per node the share of the lattice around it that the surface covers: 1/2 on the silhouette,
-// smoothly rising to 1 within two cells from it, wherever it passes between the nodes.
+// Returns, per node, the share of the lattice around it that the surface covers. The share is 1/2 on the
+// silhouette and rises smoothly to 1 within two cells, wherever the silhouette passes between the nodes.
 std::vector<float> coverage_of(const Surface& surface, const Lattice& lattice) {
   std::vector<float> coverage(lattice.nodes());
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -88,7 +91,7 @@ std::vector<float> tension_of(std::span<const float> weights, const Lattice& lat
   return tension;
 }
 
-// Returns the edges that belong to only one triangle inside.
+// Returns the edges that belong to only one triangle inside the relief.
 std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   const auto is_inside = [&](const TriangleSide& side) {
     const Boundary& boundary = surface.boundary;
@@ -102,8 +105,8 @@ std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   return edges;
 }
 
-// Returns a tie for each cell that the silhouette crosses. It lies in the middle of the silhouette's part in
-// the cell, and its stiffness is proportional to the length of that part.
+// Returns a tie for each cell that the silhouette crosses. The tie lies in the middle of the part of the
+// silhouette in that cell, and its stiffness is proportional to the part's length.
 std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& lattice) {
   std::vector<solver::Tie> ties;
   std::vector<Index> tie_of(lattice.nodes(), no_index);
@@ -150,8 +153,8 @@ std::size_t HeightCorrection::Workspace::memory() const {
   return sum;
 }
 
-// Strong compression needs all of the height, so the relief may then stand off the base at the silhouette:
-// the stiffness falls from 1 at a share of 1 to 0.1 at 0.775. See
+// Strong compression needs all of the height, so the relief may then stand off the base at the silhouette.
+// The boundary stiffness falls from 1 at a height share of 1 to 0.1 at 0.775. See
 // docs/decisions/height-correction.md.
 HeightLimits HeightLimits::of(double height, const MembraneParams& params) {
   constexpr double least = .1, fall = 4;
@@ -185,8 +188,8 @@ std::size_t HeightCorrection::memory() const {
   return lattice_.memory() + sheet_.memory() + bytes(ranks_) + bytes(coverage_);
 }
 
-// Returns how far the heights of points lie above and below those interpolated from the lattice, in the cells
-// around a node.
+// Returns by how much, in the cells around a node, the heights of points lie above and below the heights
+// interpolated from the lattice.
 Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace& w) const {
   Lattice::Extent rest{infinity, -infinity};
   lattice_.each_cell(node, [&](std::size_t cell, std::size_t) {
@@ -240,8 +243,8 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   const std::span<Real> z = heights.values;
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
-  // (9) gives 0 at the silhouette, but b need not be 0 there. Points that stay below the base are raised to
-  // it: few as they are, they would take height from all others.
+  // (9) gives 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. Points that stay
+  // below the base are raised to it. They are few, but would take height from all other points.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));

@@ -1,5 +1,5 @@
 // The height correction: a smooth field that compresses the heights of a layered relief to the height asked
-// for. Other names in the code call it the membrane.
+// for. Names in the code also call this field the membrane.
 #pragma once
 
 #include <span>
@@ -22,14 +22,14 @@ struct HeightLimits {
   static HeightLimits of(double height, const MembraneParams& params);
 };
 
-// A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Of all such fields it is
-// close to the one with the least energy, which docs/method.md gives under "The height correction".
+// A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Among all such fields, b
+// is close to the field with the least energy, which docs/method.md defines under "The height correction".
 //
-// b is given on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits
-// leave room for the heights between nodes. Along the silhouette b is tied to 0 on the curve itself, and kept
-// from falling below about 0. The lattice continues beyond the silhouette, so that b does not depend on where
-// it passes between the nodes. Const calls may run concurrently, each with a workspace of its own; results
-// are the same bits for any number of threads.
+// b is given on a lattice with cells of 0.7 % of the longer side, or wider cells if points are sparse. The
+// limits leave room for the heights between nodes. Along the silhouette b is tied to 0 on the curve itself,
+// and kept from falling below about 0. The lattice continues beyond the silhouette, so that b does not depend
+// on where the silhouette passes between the nodes. Const calls may run concurrently if each has its own
+// workspace. Results are the same bits for any number of threads.
 class HeightCorrection {
  public:
   // The bending length of b, as a share of the longer side. docs/decisions/height-correction.md gives the
@@ -52,12 +52,12 @@ class HeightCorrection {
 
   Workspace make_workspace() const;
 
-  // Returns the bytes of memory in use, workspaces not counted.
+  // Returns the bytes of memory in use, without workspaces.
   std::size_t memory() const;
 
   // Finds b for heights, one per point, and keeps it in the workspace. A few points may stay slightly outside
-  // the limits, because b is smooth. Where heights are rougher than the limits allow, the excess is shared
-  // between both ends. Instantiated for float and double.
+  // the limits, because b is smooth. If heights are rougher than the limits allow, both limits are exceeded
+  // equally. Instantiated for float and double.
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 
@@ -79,9 +79,9 @@ class HeightCorrection {
     HeightLimits limits;
   };
 
-  // Adds b to the heights, clips the few highest and lowest softly (SoftClip) and scales the result to
-  // exactly the height of the limits, base included. Does nothing if that height is 0 or all heights are 0.
-  // Instantiated for float and double.
+  // Adds b to the heights, clips the few highest and lowest heights softly (SoftClip), and scales the result
+  // to exactly the height of the limits, base included. Does nothing if that height is 0 or all heights are
+  // 0. Instantiated for float and double.
   template <typename Real>
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 
@@ -93,7 +93,7 @@ class HeightCorrection {
   Lattice lattice_;
   std::vector<float> coverage_;  // per node: share of the lattice around it that the surface covers
   solver::ObstacleSolver sheet_;
-  std::vector<float> ranks_;  // per node
+  std::vector<float> ranks_;  // per node: the rank of the depth there, from 0 (farthest) to 1 (nearest)
 };
 
 }  // namespace relievo

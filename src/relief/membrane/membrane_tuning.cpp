@@ -25,21 +25,21 @@ constexpr std::size_t least_pixels = 100;
 // order. See docs/decisions/membrane-tuning.md.
 constexpr double least_share = .2, usual_most_share = .75, most_share = 1, least_pull_length = .035,
                  most_pull_length = .2;
-// Numbers of bisection steps: of the pull length, and of the share in the first, coarse search and in the
-// second. Each search starts with a calibration.
+// Numbers of bisection steps: of the pull length, and of the height share in the first, coarse search and in
+// the second search. Each search starts with a calibration.
 constexpr int pull_steps = 4;
 constexpr std::array<int, 2> share_steps{3, 6};
 // Safety margin over the gradient-domain baseline. It covers the residual error of the calibration and the
 // interpolation error between knots. See docs/decisions/membrane-tuning.md.
 constexpr Scores margin{.0003, .002};
-// The rate at which the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are
+// The height share approaches 1 as u grows: 1 - share is proportional to e^(-growth u). So high reliefs are
 // compressed less.
 constexpr double growth = .25;
-// The largest sampling distance, as a share of the longer side, at which the coarsest detail of the metrics
-// is sampled.
+// The largest sampling distance, as a share of the longer side, at which points still resolve the coarsest
+// detail of the metrics.
 constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / ReliefMetrics::longer_side_px;
-// The parameters at which the search starts, between the extremes of the range. They are also the result
-// where nothing can be measured.
+// The parameters at which the search starts, between the extremes of the range. They are also the result if
+// nothing can be measured.
 constexpr MembraneParams initial{.5};
 // From one knot to the next the compressed height grows by this factor at least.
 constexpr double least_height_growth = 1.1;
@@ -59,7 +59,7 @@ struct LeastShare {
   Violation bound;  // violation at the next smaller share
 };
 
-// Searches the parameters for one u. All its shares are those for u = 0.
+// Searches the parameters for one u. All height shares here are stated for u = 0.
 class TuningSearch {
  public:
   TuningSearch(const BaselineComparison& comparison, double u)
@@ -70,7 +70,7 @@ class TuningSearch {
     span_ = height_span(initial_heights_);
   }
 
-  // Returns the approximate span of the heights that (9) gives at a share of 1.
+  // Returns the approximate span of the heights that (9) gives at a height share of 1.
   double span() const { return span_ / (2 - at_u(initial).height_share); }
 
   MembraneParams strongest() {
@@ -141,16 +141,17 @@ class TuningSearch {
     return {high, bound};
   }
 
-  // Starts from the best known candidate so that hopeless ones are rejected early. A shorter pull length
-  // keeps more of the order and less of the detail. If nothing satisfies both, returns the candidate with the
-  // smallest violation.
+  // Returns the parameters of the strongest compression that satisfies both constraints, by estimates; if
+  // nothing satisfies both, the candidate with the smallest violation. Starts from the best known candidate
+  // so that hopeless ones are rejected early. A shorter pull length keeps more of the depth order and less of
+  // the detail.
   MembraneParams strongest_by_estimate(std::optional<MembraneParams> best) {
     double low = least_pull_length, high = most_pull_length, length = most_pull_length;
     for (int i = 0; i <= pull_steps; ++i) {
       const auto [share, bound] = least_share_with(length, best ? best->height_share : most_share);
       if (share && (!best || *share < best->height_share)) best = MembraneParams{*share, length};
-      // If both are violated, a shorter length does not help; but the first length is the longest, so that
-      // the search can only go shorter.
+      // If both are violated, a shorter length does not help. But the first length is the longest, so the
+      // search can only continue with shorter ones.
       const bool is_shorter_better = bound.order && (share || !bound.detail || i == 0);
       if (i == 0 && !is_shorter_better) break;
       (is_shorter_better ? high : low) = length;
@@ -172,7 +173,7 @@ class TuningSearch {
 
 using Spans = std::array<double, MembraneTuning::knots.size()>;
 
-// Lowers shares so that the compressed height grows from knot to knot.
+// Lowers height shares so that the compressed height grows from knot to knot.
 void make_heights_grow(MembraneTuning& tuning, const Spans& spans) {
   for (std::size_t k = spans.size() - 1; k-- > 0;) {
     const double most = tuning.params[k + 1].height_share * spans[k + 1] / spans[k] / least_height_growth;
@@ -193,7 +194,7 @@ MembraneParams MembraneTuning::at(double u) const {
   const auto k = std::min(static_cast<std::size_t>(at), knots.size() - 2);
   const double part = at - static_cast<double>(k);
   const MembraneParams &before = params[k], &after = params[k + 1];
-  // The membrane's energy contains 1 / pull_length^2, so this is interpolated.
+  // The membrane's energy contains 1 / pull_length^2, so this value is interpolated.
   const auto pull = [](const MembraneParams& p) { return 1 / (p.pull_length * p.pull_length); };
   return {std::lerp(before.height_share, after.height_share, part),
           1 / std::sqrt(std::lerp(pull(before), pull(after), part))};

@@ -17,7 +17,7 @@
 
 namespace relievo {
 
-// The parts of a model that the membrane is tuned with. `system` is that of all points.
+// The parts of a model that are needed to tune the membrane. `system` is the system of all points.
 struct TuningInput {
   const Surface& surface;
   std::span<const PointLayers> layers;
@@ -26,12 +26,13 @@ struct TuningInput {
   const JumpLift& jump_lift;
 };
 
-// Keeps views of its input, which must outlive it. Const calls may run concurrently.
+// Compares compressed heights with gradient-domain compression, the baseline. Keeps views of its input, which
+// must outlive it. Const calls may run concurrently.
 class BaselineComparison {
  public:
   explicit BaselineComparison(const TuningInput& input);
 
-  // Returns whether there are enough pixels to measure, and anything to compress.
+  // Returns whether there are enough pixels to measure, and heights to compress.
   bool is_measurable() const;
 
   const FastMetrics& metrics() const { return metrics_; }
@@ -60,22 +61,23 @@ class MembraneTuning {
   // Values of u, each 2.5 times the last one.
   static constexpr std::array<double, 4> knots{.25, .625, 1.5625, 3.90625};
 
-  // Starts with the default parameters, which remain where nothing can be measured.
+  // Starts with the default parameters, which remain if nothing can be measured.
   MembraneTuning();
 
-  // Returns the parameters at u in [0, infinity]: between the knots the share and the pull, 1 /
-  // pull_length^2, are linear in ln u. The share tends to 1 as u grows, and the height to which (9) is
+  // Returns the parameters at u in [0, infinity]. Between the knots, the height share and 1 / pull_length^2
+  // are linear in ln u. The share tends to 1 as u grows, and the height to which the heights of (9) are
   // compressed grows with u.
   MembraneParams at(double u) const;
 
   std::array<MembraneParams, knots.size()> params;
 };
 
-// Searches the parameters at the knots by bisection (for layered_shape(); reused for other shapes).
-// Candidates are scored with FastMetrics; each search is calibrated with full reliefs. If nothing satisfies
-// both constraints, takes the candidate with the smallest violation. The share is capped at 0.75 (for u = 0)
-// unless depth order needs more; it is lowered where the height would otherwise fall as u grows. Returns the
-// default if the scan is too sparse to measure. Takes 0.2 s for 180k points. Errors: kind cancelled.
+// Searches the parameters at the knots by bisection, for layered_shape(); other shapes use the same
+// parameters. Candidates are scored with FastMetrics; each search is calibrated with full reliefs. If nothing
+// satisfies both constraints, takes the candidate with the smallest violation. The height share is at most
+// 0.75 (for u = 0) unless depth order needs more. It is lowered where the height would otherwise fall as u
+// grows. Returns the default if the scan is too sparse to measure. Takes 0.2 s for 180k points. Errors: kind
+// cancelled.
 Result<MembraneTuning> tune_membrane(const TuningInput& input, const Progress* progress = nullptr);
 
 }  // namespace relievo

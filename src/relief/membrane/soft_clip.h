@@ -12,9 +12,9 @@
 
 namespace relievo {
 
-// A monotone curve over heights: the identity between two limits, each with a share of `clipped_share` of the
-// points beyond it. The limits never cross 0, the base. Beyond them the slope falls from 1 to `least_slope`
-// at the extremes.
+// A monotone function of the height. It is the identity between two limits; beyond each limit lies a share
+// `clipped_share` of the points. The limits never cross 0, the base. Beyond them the slope falls from 1 to
+// `least_slope` at the extremes.
 template <typename Real>
 class SoftClip {
  public:
@@ -70,7 +70,7 @@ class SoftClip {
         1 << 15);
   }
 
-  // Returns how many bins, with a fraction, contain the number of points wanted.
+  // Returns the number of bins, with a fraction, that contain `wanted` points, counted from `begin`.
   template <typename It>
   static Real bins_from_end(It begin, It end, double wanted) {
     double sum = 0;

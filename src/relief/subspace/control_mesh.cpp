@@ -73,7 +73,8 @@ std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surfac
 }
 
 // Returns which points have height 0: those on the surface's boundary, and those in no inside triangle. A
-// connected piece may have neither, because the mesh cuts corners; then the points at its edge have height 0.
+// connected component of the mesh may have no such point, because the mesh cuts corners; then the points at
+// its edge have height 0.
 std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boundary_points) {
   const std::size_t n = mesh.points.size();
   std::vector<std::uint8_t> is_fixed(n, 0), is_used(n, 0), is_at_edge(n, 0), has_fixed(n, 0);
@@ -157,7 +158,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // remains where the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // stays if the region has no area
     sample(members[c], share, own);
   }
   return samples;

@@ -1,5 +1,5 @@
-// The triangulation of the control points, which of its triangles belong to the relief, and samples of the regions
-// around the points.
+// The triangulation of the control points, in which the triangles inside the relief are marked, and samples
+// of the surface for each control point.
 #pragma once
 
 #include <span>
@@ -18,12 +18,13 @@ struct ControlMesh {
 };
 
 // Returns the mesh of a surface's control points. A triangle is inside if most of its area is covered by
-// inside triangles of the surface, so that holes and concavities stay outside. The boundary points are those
-// of the surface; every connected piece has at least one.
+// inside triangles of the surface, so that holes and concavities stay outside. Boundary points are the
+// control points on the surface's boundary; every connected component has at least one boundary point.
 ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control);
 
-// Returns `per_region` points for each control point in turn, from the points nearest to it. Each represents
-// the same area in the view plane; in small regions some points are repeated.
+// Returns, for each control point in turn, `per_region` points of its region: surface points that are nearer
+// to it than to any other control point. Each stands for an equal part of the region's area in the view
+// plane. If a region has few points, some are repeated; if it has no area, the control point itself is.
 std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& control,
                                   std::size_t per_region);
 

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// The points chosen so far, in square cells at least one radius wide.
+// The points chosen so far, grouped into square cells at least one radius wide.
 class ChosenPoints {
  public:
   ChosenPoints(std::span<const Vec2> points, double radius) : points_(points) {
@@ -29,8 +29,8 @@ class ChosenPoints {
     first = i;
   }
 
-  // Returns whether a chosen point is nearer to point i than the radius, which is at most that of the
-  // constructor.
+  // Returns whether a chosen point is nearer to point i than the radius, which must not exceed the
+  // constructor's.
   bool has_within(Index i, double radius) const {
     const std::size_t c = column(i), r = row(i);
     for (std::size_t y = r - (r > 0); y <= std::min(r + 1, rows_ - 1); ++y)
@@ -100,8 +100,8 @@ ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const 
   const auto wanted = static_cast<double>(options.count);
   if (points.size() <= options.count || box_area(points) == 0) return best;
 
-  // The number of points times radius^2 hardly depends on the radius, so the second or third guess is within
-  // 3 %.
+  // The number of chosen points times radius^2 hardly depends on the radius, so the second or third guess is
+  // within 3 %.
   double radius = std::sqrt(box_area(points) / wanted);
   for (int round = 0; round < 6; ++round) {
     best = growth.grow(radius);

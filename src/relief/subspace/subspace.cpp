@@ -18,8 +18,9 @@ namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-// Ratio and offset share their lattices, whose cells go from 12 radii of the control points down to 3/4 of
-// one. The ratio is fitted on the coarsest two, the offset on the others.
+// The splines of ratio and offset (see SubspaceModel) have the same lattices. On the finest lattice cells are
+// at least 3/4 of the control points' radius wide, and on each coarser one twice as wide. The ratio is fitted
+// on the two coarsest lattices, the offset on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {
@@ -55,7 +56,7 @@ struct SubspaceModel::Workspace::Storage {
   std::vector<Vec2f> slopes;
   std::vector<float> heights, ratios, offsets;  // of the control points
   SplineFunction ratio, offset;
-  std::vector<float> pair;  // the nodes of both, interleaved
+  std::vector<float> pair;  // the nodes of both splines, interleaved
   MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
 
@@ -147,8 +148,8 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c
 }
 
-// Below a thousandth of the height range the reference height is too small to divide by: there the ratio
-// fades to that of all control points together.
+// Below a thousandth of the height range the reference height is too small to divide by. There the ratio
+// fades to the ratio of all control points together.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, boundary_weight, workspace);
@@ -161,8 +162,8 @@ void SubspaceModel::set_reference(double max_slope, std::span<const float> bound
   }
 }
 
-// The weights of the ratio's fit are the squares of z_ref at the control points. The fit of the ratio r then
-// minimises the squares of z_c - r z_ref.
+// The ratio r is fitted with weights z_ref^2 at the control points, so the fit minimises the sum of (z_c - r
+// z_ref)^2.
 void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
   std::vector<float> weights;
   for (const float z_ref : control_reference_) weights.push_back(z_ref * z_ref);
