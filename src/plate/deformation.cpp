@@ -18,8 +18,8 @@ constexpr std::size_t edges_per_task = 512;
 
 // The way in which a triangle will be split.
 struct Split {
-  // The position of the split on each edge, as a share of the way from its lower to its higher index; 0 if
-  // the edge is not split.
+  // The position of the split on each edge, as a share of the way from the end with the lower index to the
+  // other end; 0 if the edge is not split.
   std::array<double, 3> shares = {};
   std::optional<Vec3> place;  // a point inside, if no edge is split
   double left_mm = 0;         // largest deviation sampled, if nothing is split
@@ -41,8 +41,8 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
 }
 
 // Works in rounds: new triangles are sampled, all points that they need are added at once, and then the
-// triangles are split. Both triangles of an edge sample the same places and so split it at the same point.
-// That avoids T-junctions, although each triangle is examined separately.
+// triangles are split. The two triangles of an edge sample the edge at the same points and so split it at the
+// same point. That avoids T-junctions, although each triangle is examined separately.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
@@ -120,9 +120,9 @@ class Refiner {
     return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // Returns the first sample inside that deviates too much: samples lie in rows parallel to the longest edge.
-  // A point inside is added only if all three edges are within the tolerance, as can happen on the top of a
-  // hill.
+  // Returns the first sample inside the triangle that deviates too much. Samples lie in rows parallel to the
+  // longest edge. A point inside is added only if all three edges are within the tolerance, for example on
+  // the top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();
@@ -208,7 +208,7 @@ class Refiner {
     for (std::size_t e = 0; e < 3; ++e) parts_.push_back({t[e], t[(e + 1) % 3], within});
   }
 
-  // Splits a triangle into two to four. `middle` are the new points on its edges, no_index for none. A
+  // Splits a triangle into two to four. `middle` contains the new point on each edge, or no_index. A
   // quadrilateral is divided by its shorter diagonal, which keeps needles from becoming thinner.
   void split(const Triangle& t, const std::array<Index, 3>& middle) {
     const auto count = std::ranges::count_if(middle, [](Index i) { return i != no_index; });
@@ -218,7 +218,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // Edge e is split; if two edges are, so is the one after e.
+    // Edge e is split; if two edges are split, the other is the edge after e.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];

@@ -18,10 +18,10 @@ using IndexPolygon = std::vector<Index>;
 struct Deformation {
   std::function<Vec3(const Vec3&)> at;  // maps a point of the flat body to the curved one
   // Returns the position, in (0, 1), at which the segment between two points crosses a crease; nothing if it
-  // crosses none. May be null.
+  // crosses no crease. May be null.
   std::function<std::optional<double>(const Vec3&, const Vec3&)> crease_between = nullptr;
-  // An approximate length in mm within which the map curves to one side only. It spaces the samples of the
-  // error.
+  // An approximate length in mm within which the map curves to one side only. It determines the distance of
+  // the samples of the error.
   double min_feature_mm = std::numeric_limits<double>::infinity();
 };
 
@@ -32,8 +32,9 @@ inline constexpr double share_of_edges = .75;
 
 // Subdivides the flat triangles until the deformed mesh deviates from the deformed surface by at most
 // `tolerance_mm`; the triangles themselves stay flat. Edges shorter than 0.004 mm are never split. The parts
-// of a triangle take its place and its region; new points are appended, and those on an edge of `outline` are
-// inserted there. Returns the largest deviation that is left, in mm, as sampled on edges and inside.
+// of a triangle replace it and get its region. New points are appended, and new points on an edge of
+// `outline` are also inserted into `outline`. Returns the largest deviation that is left, in mm, as sampled
+// on edges and inside.
 double refine(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm);
 
 }  // namespace relievo

@@ -29,8 +29,8 @@ double luminance(const Colour& colour) {
   return .2126 * linear(colour[0]) + .7152 * linear(colour[1]) + .0722 * linear(colour[2]);
 }
 
-// Returns the brightness of a white surface under a large lamp at the upper left, whose light goes around
-// edges, so that surfaces that face away still show their form.
+// Returns the brightness of a white surface under a large lamp at the upper left. The lamp's light goes
+// around edges, so that surfaces that face away still show their form.
 double shade(const Vec3f& normal) {
   const Vec3f lamp = Vec3f(-1, 1, 1.6F).normalized();
   const double facing = .5 + .5 * static_cast<double>(normal.dot(lamp));
@@ -52,7 +52,8 @@ Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_
   return {std::clamp(dark, least_dark_of_bright * brightest, dark_of_bright * brightest), brightest};
 }
 
-// Returns 0 for the brightest points and 1 for the darkest; between them it is linear in the logarithm.
+// Returns the darkness: 0 for the brightest points, 1 for the darkest, and between them linear in the
+// logarithm of the brightness.
 double darkness(double bright, const Range& range) {
   if (!(range.brightest > 0)) return 1;
   const double within = std::clamp(bright, range.darkest, range.brightest);

@@ -113,7 +113,7 @@ std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vect
   return triangles;
 }
 
-// Triangles that cover everything inside the rim, the relief's first.
+// Triangles that cover everything inside the rim; the relief's triangles come first.
 struct Cover {
   std::vector<Triangle> triangles;
   std::size_t relief = 0;  // the number of the relief's triangles
@@ -141,9 +141,9 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
 }
 
 // Returns the given relief together with the ground of the triangulation. If the two do not fit together,
-// because points on one circle were triangulated in another way, the result is all of the triangulation.
-// Returns nothing if the triangulation connects points above the ground with new ones, or does not fit a
-// relief that is not Delaunay.
+// because points on one circle were triangulated in another way, returns the whole triangulation. Returns
+// nothing if the triangulation connects points above the ground with new ones, or does not fit a relief that
+// is not Delaunay.
 std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
                              const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();

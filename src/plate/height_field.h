@@ -19,7 +19,7 @@ struct HeightField {
   Box box;         // box of the front
   Image<float> z;  // millimetres above the front's lowest point; 0 beside the front
   Image<std::uint8_t> is_beside =
-      {};  // 1 for a pixel beside the front; empty if there are none or they are not marked
+      {};  // 1 for a pixel beside the front; empty if no pixel is, or if they are not marked
 
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - box.centre()) / mm_per_pixel;

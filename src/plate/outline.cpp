@@ -14,8 +14,9 @@ namespace {
 
 using Points = std::span<const Vec2>;
 
-// The distance of a curve from the middles of the sides of its inscribed polygon. Turning and polishing leave
-// larger errors; for curves of more than 10 m, files store no less than this share of the radius.
+// The largest distance of a curve from its inscribed polygon is finest_mm, or finest_share of the radius if
+// that is more. Machining and polishing leave larger errors than finest_mm. For curves of more than 10 m,
+// finest_share is what files can store.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
 // The distance of a line from the centre, as a function of the outline's size.
@@ -64,9 +65,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Returns the centre of the smallest circle around the points that lies midway between left and right, in a
-// plane stretched by 1 / scale. The centre of the smallest circle of all would put a figure visibly off the
-// middle.
+// Returns the centre of the smallest circle, in a plane stretched by 1 / scale, that encloses the points and
+// has its centre midway between left and right. With its centre anywhere, the smallest circle would put the
+// relief visibly off the middle.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -227,8 +228,8 @@ const OutlineShape* shape_of(Outline outline) {
   return found == shapes.end() ? nullptr : &*found;
 }
 
-// Returns the lengths on both sides of a separator. A unit after the second one alone applies to both, as in
-// "8x6in".
+// Returns the lengths on both sides of a separator. If only the second length has a unit, as in "8x6in", the
+// unit applies to both.
 std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit bare) {
   const std::size_t middle = text.find(separator);
   if (middle == std::string_view::npos) return std::nullopt;

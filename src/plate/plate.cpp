@@ -22,7 +22,7 @@ void raise(Solid& surface, double thickness_mm) {
   surface.ground_mm += move.z();
 }
 
-// Adds the points on the bottom that lie below those of a polygon, and returns them.
+// Adds, on the bottom, a point below each point of a polygon, and returns the new points.
 IndexPolygon add_below(Solid& solid, const IndexPolygon& top) {
   IndexPolygon bottom;
   for (const Index i : top) {
@@ -62,7 +62,7 @@ void close_body(Solid& solid) {
   for (const auto& [a, b, c] : front) solid.triangles.push_back({a + n, c + n, b + n});
 }
 
-// Adds walls and bottom.
+// Returns the solid of a surface, with walls and bottom.
 Solid closed(PlateSurface surface, const PlateOptions& options) {
   raise(surface.solid, options.thickness_mm);
   surface.solid.error_mm += flip_thin_triangles(surface.solid, surface.outline.empty());
@@ -78,7 +78,7 @@ Solid closed(PlateSurface surface, const PlateOptions& options) {
   return std::move(surface.solid);
 }
 
-// Returns the front that the plate shows: all of it, or for a plate without ground the relief alone, which is
+// Returns the front that the plate shows: all of it or, for a plate without ground, only the relief, which is
 // stored in `alone`.
 Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const PlateOptions& options,
                                            HeightFieldMesh& alone) {

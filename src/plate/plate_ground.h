@@ -1,5 +1,5 @@
-// The ground around a relief: rings between convex polygons, and flat ground in even triangles, fine enough to follow a
-// deformation. Tested by solid_test and plate_base_test.
+// Makes the ground around a relief: rings between convex polygons, and flat ground of even triangles that are
+// fine enough to follow a deformation. Tested by solid_test and plate_base_test.
 #pragma once
 
 #include <limits>
@@ -11,9 +11,9 @@
 
 namespace relievo {
 
-// Returns the spacing in mm of points at height z within the convex polygon for which their deformed
-// triangles are about within the tolerance. The spacing gives at most about 200,000 points, and is at most a
-// quarter of the diagonal of the polygon's box.
+// Returns a spacing in mm for points at height z within the convex polygon. With this spacing, the points'
+// deformed triangles are about within the tolerance. The spacing gives at most about 200,000 points, and is
+// at most a quarter of the diagonal of the polygon's box.
 double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
                       double tolerance_mm);
 
@@ -21,14 +21,15 @@ double ground_spacing(const Deformation& deformation, std::span<const Vec2> poly
 // moved outwards by up to 0.00001 mm, see convexity_offset(), so that they are corners, too.
 std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing);
 
-// Fills the convex polygon with flat triangles that face down, through points `spacing` apart.
+// Fills the convex polygon with flat triangles that face down, between points `spacing` apart.
 void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing);
 
-// Adds the corners of the convex polygon `rim_inner` to the placed front, and points between it and the
-// relief, `spacing` apart, at the height of the ground, and triangulates all within the polygon. The relief's
-// triangles stay, unless those with points on one circle have to change to fit the ground; the rest becomes
-// ground. `front` is the same front before it was placed. Returns the polygon's points. If the relief's
-// triangles are not a Delaunay triangulation, it returns none and changes nothing.
+// Adds points to the placed front at the height of the ground: the corners of the convex polygon `rim_inner`,
+// and points between the polygon and the relief, `spacing` apart. Then triangulates everything within the
+// polygon. The relief's triangles stay, except that triangles with points on one circle may have to change to
+// fit the ground; all other triangles are ground. `front` is the same front before it was placed. Returns the
+// polygon's points. If the relief's triangles are not a Delaunay triangulation, returns no points and changes
+// nothing.
 IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_inner,
                          double spacing);
 
@@ -61,7 +62,7 @@ struct RimEdge {
   double height_mm = 0;  // above the ground
 };
 
-// Returns the rim's edges from the inner one to the outline; the outline alone if there is no rim.
+// Returns the rim's edges from the inner one to the outline; only the outline if there is no rim.
 std::vector<RimEdge> rim_edges(const PlateOutline& outline, const RimOptions& rim);
 
 // Returns the polygon inside the rim; the outline itself if there is no rim.

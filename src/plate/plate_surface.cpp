@@ -22,7 +22,7 @@ Region region_of(const HeightFieldMesh& front, const Triangle& t) {
   return is_level ? Region::ground : Region::relief;
 }
 
-// Returns the front alone, with the lower corner of its box at `corner`.
+// Returns a solid that consists only of the front, with the lower corner of its box at `corner`.
 Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& corner) {
   Solid solid;
   solid.points.reserve(front.points.size() + 8);
@@ -76,8 +76,8 @@ std::vector<Vec2> rim_inner_of(const HeightFieldMesh& front, const PlateOptions&
                            options.rim);
 }
 
-// Returns points that enclose the plate, in the front's coordinates: its outline, or for a plate without
-// ground the relief's points.
+// Returns points that enclose the plate, in the front's coordinates: the plate's outline or, for a plate
+// without ground, the relief's points.
 std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& options) {
   std::vector<Vec2> outline;
   if (options.outline == Outline::none) {
@@ -95,7 +95,7 @@ std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& op
 struct TargetSurface {
   Deformation deformation;
   // The height of the curved surface over the plane. For a wrap it is a height field of about the same
-  // curvature, because triangles that approximate the one approximate the other.
+  // curvature, because triangles that approximate this height field also approximate the wrap.
   std::function<double(const Vec2&)> height;
   bool is_lifted = false;  // true if the surface gets this height now; a wrap bends the plate later
 };
@@ -170,8 +170,9 @@ Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
   return {};
 }
 
-// Makes the flat surface follow the target, given in the surface's coordinates. It is simplified in the
-// lifted state, where the error counts, and its regions are found in the flat one, where the ground is level.
+// Makes the flat surface follow the target, given in the surface's coordinates. The surface is simplified in
+// the lifted state, in which the error counts. Its regions are found in the flat state, in which the ground
+// is level.
 Result<void> follow(PlateSurface& surface, const TargetSurface& target, const PlateOptions& options,
                     std::span<const Vec2> rim_inner) {
   // A plate with a wrap is refined as a whole, by wrap_plate().

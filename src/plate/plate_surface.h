@@ -26,22 +26,22 @@ inline constexpr Colour plate_colour = {200, 200,
 // Gives plate_colour to the points that were added to a coloured front.
 void fill_colours(Solid& solid);
 
-// Returns the base under a front, in its coordinates. For a plate without ground, the front must be the
-// relief alone. Errors: those of Base::over().
+// Returns the base under a front, in the front's coordinates. For a plate without ground, the front must be
+// only the relief. Errors: those of Base::over().
 Result<Base> base_under(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the surface on its base. For a wrap it is flat, with triangles that are fine enough to be bent.
-// Errors: those of Wrap::around() and simplify().
+// Returns the surface of a plate on its base. For a wrap the surface is flat, with triangles that are fine
+// enough to be bent. Errors: those of Wrap::around() and simplify().
 Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base& base,
                                         const PlateOptions& options);
 
-// Checks lengths and the front. Errors: those of make_plate().
+// Checks the options' lengths and the front. Errors: those of make_plate().
 Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Replaces the surface by the one that the tool leaves above it: see close_by_tool(). Points that the tool
-// reaches stay. The others are replaced by samples of the new surface, which are dense where it is steep;
-// level ground gets none. `edges` are the rim's, in the surface's coordinates; points along these edges keep
-// them sharp. A surface without ground keeps its triangles, and its points are lifted.
+// Replaces the surface by the surface that the tool leaves, see close_by_tool(). Points that the tool reaches
+// stay. The others are replaced by samples of the new surface, which are dense where it is steep; level
+// ground gets none. `edges` are the rim's edges in the surface's coordinates; points along them keep them
+// sharp. A surface without ground keeps its triangles, and its points are lifted.
 void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
 
 }  // namespace relievo

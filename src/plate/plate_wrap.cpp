@@ -114,8 +114,8 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
   IndexPolygon no_outline;
-  // A simplified front deviates by its own tolerance. Refining must not reduce that, as it would undo the
-  // simplification.
+  // A simplified front deviates by its own tolerance. Refining must not reduce this deviation, because that
+  // would undo the simplification.
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
   body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;

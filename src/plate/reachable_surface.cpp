@@ -146,8 +146,8 @@ std::vector<std::uint8_t> used_points(const Solid& solid) {
   return is_used;
 }
 
-// Returns the distance between points along the rim's edges: less than the width of the bevel, so that no
-// triangle crosses it.
+// Returns the distance between points along the rim's edges. It is less than the width of the bevel, so that
+// no triangle crosses the bevel.
 double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < edges.size(); ++i)

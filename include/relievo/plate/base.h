@@ -1,4 +1,4 @@
-// The surface under a relief, as a height over the plane of its plate.
+// Bases: surfaces under a relief, given as heights over the plane of its plate.
 #pragma once
 
 #include <array>
@@ -36,14 +36,14 @@ inline constexpr std::array<Choice<BaseKind>, 6> base_choices{{{"plane", BaseKin
 struct BaseOptions {
   BaseKind kind = BaseKind::plane;
   std::optional<double> height_mm;    // height difference over the plate, or over the image
-  std::optional<double> angle_deg;    // fold: between each side and the plate; default 15 if no height
+  std::optional<double> angle_deg;    // fold: angle between each side and the plate; default 15 if no height
   std::optional<double> diameter_mm;  // cylinder: default twice the plate's width (if no height either);
                                       // dome: default from a height of 0.15 of the plate's radius
   std::optional<double> length_mm;    // wave: from crest to crest; default half the plate, at least 4 heights
   double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is upright
   bool is_hollow = false;     // upside down: a valley, a trough, a bowl
   bool is_mirrored = false;   // left and right swapped
-  // image: its heights in any unit; height_mm is then a tenth of the plate by default
+  // image: its heights in any unit; the default of height_mm is then a tenth of the plate
   std::shared_ptr<const Image<float>> image;
 
   bool operator==(const BaseOptions&) const = default;  // images are equal if they are the same object
@@ -76,7 +76,7 @@ class Base {
   double min_feature_mm() const { return min_feature_mm_; }
 
   // Returns the position, in (0, 1), at which the segment from a to b crosses the ridge of a fold; nothing if
-  // it crosses none.
+  // it crosses no ridge.
   std::optional<double> ridge_between(const Vec2& a, const Vec2& b) const;
 
  private:

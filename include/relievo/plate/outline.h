@@ -1,4 +1,4 @@
-// The shape of a plate, seen from the front.
+// Outlines: the shapes of plates, seen from the front.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Outline {
   circle,
   ellipse,
   hexagon,  // regular, with a side or a corner at the top, whichever makes it smaller
-  none      // the relief alone, without any ground
+  none      // only the relief, without any ground
 };
 
 inline constexpr std::array<Choice<Outline>, 6> outline_choices{{{"rectangle", Outline::rectangle},
@@ -33,34 +33,38 @@ struct OutlineOptions {
   Outline outline = Outline::rectangle;
   double corner_mm = 5;  // radius of the corners of `round`; limited to half the shorter side
   double margin_mm = 5;  // least distance from the enclosed points to the outline
-  // Width and height of the outline, whatever margin they leave; 0: as small as the margin allows. Only for
-  // outlines with has_free_size(), and for circles, which use the width alone.
+  // Width and height of the outline, even if they leave less than the margin; 0: as small as the margin
+  // allows. Only for outlines with has_free_size(), and for circles, which use only the width.
   Vec2 size_mm = Vec2::Zero();
 };
 
-// Returns width and height in millimetres of a text such as "200x150" or "8in x 6in": two lengths, see parse_length(),
-// with x or the multiplication sign between them. A unit behind the second alone is that of both. Errors: kind option for
-// any other text; the error's input is empty, for the caller to fill in.
+// Parses width and height, in millimetres, from a text such as "200x150" or "8in x 6in": two lengths, see
+// parse_length(), with x or the multiplication sign between them. If only the second length has a unit, it
+// applies to both. Errors: kind option for any other text; the error's input is empty, for the caller to fill
+// in.
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns the lengths of a text such as "10,-5" or "1in,0", right and up, with units as in
-// parse_plate_size(). Errors: kind option for any other text; the error's input is empty, for the caller to
-// fill in.
+// Parses a shift to the right and up, in millimetres, from a text such as "10,-5" or "1in,0", with units as
+// in parse_plate_size(). Errors: kind option for any other text; the error's input is empty, for the caller
+// to fill in.
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 // Returns whether any width and height can be given for the outline: true for rectangles and ellipses.
 bool has_free_size(Outline outline);
 
-// Returns true if the outline is the box around the points, grown by the margin: opposite sides are equal,
-// and upright or level.
+// Returns true if the outline is the box around the points, grown by the margin. Its sides are then vertical
+// and horizontal.
 bool is_box(Outline outline);
 
 // Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges are at
-// least the margin away from every point. A curve is, and becomes a polygon in it, as wide and as high as the curve and
-// nowhere further than a micrometre from it, or a ten-millionth of its radius. Outlines are centred on the points' box;
-// circles, ellipses and hexagons from left to right alone, and as high as makes the circle or ellipse smallest. All but
-// `round` are as small as their centre allows. Rounded corners that would cut into the margin move the sides out. With a
-// size, the outline has that size and keeps its centre. The result is empty for no points and for `none`.
+// least the margin away from every point. A curved outline keeps the margin itself and is replaced by an
+// inscribed polygon. The polygon is as wide and as high as the curve, and deviates from it by at most a
+// micrometre, or by a ten-millionth of the curve's radius if that is more.
+//
+// Outlines are centred on the points' box. Circles, ellipses and hexagons are centred on it only from left to
+// right; their vertical position makes the circle or ellipse smallest. All outlines but `round` are as small
+// as their centre allows. Rounded corners that would cut into the margin move the sides out. If a size is
+// given, the outline has that size and the same centre. The result is empty for no points and for `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
 
 }  // namespace relievo

@@ -27,18 +27,18 @@ struct HeightFieldMesh {
   std::vector<Index> hull;
   double ground_mm = 0;              // height of the flat background
   std::vector<Colour> colours = {};  // colours of the points, or empty
-  // For each triangle, whether it is part of the relief rather than of the ground around and within it; empty
-  // if all triangles are. Only a plate without ground uses it.
+  // For each triangle, true if it is part of the relief, false if it is part of the ground around or within
+  // the relief; empty if all triangles are part of the relief. Only used for a plate without ground.
   std::vector<std::uint8_t> is_relief = {};
 };
 
 // A raised edge along the outline, as coins and plaques have. Each length is 0 or at least 0.001.
 struct RimOptions {
   double width_mm = 0;  // width from the outline to the ground inside; 0 for no rim
-  // Height of its flat top above the ground. A negative height makes a groove, which the rim becomes in a
-  // die; the plate then continues outside the groove by the rim's width.
+  // Height of the rim's flat top above the ground. A rim of negative height is a groove, as in a die; the
+  // plate then continues outside the groove by the rim's width.
   double height_mm = 1;
-  double bevel_mm = .3;  // the part of the width that the slanting inner side takes; at most all of it
+  double bevel_mm = .3;  // width of the slanting inner side; it is a part of width_mm
 };
 
 struct PlateOptions {
@@ -55,9 +55,9 @@ struct PlateOptions {
   double simplify_mm = 0;
   double max_slope = std::numeric_limits<double>::infinity();            // slope limit for simplify()
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // limit of triangles for simplify()
-  std::optional<Tool> tool = {};  // makes the front as this tool leaves it; on a plane base only
-  // Width and height of the outline, whatever margin that leaves, see OutlineOptions; 0: no given size. For a
-  // die with a groove for the rim this is the size of the piece that the die makes.
+  std::optional<Tool> tool = {};  // makes the front as this tool leaves it; only on a plane base
+  // Width and height of the outline, see OutlineOptions; 0: no given size. For a die with a groove for the
+  // rim this is the size of the piece that the die makes.
   Vec2 size_mm = Vec2::Zero();
   Vec2 shift_mm = Vec2::Zero();  // shift of the front from the middle of an outline with a given size
 };
@@ -73,32 +73,32 @@ struct Solid {
   std::size_t front_triangles = 0;
   std::vector<Colour> colours = {};  // colours of the points, or empty
   std::vector<Region> regions = {};  // regions of front triangles, for pictures; empty if all are relief
-  Vec3 shift = Vec3::Zero();         // added to the front's coordinates to get the solid's, on flat ground
-  double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
-  double error_mm = 0;               // largest distance to the exact surface, from curving and simplifying
+  Vec3 shift = Vec3::Zero();  // added to the front's coordinates to get the solid's, if the ground is flat
+  double ground_mm = 0;       // height of the flat ground, or of a curved base in the middle
+  double error_mm = 0;        // largest distance to the exact surface, from curving and simplifying
   LengthUnit unit = LengthUnit::mm;  // unit of the coordinates; other units only by in_unit() and in files
 };
 
-// Returns the same body with coordinates in `unit`, for files. Points that would coincide in single precision
-// are separated as in make_plate().
+// Returns the solid with coordinates in `unit`, for files. Points that would coincide in single precision are
+// separated as in make_plate().
 Solid in_unit(Solid solid, LengthUnit unit);
 
 // Returns the plate: front, flat ground and rim out to the outline, walls, bottom. It is moved so that its
 // box starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z =
 // thickness_mm. Its z extent is thickness + (highest - lowest point of the front, ground and rim included).
-// The front's points and triangles come first, in their order; the ground adds no points but the corners of
-// the outline and of the rim's edges. If two points coincide in single precision, the second is lifted or
-// lowered by the smallest step that separates them.
+// The front's points and triangles come first, in their order; the ground adds only the corners of the
+// outline and of the rim's edges as points. If two points coincide in single precision, the second is lifted
+// or lowered by the smallest step that separates them.
 //
-// Outline `none` makes a body of the relief alone, with its holes, or several bodies if the relief has
-// several connected parts. The front is then the relief's points and triangles alone, in their order, and the
-// bottom has as many. Triangles that are connected by a corner only, and parts smaller than a thousandth of
-// the whole, are left out.
+// Outline `none` makes a body of the relief only, with its holes, or several bodies if the relief has several
+// connected parts. The front then has only the relief's points and triangles, in their order, and the bottom
+// has as many. Triangles that are connected only by a corner, and parts smaller than a thousandth of the
+// whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
 // bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, a front with
-// triangles whose corners are missing or not finite, or one without relief for outline `none`. Time: O(n log
-// n), 0.1 s for 340k points.
+// triangles whose corners are missing or not finite, or a front without relief for outline `none`. Time: O(n
+// log n), 0.1 s for 340k points.
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
 // Returns the base that make_plate() puts under the front, in the front's coordinates. Errors: those of
@@ -118,8 +118,8 @@ Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
 // Checks that every edge of a solid is shared by exactly two triangles with opposite directions, that no
 // triangle has two equal corners, that no two used points have the same single-precision coordinates, and
-// that the volume is positive. Returns a description of the first fault, or an empty string. It is public for
-// tests and bug reports; 0.1 s for 1M triangles.
+// that the volume is positive. Returns a description of the first fault, or an empty string. The function is
+// public for tests and bug reports. Takes 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.

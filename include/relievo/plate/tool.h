@@ -37,12 +37,13 @@ std::string text_of(const Tool& tool);
 double tool_profile(const Tool& tool, double distance_mm);
 
 // Returns the lowest surface that the tool can leave without cutting into the heights at any sample: the
-// morphological closing of the heights by the tool's shape. It is never below the heights. NaN marks places
-// without material, where nothing obstructs the tool, and stays NaN. The tool's axis goes through samples,
-// also up to its radius beside the picture. A radius is limited to half the longer side of the picture, a V
-// tool's flank to the span of the heights. The result is exact for the samples. Between them, the height at
-// which a ball of radius R touches is found to within step_mm^2 / (8 R) on gentle slopes, and to within half
-// a step times the slope on walls. Takes about 0.5 s for 4M samples and a radius of 15 samples on two cores.
+// morphological closing of the heights by the tool's shape. It is never below the heights. NaN marks samples
+// without material, where nothing obstructs the tool, and stays NaN. The tool's axis passes through the
+// samples, and through positions beside the picture up to the tool's radius. A radius is limited to half the
+// longer side of the picture, a V tool's flank to the span of the heights. The result is exact at the
+// samples. Between samples, the height at which a ball of radius R touches is found to within step_mm^2 / (8
+// R) on gentle slopes, and to within half a step times the slope on walls. Takes about 0.5 s for 4M samples
+// and a radius of 15 samples on two cores.
 Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const Tool& tool);
 
 struct ToolReach {

@@ -49,7 +49,8 @@ class Wrap {
   // sphere's centre passes through the origin, and the viewer stays at +Z. Orientation is kept.
   Vec3 at(const Vec2& place, double above_ground_mm) const;
 
-  // Returns the smallest distance of the ground from the axis, in mm; relief and back must stay within it.
+  // Returns the smallest distance of the ground from the axis, in mm. Relief and back must be less deep than
+  // that.
   double min_radius_mm() const { return min_radius_; }
 
   // Returns the approximate depth in mm of the bent ground below its front tangent plane, as a negative

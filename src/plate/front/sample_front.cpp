@@ -59,10 +59,11 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   return grid;
 }
 
-constexpr int band_rings = 3;  // rings of triangles beside creases that keep their points
+constexpr int band_rings = 3;  // number of rings of triangles beside creases in which points stay
 constexpr int most_divisions = 16;
-// Smallest distances, in steps: between samples and points of the band (half of it in quarters of squares),
-// and between points of the band that are not on creases.
+// Smallest distances, in steps. `apart` is the distance between samples and points of the band; in quarters
+// of squares half of it applies. `apart_in_band` is the distance between points of the band that are not on
+// creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
@@ -154,7 +155,7 @@ class Sampler {
   }
 
   // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on
-  // the sides of creases stay on them.
+  // creases stay on the creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -186,7 +187,7 @@ class Sampler {
       }
   }
 
-  // Divides an edge of the given triangles of the band, unless it lies between plane triangles.
+  // Divides the edge that these sides of triangles share, unless none of the triangles is smooth.
   void divide_edge(std::span<const TriangleSide> sides) {
     const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
     if (std::ranges::none_of(sides, is_smooth)) return;
@@ -203,8 +204,9 @@ class Sampler {
     }
   }
 
-  // Thins out the band, because points of a scan may nearly coincide in the view. Keeps all points of
-  // creases, and of the other points those that are not too close to an earlier one.
+  // Thins out the band, because points of a scan may nearly coincide in the view. All fixed points stay:
+  // those on creases and on the hull, the lowest and the highest. Any other point stays only if it is not too
+  // close to a fixed point, or to an earlier point that stays.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
@@ -299,7 +301,7 @@ class Sampler {
     return std::move(out_);
   }
 
-  // Marks the triangles whose centre is in the relief as parts of it.
+  // Marks each triangle as part of the relief if its centre is in the relief.
   void tell_relief(const std::vector<Vec2>& plane) {
     const double near = 2 * grid_.step;
     std::vector<Segment> edges;

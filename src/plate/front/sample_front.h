@@ -17,10 +17,10 @@ struct FrontSampling {
   double facet_angle = .034;
 };
 
-// Returns a front over the same hull whose points lie on the smooth surface through the given one: on a grid
-// of squares, and near creases on the triangles of the given front, divided equally finely. Creases are the
-// edges between triangles that are smooth (`is_smooth`, per triangle) and others; the others stay plane. The
-// highest and the lowest point stay. Errors: `cancelled`.
+// Returns a front over the same hull. Its points lie on the smooth surface through the given front: on a grid
+// of squares, and near creases on the triangles of the given front, divided equally finely. `is_smooth` marks
+// the smooth triangles; the others stay plane, and creases are the edges between smooth triangles and others.
+// The highest and the lowest point stay. Errors: kind cancelled.
 Result<HeightFieldMesh> sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
                                      const FrontSampling& options, const Progress* progress = nullptr);
 

@@ -8,10 +8,10 @@
 namespace relievo {
 namespace {
 
-// A turn is even if it changes from one cell to the next by at most this share of itself. Where turns are
-// uneven, as on rough surfaces, facets are not visible.
+// The surface turns evenly where the angle between neighbouring cells changes by at most this share of the
+// angle. Where it turns unevenly, as on rough surfaces, facets are not visible.
 constexpr float most_change = .25F;
-// A turn of this many facet angles is a crease, which finer facets would not round.
+// An angle of this many facet angles is a crease, which finer facets would not round.
 constexpr float crease = 3;
 
 // Returns the sine of the angle between the normals of two slopes.
@@ -109,7 +109,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
   std::vector<Level> levels;
   levels.push_back(cells_of(slopes));
   for (int side = 2; side <= largest_square; side *= 2) {
-    // The slopes are those at the cells' middles, which extend less far than the square.
+    // Slopes are given at the middles of cells, which extend less far than the square.
     const float reach = static_cast<float>(side - 1) / static_cast<float>(side);
     levels.push_back(joined(levels.back(), reach * facet_angle));
   }

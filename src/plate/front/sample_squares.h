@@ -16,17 +16,17 @@ struct SampleSquare {
   bool is_quartered = false;  // a square of one cell that gets four samples
 };
 
-// Cells on a side of the largest square; width and height of the grid are multiples of it.
+// The number of cells along a side of the largest square; the grid's width and height are multiples of it.
 constexpr int largest_square = 8;
 
 // Returns squares that cover the cells of a grid whose slope is not NaN. Across a square of several cells the
-// surface turns by at most about `facet_angle`, in radians; a cell is quartered where the surface turns
-// evenly by more. Apart from quarters, the neighbours of a square have at least half its side.
+// surface turns by at most about `facet_angle`, in radians. A cell is quartered where the surface turns
+// evenly by a larger angle. Apart from quarters, the neighbours of a square have at least half its side.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
 
-// The diagonals of rectangles in a Delaunay triangulation are arbitrary, and across a ridge they look like
-// teeth. Gives each rectangle the diagonal along which the slope changes less, unless the slope of a corner
-// is NaN. Changes only the triangles: the neighbours become invalid.
+// Gives each rectangle of a Delaunay triangulation the diagonal along which the slope changes less, unless
+// the slope of a corner is NaN. Otherwise these diagonals are arbitrary, and across a ridge they look like
+// teeth. Changes only the triangles: the mesh's neighbours become invalid.
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

@@ -72,7 +72,7 @@ double area_of(const HeightFieldMesh& front, const Triangle& t) {
   return cross(u.head<2>(), v.head<2>()) / 2;
 }
 
-// Removes the connected pieces that are smaller than smallest_piece of the whole.
+// Removes the connected parts that are smaller than smallest_piece of the whole.
 void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& triangles) {
   DisjointSets pieces(front.points.size());
   for (const auto& [a, b, c] : triangles) pieces.join(a, b), pieces.join(b, c);

@@ -1,7 +1,7 @@
-// Greedy insertion after Garland and Heckbert, "Fast Polygonal Approximation of Terrains and Height Fields",
-// 1995, but in rounds: each round adds the point with the largest error of every triangle that exceeds its
-// tolerance, and triangulates again. Inserting one point at a time would need a triangulation that can be
-// updated and a queue of errors, and could not use threads.
+// Simplifies a mesh by greedy insertion after Garland and Heckbert, "Fast Polygonal Approximation of Terrains
+// and Height Fields", 1995, but in rounds. Each round adds the point with the largest error of every triangle
+// that exceeds its tolerance, and triangulates again. Inserting one point at a time would need a
+// triangulation that can be updated and a queue of errors, and could not use threads.
 #include "relievo/plate/simplify.h"
 
 #include <Eigen/Geometry>
@@ -22,8 +22,8 @@ namespace {
 
 constexpr int most_insertion_rounds = 200;
 constexpr std::size_t edges_per_block = 8192;
-// Triangles steeper than allowed get this tolerance: so close to the original they become only as steep as
-// its triangles, which are within the limit. Files could not store a smaller difference.
+// Triangles steeper than allowed get this tolerance. A triangle so close to the original is only as steep as
+// the original's triangles, which are within the limit. Files could not store a smaller difference.
 constexpr double steep_tolerance_mm = 1e-6;
 
 // A place where a triangle of the approximation exceeds its tolerance.

@@ -62,7 +62,8 @@ class Fans {
   std::unordered_map<Index, std::vector<Index>> changed_;
 };
 
-// Height of a triangle as a share of the front's size: 8 to 16 units in the last place of its coordinates.
+// Least height of a triangle, as a share of the front's size: 8 to 16 units in the last place of its
+// coordinates.
 constexpr double thinnest = 0x1p-20;
 constexpr double most_moved_mm = 1e-3;  // limit of moves by flips, for triangles that files store unfolded
 
@@ -147,7 +148,7 @@ class Flipper {
   }
 
   // Returns whether removing the triangle abc, whose edge ab is on the front's boundary, would leave two
-  // parts that are connected by the corner c alone. The result is false if all triangles on one side of c are
+  // parts that are connected only by the corner c. The result is false if all triangles on one side of c are
   // thin, because these are removed next.
   bool would_pinch(const Triangle& abc) const {
     const auto [a, b, c] = abc;
