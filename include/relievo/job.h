@@ -1,5 +1,5 @@
-// A relief as a job: scans and options. It is loaded and prepared once; the resulting live model makes solids
-// in seconds, frames and pictures in milliseconds.
+// Jobs: scans with the options of their relief. A job is loaded and prepared once. The resulting live model
+// makes solids in seconds, and frames and pictures in milliseconds.
 #pragma once
 
 #include <cstddef>
@@ -26,17 +26,17 @@ struct Job {
 // read_cloud().
 Result<Job> load(std::span<const std::byte> file, std::string_view name);
 
-// A frame of a live model. It is valid until the model makes the next one.
+// A frame of a live model. It is valid until the model makes the next frame.
 struct LiveFrame {
   const Frame* frame = nullptr;
-  std::span<const float> gains = {};  // only for a model with SurfaceDetail, see Shown
+  std::span<const float> gains = {};  // see FrameMaker::write_gains(); empty without SurfaceDetail
   double stretch = 1;                 // factor of the heights in a picture
   double mm_per_unit = 1;
-  bool is_new = false;  // false if the frame before it was the same
+  bool is_new = false;  // false if the previous frame was the same
 };
 
 // Selects the frame to make for given options. A quick frame takes one or two solves and may miss a requested
-// height by up to 3 %, for which LiveFrame::stretch makes up.
+// height by up to 3 %. LiveFrame::stretch corrects that in pictures.
 struct FrameWish {
   std::optional<double> u;  // the compression's u, used instead of a requested height
   bool is_quick = false;
@@ -45,9 +45,9 @@ struct FrameWish {
 // Checks the size of a picture and the position of its camera. Errors: kind option, naming the field.
 Result<void> check(const RenderOptions& options);
 
-// A prepared model with all that its frames and pictures need. Results that take a pass over all points are
-// computed once. If memory runs out in relief(), frame() or picture(), they return an error of kind memory.
-// Not for concurrent use.
+// A prepared model with the state that its frames and pictures need. Results that require a pass over all
+// points are computed once. If memory runs out in relief(), frame() or picture(), they return an error of
+// kind memory. Not for concurrent use.
 class LiveModel {
  public:
   // Shares ownership of the model. `notes` describe how its points were sampled.
@@ -57,7 +57,7 @@ class LiveModel {
 
   const ReliefModel& model() const;
 
-  // Returns the solid. It may be called concurrently. Errors: those of make_relief().
+  // Returns the solid that the options describe. May be called concurrently. Errors: those of make_relief().
   Result<MadeRelief> relief(const ReliefOptions& options, Progress* progress = nullptr) const;
 
   // Returns the frame of the relief that the options describe. Errors: those of with_width(); kind option for
@@ -68,8 +68,8 @@ class LiveModel {
   // options. Errors: those of frame() and check().
   Result<Picture> picture(const ReliefOptions& options, RenderOptions render = {});
 
-  // The following are the steps of these calls, for programs that show a relief while it is edited. Their
-  // options must have a width.
+  // The functions below are the steps of frame() and picture(), for programs that show a relief while it is
+  // edited. Except for with_width(), they need options with a width.
 
   // Returns the same as relievo::with_width(), but searches for the largest width only if the plate's sizes
   // have changed.
@@ -87,8 +87,8 @@ class LiveModel {
   // Returns the last result of make_frame(); before the first call the frame in it is null.
   LiveFrame last_frame() const;
 
-  // Returns the height in mm of the highest relief of the options' shape, the one without compression. Steps
-  // at depth jumps, which may be added to reach a requested height, are not counted.
+  // Returns the height in mm of the highest relief with the options' shape, which is the relief without
+  // compression. Steps at depth jumps, which may be added to reach a requested height, are not counted.
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
@@ -100,8 +100,8 @@ class LiveModel {
   std::unique_ptr<State> state_;
 };
 
-// Chooses the view of a job if need be, samples the points that show it, and prepares their model. Errors:
-// those of sample_for_view() and of prepare() for a cloud.
+// Chooses the job's view if it is not given, samples the points that are visible in it, and prepares their
+// model. Errors: those of sample_for_view() and of prepare() for a cloud.
 Result<LiveModel> prepare(const Job& job, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -1,6 +1,6 @@
-// Makes a body that can be cut from a scan, in one call. Its steps can be called separately: sample the
-// points that show a view (sample_for_view), find their surface and factor its system (prepare), and make its
-// relief as a body (make_relief).
+// Makes, in one call, a solid of a scan that a machine can cut. The steps of the call are functions, too:
+// sample the points that a view shows (sample_for_view), find their surface and factor its system (prepare),
+// and make the solid with its relief (make_relief).
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ struct ScanReport {
   struct FoundPlane {
     PlaneKind kind = PlaneKind::background;
     double share = 0;          // share of the visible points that belong to the plane
-    bool is_left_out = false;  // because the view asked for it
+    bool is_left_out = false;  // true if the view leaves the plane out
   };
   std::optional<FoundPlane> plane;
 
@@ -44,7 +44,7 @@ struct ScanReport {
   static ScanReport of(const Surface& surface);
 };
 
-// Facts about the relief that was made and the options it was made with.
+// Facts about a relief, and the options with which it was made.
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
   Method method = Method::paper;  // alpha, beta, gamma and u have no meaning for a method without shape
@@ -53,9 +53,9 @@ struct ReliefReport : ScanReport {
   double u = 0;      // alpha^-beta, see Compression
   double steps = 0;  // share of the height that depth jumps take, see Shape
   std::optional<double> height_requested_mm;
-  std::optional<double> height_usual_mm;  // the default, if none was requested, see effective_height_mm()
-  double height_mm = 0;        // height reached, lowest to highest point of the front, above its base
-  double below_ground_mm = 0;  // the part of height_mm that lies below the flat ground, in a die all of it
+  std::optional<double> height_usual_mm;  // default height, if none was requested; see effective_height_mm()
+  double height_mm = 0;        // height of the front from its lowest to its highest point, above its base
+  double below_ground_mm = 0;  // the part of height_mm below the flat ground; in a die, all of it
   double steepest_deg = 0;     // slope of the front's steepest triangle, rounded as in files
 
   // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. This is
@@ -81,18 +81,18 @@ struct ReliefReport : ScanReport {
     bool is_inside = false;       // the relief is on the inner side
     Vec2 across = Vec2::UnitX();  // the direction in which the plate is bent
   };
-  std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
+  std::optional<Wrapped> wrap;  // if set, offset and scale are those of the flat plate
 
   // Facts that a user may want to be warned of.
   bool has_idle_alpha = false;     // an alpha was given, which has no effect
-  bool has_needed_steps = false;   // depth jumps take more than asked for, as slopes do not reach the height
-  std::vector<SampleNote> sample;  // none for a model that the caller prepared
+  bool has_needed_steps = false;   // depth jumps take more than requested to reach the height
+  std::vector<SampleNote> sample;  // empty for a model that the caller prepared
 };
 
 struct MadeRelief {
   Solid solid;
   ReliefReport report;
-  Solid flat = {};  // the solid before it was bent around its wrap, for height maps; empty without one
+  Solid flat = {};  // the solid before it was bent around its wrap, for height maps; empty without a wrap
 };
 
 // Returns the surface that the points show in that view, with its factored system. Errors: those of
@@ -106,29 +106,30 @@ Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode = M
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// Returns the height in mm of the highest relief whose walls keep the draft angle of the options, or of the
-// highest relief of all if the options give no draft angle. The method must be one with a shape, see
-// has_shape(). Errors: those of make_relief().
+// Returns the height in mm of the highest relief whose walls keep the draft angle of the options. If the
+// options give no draft angle, all reliefs are considered. The method must have a shape, see has_shape().
+// Errors: those of make_relief().
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
-// Checks that the bevel of the options' rim leans as their draft angle asks, around a relief of that height.
-// make_relief() does this itself. Errors: kind option.
+// Checks that the bevel of the options' rim leans at least as much as the draft angle requires, for a relief
+// of that height. make_relief() does this itself. Errors: kind option.
 Result<void> check_rim(const ReliefOptions& options, double height_mm);
 
-// Samples the points of a file for the view, prepares them, and makes the relief of that model. scene.h has
-// such a function for several files. Errors: also those of sample_for_view() and prepare().
+// Samples the points of a file for the view, prepares their model, and makes its relief. scene.h has such a
+// function for several files. Errors: also those of sample_for_view() and prepare().
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Does the same for a cloud.
+// Makes the relief of a cloud in the same way.
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Returns the shape that the options ask for. A search for their height starts from it.
+// Returns the shape that the options ask for. If the relief must have a given or the usual height, the search
+// for that height starts from this shape.
 Shape shape_of(const ReliefOptions& options);
 
-// Returns the options with a width: the one given; else the largest that fits, with margin and rim, into a
-// plate of the given size; else the default. make_relief() does this itself. Errors: kind option if the plate
-// is too small.
+// Returns the options with a width: the given width; without one, the largest width with which the relief,
+// margin and rim included, fits into a plate of the given size; without a size, the default. make_relief()
+// does this itself. Errors: kind option if the plate is too small.
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
 
 // Returns millimetres per unit of the surface at the width of the options, see with_width().

@@ -48,8 +48,8 @@ using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 // The functions that read a value of an option and return the number that applies.
 struct OptionTargets;
 struct OptionAccess {
-  // Reads a value of the option's type into `to`. The input of an error may be empty, for the caller to fill
-  // in.
+  // Reads a value of the option's type into `to`. The input of an error may be empty; the caller then sets
+  // it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
   // Returns the number that applies, given or default; nothing if there is none. The pointer is null for
   // options that are texts.
@@ -68,13 +68,13 @@ struct OptionRow {
   OptionValue initial = {};                    // the default, if it depends on nothing else
   std::string_view otherwise = {};             // the default in words, if it is not a fixed value
   std::string_view in_studio = {};  // the value in a new document of the studio, if that is not the default
-  bool is_stated = false;           // the studio writes it into projects even where it has its default
+  bool is_stated = false;           // the studio writes it into projects even if it has its default
   OptionAccess access = {};
 
   bool is_number() const { return min <= max && max < std::numeric_limits<double>::infinity(); }
   bool is_length() const { return unit == "MM"; }
   bool is_of_relief() const { return stage != OptionStage::input; }
-  // A change of these options prepares the scan anew.
+  // Returns whether the scan must be prepared again when the option changes.
   bool is_prepared() const { return stage == OptionStage::view || stage == OptionStage::model; }
 };
 

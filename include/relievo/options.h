@@ -24,19 +24,19 @@ struct NumericOptions {
   std::optional<double> alpha;         // the paper's height coefficient; 4
   std::optional<double> saturation;    // the paper's beta; see effective_saturation()
   std::optional<double> detail;        // the paper's gamma; see effective_detail()
-  std::optional<double> steepest_deg;  // steepest slope asked of the surface; 76
-  std::optional<double> draft_deg;     // least angle of walls off the vertical, kept by every triangle; any
-  std::optional<double> boundary_width;  // width of (7), in rho; see effective_boundary_width()
-  double steps = 0;                      // least share of the height that depth jumps take, see Shape
+  std::optional<double> steepest_deg;  // largest target slope; 76
+  std::optional<double> draft_deg;     // least angle of every triangle of walls to the vertical; any
+  std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
+  double steps = 0;                      // least share of the height for depth jumps, see Shape
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
   std::optional<double> thickness_mm;    // smallest thickness of the plate; see effective_thickness_mm()
   std::optional<double> rim_mm;          // width of a raised edge along the outline; none
-  std::optional<double> rim_height_mm;   // above the ground; the relief's height, as far as the bevel fits
-  std::optional<double> rim_bevel_mm;    // width of its slanting inner side; 0.3 of its height
-  std::optional<double> points;          // visible points to take from what is no cloud; see usual_points()
-  std::optional<double> resolution_mm;   // finest step of the solid's samples; width / 700 or rho if less
-  std::optional<double> tolerance_mm;    // largest error of a mesh made simpler; without it all points stay
+  std::optional<double> rim_height_mm;   // height of the edge above ground; the relief's if its bevel fits
+  std::optional<double> rim_bevel_mm;    // width of the edge's slanting inner side; 0.3 of the edge's height
+  std::optional<double> points;          // number of visible points to sample; see usual_points()
+  std::optional<double> resolution_mm;   // finest step of samples; the smaller of width / 700 and rho
+  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; without it all points stay
   std::optional<double> triangles;       // most triangles of the solid; any number
 
   bool operator==(const NumericOptions&) const = default;
@@ -62,17 +62,17 @@ struct ReliefOptions : NumericOptions {
   BaseOptions base;              // a base of kind image includes its height map
   WrapOptions wrap;
   Form form = Form::relief;
-  std::optional<Tool> tool;  // the report states which part it reaches
+  std::optional<Tool> tool;  // the report states which part the tool reaches
   Finish finish = Finish::full;
 
   bool operator==(const ReliefOptions&) const = default;
 
-  // The values that rule where none was given: the paper's, or for other methods those that keep most of the
-  // model. The width is that for a plate without a size of its own, see with_width().
+  // The values that apply if none is given: the paper's defaults or, for other methods, the defaults that
+  // keep most of the model. The width is for a plate without a given size, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   Method effective_method() const;
-  // Returns the given height or usual_height_mm(). If no height is given, the result is nothing for the
-  // paper's method, whose height follows from the shape, and for a lithophane.
+  // Returns the given height or usual_height_mm(). If no height is given, returns nothing for a lithophane,
+  // and for the paper's method, with which the height follows from the shape.
   std::optional<double> effective_height_mm() const;
   // Returns the given height, or else 2.4 mm for a lithophane and 5 % of the width for other forms: see
   // docs/decisions/default-height.md.
@@ -80,8 +80,8 @@ struct ReliefOptions : NumericOptions {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
   }
   double effective_alpha() const { return alpha.value_or(4); }
-  double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // as Shape::max_slope
-  // The margin is small where a diameter is given, as on coins.
+  double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // of Shape::max_slope
+  // The margin is small if a diameter is given, as for coins.
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // The plate of a lithophane is thin, because light has to pass through its thinnest places.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
@@ -90,9 +90,9 @@ struct ReliefOptions : NumericOptions {
   double effective_boundary_width() const;
 };
 
-// Checks every range, and that options do not contradict each other. These do: height and alpha; alpha and a
-// method other than the paper's; saturation or detail for a method that has none; a size of the plate that
-// its outline cannot have. Errors: kind option, naming the option.
+// Checks every range, and that options do not contradict each other. Contradictions are: height and alpha;
+// alpha and a method other than the paper's; saturation or detail for a method that has none; a size of the
+// plate that its outline cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

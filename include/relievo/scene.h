@@ -1,4 +1,4 @@
-// Several models in one relief: placing them, and sampling the points of all that a viewer sees.
+// Places several models in one relief, and samples the points of all models that a viewer sees.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,13 @@ class Progress;
 struct MadeRelief;
 struct ReliefOptions;
 
-// The place of a model in a scene. The model is mirrored, scaled and turned about the centre of its own box,
-// which excludes outliers, and then moved.
+// The placement of a model in a scene. The model is mirrored, scaled and turned about the centre of its own
+// box, which excludes outliers, and then moved.
 struct Pose {
   Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z, all fixed axes; 90 about z takes x to y
   std::optional<Vec3> translate = {};  // movement, in the units of the files
   double scale = 1;                    // above 0
-  bool is_mirrored = false;            // x is reversed, before all else
+  bool is_mirrored = false;            // x is reversed first
 
   bool operator==(const Pose& other) const;
 };
@@ -53,22 +53,21 @@ struct PlacedModel {
   Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + offset; }
 };
 
-// Returns the place of each model.
-// - If any pose has a `translate`, the models are placed as the poses say: files with a common frame fit
+// Returns the placement of each model.
+// - If any pose has a `translate`, the models are placed by their poses: files with a common frame fit
 //   together.
-// - One model alone stays where it is.
-// - Otherwise the models are arranged as the view shows them: side by side from left to right, on one ground
-//   line, their middles equally deep, a gap of 8 % of their height between them. The first keeps its size
-//   and, unless it is turned, its place. The others become as high as the first, but at most one and a half
-//   times as wide as that height. Their `scale` then multiplies this size: with 0.5 a model is half as high
-//   as the first.
+// - A single model stays where it is.
+// - Otherwise the models are arranged for the view: side by side from left to right on one ground line, with
+//   their middles equally deep and gaps of 8 % of their height. The first model keeps its size and, unless it
+//   is turned, its place. The others become as high as the first, but at most one and a half times as wide as
+//   that height. Their `scale` then multiplies this size: with 0.5 a model is half as high as the first.
 // Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], for angles and places that
 // are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
-// Returns the side of the scene that suits a relief best, see rank_views(). For several models, or a model
-// that a pose moves, this is always the front, because they are placed to be seen from there. At most a
-// million points are examined.
+// Returns the side of the scene that suits a relief best, see rank_views(). It is always the front if there
+// are several models or a pose moves the only model, because models are placed to be seen from there. At most
+// a million points are examined.
 ViewGuess best_side(const Scene& scene);
 
 // Returns the view, turned to a side.
@@ -77,19 +76,20 @@ View on_side(View view, const ViewGuess& side);
 // Returns the view, turned to the best side if that is still to be chosen (View::is_best).
 View chosen_view(const Scene& scene, const View& view);
 
-// Returns the default number of visible points: 300,000. Meshes alone have no finer detail than their
-// triangles: for them it is 15 per triangle if that is less, but at least 100,000, so that outlines stay
-// smooth.
+// Returns the default number of visible points: 300,000. For a scene of meshes only, it is 15 per triangle if
+// that is less, because meshes have no finer detail than their triangles; but it is at least 100,000, so that
+// outlines stay smooth.
 double usual_points(const Scene& scene);
 
 // Returns the points of all placed models, in the scene's frame. `points` is the wanted number of points, by
 // default usual_points().
-// - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds keep
-//   all points but outliers.
+// - All meshes together give about the wanted number of points; hidden parts are left out. Clouds keep all
+//   points but outliers.
 // - All models get about the same sampling distance: that of the finest cloud, or the distance at which the
 //   wanted number of points is visible, if that is larger or the scene has meshes. Finer clouds are thinned
-//   to it. Of much coarser clouds only the visible points are taken, and points are added between them.
-// - Normals are estimated, or turned, for each model by itself.
+//   to this distance. Of much coarser clouds only the visible points are taken, and points are added between
+//   them.
+// - Normals are estimated or turned separately for each model.
 // - If any model has colours, the others are white.
 // - A single cloud that is not moved keeps all points of its file but outliers.
 // Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,

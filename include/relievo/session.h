@@ -1,4 +1,4 @@
-// A model that is prepared in the background while the one before it can still be used.
+// Prepares models in the background. Meanwhile the previous model can still be used.
 #pragma once
 
 #include <chrono>
@@ -18,9 +18,9 @@ struct SessionStatus {
   bool is_preparing = false;
   std::string stage;           // current stage of the preparation, see Progress
   double fraction = 0;         // share of the preparation that is done, in [0, 1]
-  std::optional<Error> error;  // of the last preparation, failed or cancelled; none while one runs
-  // True once the points are measured, long before their first model is ready, and the first coarse relief,
-  // if wanted, is made.
+  std::optional<Error> error;  // error of the last preparation, failed or cancelled; none while one runs
+  // True once the points are measured and the first coarse relief, if wanted, is made. This is long before
+  // the first model of the points is ready.
   bool can_turn = false;
 };
 
@@ -33,23 +33,24 @@ struct Preparation {
   View view = {};
   Mode mode = Mode::automatic;
 
-  // If set, it is called after points(), and returns the view where that depends on the points.
+  // If set, it is called after points(), and returns a view that depends on the points.
   std::function<View()> chosen_view = {};
 
-  // If set, it is called for coarse reliefs, and returns the points of all sides. If not, coarse reliefs use
-  // the result of points(): this suits clouds, but the points of a mesh are samples of one view.
+  // If set, it is called for coarse reliefs, and returns the points of all sides. If not set, coarse reliefs
+  // use the result of points(). This suits clouds, but the points of a mesh are samples of one view.
   std::function<Points(Progress&)> all_sides = {};
 
   // If set, and there is no model yet, the session's thread makes the coarse relief of this view as soon as
   // the points are measured, and turn() returns it.
   bool makes_first_relief = false;
 
-  // Called with the model just before status() says that it is ready. It runs under the session's lock, so it
-  // must not call the session, and no caller of the session may own a lock that it takes.
+  // Called with the model just before status() reports that the model is ready. The call is made under the
+  // session's lock: this function must not call the session, nor take a lock that a caller of the session may
+  // own.
   std::function<void(const Model&)> ready = {};
 
-  // If set, it is called when status() has changed, and may call no other function of the session than
-  // status(). Programs with threads may poll status() instead.
+  // If set, it is called when status() has changed. Of the session's functions it may call only status().
+  // Programs with threads may poll status() instead.
   std::function<void()> changed = {};
 };
 
@@ -60,8 +61,9 @@ class Session {
   Session();
   ~Session();  // cancels the running work and waits for its end
 
-  // Prepares a model in the background. A newer call cancels an older one, whose end is not reported. The
-  // previous model stays until the new one is ready; if the preparation fails, it stays for good.
+  // Prepares a model in the background. A newer call cancels an older one, and the end of the older one is
+  // not reported. The previous model stays until the new one is ready; if the preparation fails, the previous
+  // model stays for good.
   void open(Preparation preparation);
 
   // Cancels the preparation that runs or waits, if any. status() reports it at once. The work itself ends
@@ -69,16 +71,17 @@ class Session {
   // points that were read are freed.
   void cancel();
 
-  // Returns a coarse relief of the points that were prepared last in another view, to be shown while the view
-  // moves; open() prepares the final view. The work is done in the calling thread, in a few hundredths of a
-  // second; the first call for a cropped cloud or a mesh measures the points of all sides as well, which
-  // takes longer. A newer call of turn() and cancel() cancel this one. turn() does not cancel a preparation,
-  // and open() does not cancel turn(): a call may come late, when the final view is already being prepared.
-  // Errors: kind geometry if no points have been measured yet, or if the view shows no area; kind cancelled.
+  // Returns a coarse relief, in another view, of the points that were prepared last. It is shown while the
+  // view moves; open() prepares the final view. The work is done in the calling thread, in a few hundredths
+  // of a second. The first call for a cropped cloud or a mesh takes longer, because it also measures the
+  // points of all sides. A newer call of turn() and cancel() cancel this one. turn() does not cancel a
+  // preparation, and open() does not cancel turn(): a call may come late, when the final view is already
+  // being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area;
+  // kind cancelled.
   Result<TurnedRelief> turn(const View& view);
 
   SessionStatus status() const;
-  std::shared_ptr<const ReliefModel> model() const;  // the newest; null before the first
+  std::shared_ptr<const ReliefModel> model() const;  // the newest model; null before the first
 
   // Waits until nothing is left to do. Returns false if that takes longer than the timeout. Where there are
   // no threads, this call runs the preparation passed to open(); with a timeout of 0 it does nothing.

@@ -11,12 +11,12 @@ namespace relievo {
 
 class MeasuredCloud;
 
-// A relief that looks like that of ReliefModel::prepare() in the same view, at a lower resolution.
+// A relief that looks like a relief of ReliefModel::prepare() in the same view, at a lower resolution.
 struct TurnedRelief {
   std::shared_ptr<const ReliefModel> model;
-  std::shared_ptr<const SurfaceDetail> detail;  // normals that its points do not resolve; for Shown::detail
-  // The scan's sampling distance divided by the model's. The boundary width of a shape, which is in sampling
-  // distances, must be multiplied by it.
+  std::shared_ptr<const SurfaceDetail> detail;  // normals that the points do not resolve; for Shown::detail
+  // The scan's sampling distance divided by the model's. The boundary width of a shape is in sampling
+  // distances, so it must be multiplied by this ratio.
   double spacing_ratio = 1;
 };
 
@@ -30,8 +30,8 @@ class Turntable {
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 
-  // Returns the relief of a view. `like` is a model of the same scan in another view, whose parameters of the
-  // height correction are used, or null. Errors: kind geometry if the view shows no area; kind cancelled.
+  // Returns the relief of a view. `like` is a model of the same scan in another view, or null; its parameters
+  // of the height correction are used. Errors: kind geometry if the view shows no area; kind cancelled.
   Result<TurnedRelief> turn(const View& view, const ReliefModel* like, Progress* progress = nullptr) const;
 
  private:

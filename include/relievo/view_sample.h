@@ -18,7 +18,7 @@ struct SampleNote {
     estimated_normals,  // normals were estimated, because the model has none
     turned_normals,     // normals were reversed, because they point inwards
     mesh,               // `points` were taken from a mesh of `of` triangles
-    coarse,             // the cloud is coarser than the scene: points were taken between its own
+    coarse,             // the cloud is coarser than the scene: points were added between its own
     fine                // the cloud is finer than the scene: `points` of its `of` points were kept
   };
 
@@ -30,7 +30,7 @@ struct SampleNote {
 };
 
 struct ViewSample {
-  std::shared_ptr<const Cloud> cloud;  // points in the scene's frame; the file's own if none was changed
+  std::shared_ptr<const Cloud> cloud;  // points in the scene's frame; the file's own if no point was changed
   std::size_t left_out = 0;            // number of outliers of all models together
   std::vector<SampleNote> notes;
 };

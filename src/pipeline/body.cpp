@@ -19,7 +19,7 @@ namespace {
 // Shares of the tolerance that curved bases and flips of thin triangles' edges may use.
 constexpr double bending_share = .25, turning_share = .01;
 constexpr double least_error_mm = 1e-4;  // limit of files; used if only the number of triangles is limited
-constexpr double rim_bevel = .3;         // of the rim's height: 17 degrees off the vertical, so dies come off
+constexpr double rim_bevel = .3;  // share of the rim's height: 17 degrees off the vertical, so dies come off
 
 // The limit for slopes of simplified fronts, as a share of the steepest slope allowed. It is above the 0.999
 // of limit_draft(), to give simplification some freedom, and below 1 because of rounding.
@@ -31,7 +31,7 @@ bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
 }
 
-// Returns the width of the bevel with which a rim of that height leans by that angle off the vertical.
+// Returns the width of the bevel with which a rim of that height leans by that angle to the vertical.
 double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
@@ -71,9 +71,9 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return ((box.min + box.max) / 2).head<2>();
 }
 
-// Returns the largest width of a relief that keeps margin and rim from all sides of the plate. The middles of
-// its hull and of the plate's outline coincide, so that each side of the outline limits the scale
-// independently.
+// Returns the largest width of a relief that leaves room for margin and rim on all sides of the plate. The
+// middles of the relief's hull and of the plate's outline coincide, so each side of the outline limits the
+// scale independently.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
   const std::vector<Vec2> hull = unit_hull(surface);
@@ -98,7 +98,7 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-// A given bevel may be too steep: it must lean at least as much as walls.
+// A given bevel may be too steep: it must lean at least as much as walls must.
 Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
   const RimOptions rim = formed_rim(options, height_mm);

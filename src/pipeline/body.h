@@ -1,4 +1,4 @@
-// The front, the plate and the body that the options of a relief ask for.
+// Makes the front, the plate and the body that the options of a relief ask for.
 #pragma once
 
 #include "relievo/core/progress.h"
@@ -20,16 +20,16 @@ inline bool is_simplified(const ReliefOptions& options) {
 // Returns width and height of the plate in millimetres; 0 if they follow from the relief.
 Vec2 plate_size_of(const ReliefOptions& options);
 
-// Returns the plate options for a relief of that height. The options have passed check(); if they ask for
-// simplification, `triangles` limits those of the front.
+// Returns the plate options for a relief of that height. The options have passed check(). If they ask for
+// simplification, their `triangles` limits the front's triangles.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
-// Returns the limits for simplifying the front, less the share of the tolerance that a curved base takes. The
-// options must ask for simplification.
+// Returns the limits for simplifying the front. The tolerance excludes the share that a curved base takes.
+// The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether make_plate() must simplify: this is so on curved ground, whose triangles are not the
-// front's.
+// Returns whether make_plate() must simplify. This is so on curved ground, because its triangles are not the
+// front's triangles.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
 // A solid, and the same solid before it was bent around a wrap.
@@ -42,31 +42,31 @@ struct Body {
 };
 
 // Returns the body with that front; `relief_mm` is the relief's height. Errors: kind option for a rim that
-// does not lean as the draft asks; those of make_plate(), enforce_draft_in_float() and wrap_plate().
+// leans less than the draft angle requires; those of make_plate(), enforce_draft_in_float() and wrap_plate().
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options);
 
 struct FormedFront {
   HeightFieldMesh front;
   double height_mm = 0;                // lowest to highest point
   double simplification_error_mm = 0;  // largest difference to the front with all samples
-  std::size_t full_triangles = 0;      // triangles of that front
+  std::size_t full_triangles = 0;      // triangles of the front with all samples
 };
 
-// Returns the points at these heights, in millimetres, on the surface's triangles.
+// Returns the surface's triangles as a front in millimetres, with its points at these heights.
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 
-// Returns the front with all its samples in the form that the options ask for. Errors: `cancelled`.
+// Returns the front with all its samples in the form that the options ask for. Errors: kind cancelled.
 Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                const Progress* progress);
 
-// Returns the front, simplified as the options ask unless make_plate() will simplify. With the outline `none`
-// it is only the relief. Errors: those of simplify().
+// Returns the front, simplified as the options ask unless make_plate() will simplify it. With the outline
+// `none`, the result is only the relief. Errors: those of simplify().
 Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 // Returns the depth of the front's lowest point below the ground: 0 or more.
 double depth_below_ground(const HeightFieldMesh& front);
 
-// The solid of a front, with no more triangles than are asked for.
+// The solid of a front, with at most the requested number of triangles.
 struct FormedBody {
   FormedFront formed;
   Body body;

@@ -23,8 +23,8 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   return {lowest, highest};
 }
 
-// Returns whether the front is resampled. With a draft angle it is not, because the angle is ensured for the
-// triangles between the given points; a lithophane is not, either, because its heights are not those of a
+// Returns whether the front is resampled. A front with a draft angle is not, because the angle is ensured
+// only for triangles between the given points. A lithophane is not, because its heights are not heights of a
 // surface.
 bool is_sampled(const ReliefOptions& options) {
   return !options.draft_deg && options.form != Form::lithophane;
@@ -56,9 +56,9 @@ Result<double> sample_step(const Surface& surface, const ReliefOptions& options)
 }
 
 // The largest number of simplifications. On plane ground the first guess of the front's number of triangles
-// is right.
+// is already right.
 constexpr int most_attempts = 4;
-constexpr double close_enough = .98;  // share of the triangles asked for
+constexpr double close_enough = .98;  // share of the requested number of triangles
 
 Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress* progress) {
   RELIEVO_TRY(FormedFront formed, simplified_front(std::move(full), options, progress));

@@ -15,7 +15,7 @@ namespace {
 // From this u on, weights are 1 to the last bit.
 constexpr double uncompressed_u = 1e12;
 
-// Stretching by less than this is not noticed while the picture moves.
+// Stretching heights by less than this is not noticed while the picture moves.
 constexpr double moving_tolerance = .03;
 
 // The sizes on which the largest width of a relief in a plate of given size depends.
@@ -59,8 +59,8 @@ struct LiveModel::State {
     return *maker;
   }
 
-  // The same tone curve object is reused as long as its points are the same, so that equal frames compare as
-  // equal.
+  // Returns the options of a frame. The tone curve object is reused as long as its points are the same, so
+  // that equal frames compare as equal.
   FrameOptions frame_options(const ReliefOptions& options) {
     FrameOptions wanted{shape_of(options), std::nullopt, nullptr};
     wanted.shape.boundary_width *= shown.spacing_ratio;

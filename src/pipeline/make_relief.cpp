@@ -46,7 +46,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Fills in the heights of a front that a tool has changed; it leaves material in narrow, deep places.
+// Fills in the heights of a front that a tool has changed. The tool leaves material in narrow, deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)
@@ -78,7 +78,7 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
                    body.wrap->is_inside(), body.wrap->across()};
 }
 
-// Fills in the place of the scan in the plate.
+// Fills in the transform from the scan to the plate.
 void report_place(const ReliefFacts& facts, ReliefReport& report) {
   const Form form = facts.options.form;
   const Vec3 sign(is_mirrored(form) ? -1 : 1, 1, form == Form::die ? -1 : 1);
@@ -98,7 +98,7 @@ ReliefReport report_on(const ReliefFacts& facts) {
   return report;
 }
 
-// Returns the heights of the base under the surface's points, in the surface's units; none for a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; empty for a plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();
@@ -148,8 +148,9 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
-// Makes the relief of the given height, or else of the usual one. If the view does not reach the usual
-// height, the relief gets the height of its uncompressed slopes.
+// Makes the relief of the given height, or else of the usual one. If the model is too shallow in this view
+// for the usual height, the slopes stay uncompressed, and the height follows from them. For a given height
+// that is an error.
 Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
   const bool is_usual = !options.height_mm && options.effective_height_mm();
   options.height_mm = options.effective_height_mm();

@@ -50,7 +50,7 @@ std::optional<double> ruling_number(const ReliefOptions& options) {
 template <auto member, auto ruling = member>
 constexpr OptionAccess number{read_number<member>, ruling_number<ruling>};
 
-// Reads a text into a member by a function that takes the text alone.
+// Reads a text into a member by a function that takes only the text.
 template <auto member, auto parse>
 constexpr OptionAccess text{[](const OptionValue& value, OptionTargets& to) -> Result<void> {
   RELIEVO_TRY(target(member, to), parse(std::get<std::string>(value)));

@@ -46,7 +46,7 @@ Result<void> check_rim(const ReliefOptions& options) {
   return {};
 }
 
-// Only a plane can be milled as the tool leaves it, can be a lithophane, and can be bent around a body.
+// Only a plate on a plane base can have a reachable surface, be a lithophane, or be bent around a body.
 Result<void> check_base(const ReliefOptions& options) {
   if (options.base.kind == BaseKind::plane) return {};
   if (options.form == Form::lithophane)
@@ -114,7 +114,7 @@ Result<void> read_value(const OptionRow& option, const OptionValue& given, Optio
   return option.access.read(value, to);
 }
 
-// Reads the values of the relief's options, or of the other options, which are for depth images.
+// Reads the values of the relief's options or, if `is_of_relief` is false, of the options of depth images.
 Result<OptionTargets> read_values(const OptionValues& values, bool is_of_relief) {
   OptionTargets to;
   for (const OptionRow& option : option_table()) {

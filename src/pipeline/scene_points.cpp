@@ -127,7 +127,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// Returns the area that points facing the viewer cover. Layers of points behind each other all count.
+// Returns the area that the points facing the viewer cover. All layers of points behind each other count.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -137,7 +137,8 @@ double shown_area(const PlacedCloud& cloud) {
   return sum;
 }
 
-// Returns the same area for triangles, whose orientation is ignored.
+// Returns the area that a mesh shows to the viewer, hidden layers included. The orientation of triangles is
+// ignored.
 double shown_area(const Mesh& mesh, const View& view) {
   const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;
@@ -191,7 +192,7 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   return all;
 }
 
-// Returns the cloud without its outliers. It is not copied if there are none.
+// Returns the cloud without its outliers. A cloud without outliers is not copied.
 ViewSample without_outliers(std::shared_ptr<const Cloud> cloud) {
   const std::vector<Index> far = outliers(*cloud);
   if (far.empty()) return {std::move(cloud), 0, {}};

@@ -48,7 +48,7 @@ struct Shared {
     if (making_first) making_first->cancel();
   }
 
-  // Frees the points if no model was made of them. If there is a model, its next view may need them.
+  // Frees the points if there is no model. The next view of a model may need them.
   void forget_unused() {
     if (!model) forget_points();
   }
@@ -144,8 +144,8 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes the relief of the next turn(), if it is wanted. This is done before the model, because doing both
-  // at once would take longer.
+  // Makes the first coarse relief, if it is wanted. This is done before the model, because doing both at once
+  // would take longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
