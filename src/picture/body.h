@@ -37,7 +37,7 @@ struct PlateParts {
 PlateParts plate_parts(const Solid& solid);
 
 // A body with x and y from the middle of its box and z from the ground. Triangles refer to its points by
-// index: first those with heights, then `box_corners`. A DrawnBody does not own its arrays.
+// index: first come the points with heights, then `box_corners`. A DrawnBody does not own its arrays.
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
@@ -46,13 +46,13 @@ struct DrawnBody {
   std::span<const float> heights;  // in units of mm_per_height
   float mm_per_height = 1;
   std::span<const Vec3f> normals;         // normals of the relief's points, unit length
-  float stretch = 1;                      // factor that makes these normals steeper
+  float stretch = 1;                      // factor that makes `normals` steeper
   const SurfaceDetail* detail = nullptr;  // shown between the points with `gains`, see Shown
   std::span<const float> gains = {};
   Vec2f middle = Vec2f::Zero();  // middle of the surface's points, in the coordinates of `detail`
   std::vector<Vec3> box_corners = {};
   Box front = {};  // box of the front's points, in mm
-  // Seen from above, no point of the front hides another, so that heights are not needed for that view.
+  // True if no point of the front hides another when seen from above. That view then needs no heights.
   bool is_height_field = false;
 
   Vec3 point(Index i) const {
@@ -80,7 +80,7 @@ class SolidBody {
   std::vector<Vec3f> normals_;
 };
 
-// Returns unit normals of the relief's points, weighted by the areas around them; zero for others.
+// Returns unit normals of the relief's points, weighted by the areas around them; zero for all other points.
 std::vector<Vec3f> relief_normals(const Solid& solid);
 
 }  // namespace relievo

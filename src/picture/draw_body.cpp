@@ -208,11 +208,11 @@ void store(const Vec3f& colour, float coverage, const DisplayTable& display, std
 struct SeenTriangle {
   Index triangle = no_index;
   int samples = 0;
-  Vec3f places = Vec3f::Zero();  // sum of their positions
+  Vec3f places = Vec3f::Zero();  // sum of the samples' positions
 };
 
-// Finds the triangles visible in the n x n samples of a pixel, each once, because colours are computed per
-// triangle and not per sample. Returns their number.
+// Finds the triangles that are visible in the n x n samples of a pixel, each triangle once, because colours
+// are computed per triangle and not per sample. Returns their number.
 int find_seen(const RowBand& band, int column, int row, int n, std::array<SeenTriangle, most_samples>& seen) {
   int count = 0;
   for (int y = row * n; y < row * n + n; ++y) {

@@ -47,8 +47,8 @@ void draw_visibility(const DrawnBody& body, const RasterInput& input, Visibility
 // Returns the height of a point above the ground, in mm.
 float height_mm(const DrawnBody& body, const VisiblePoint& seen);
 
-// Caches a buffer for as long as it shows the same points. Seen from above, this is while heights change and
-// the plate's size does not.
+// Caches a visibility buffer as long as it shows the same points. In the view from above it does so while
+// only heights change, and not the plate's size.
 class CachedVisibility {
  public:
   const VisibilityBuffer& get(const DrawnBody& body, const ScreenTransform& transform);

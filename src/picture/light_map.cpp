@@ -9,15 +9,15 @@
 namespace relievo {
 namespace {
 
-// Radii within which hollows are darkened are the front's longer side divided by these: the first for folds
-// and letters, the second for a figure in front of its ground.
+// Hollows are darkened within two radii, which are the front's longer side divided by these numbers. The
+// first radius suits folds and letters, the second a form in front of its ground.
 constexpr int hollow_divisors[] = {120, 30};
 
-// Share of the sky's light that is left in the deepest hollow: black hollows would look like holes.
+// Share of the sky's light that is left in the deepest hollow. Black hollows would look like holes.
 constexpr float darkest_hollow = .2F;
 
-// A hollow keeps 1/e of the sky that can be hidden where its depth below its mean surroundings is this share
-// of the radius. That is about 24 degrees, the slope of a clear fold.
+// A hollow loses sky by its depth below the mean of its surroundings. At this depth, a share of the radius,
+// 1/e of the sky that a hollow can lose is left. It is about 24 degrees, the slope of a clear fold.
 constexpr float hollow_depth = 1 / 2.2F;
 
 // Tangent of the lamp's apparent size: a soft box of a metre, one and a half metres away. Shadows of a small
@@ -28,7 +28,7 @@ constexpr float lamp_width = .7F;
 // studio's shadows.
 constexpr float shadow_strength = .7F;
 
-// Steps on the way to the lamp, in pixels: longer steps miss narrow ridges, shorter ones find no more.
+// Steps on the way to the lamp, in pixels. Longer steps miss narrow ridges; shorter ones find no more ridges.
 constexpr double step_px = 1.5;
 
 // Darkens the sky where the surface lies below its surroundings within about `radius` pixels (after Luft,
@@ -56,8 +56,8 @@ Ray ray_to(const HeightField& field, const Vec3f& to_lamp) {
           static_cast<float>(step_px * field.mm_per_pixel * lamp.z() / flat)};
 }
 
-// Returns the share of a wide lamp that is visible from a pixel. It walks towards the lamp as long as the
-// relief can still rise above the ray.
+// Returns the share of a wide lamp that is visible from a pixel. The ray is followed as long as the relief
+// can still rise above it.
 float lamp_share(const HeightField& field, int column, int row, const Ray& ray, float highest) {
   const float x = static_cast<float>(column) + .5F, y = static_cast<float>(row) + .5F;
   const auto width = static_cast<float>(field.z.width), height = static_cast<float>(field.z.height);

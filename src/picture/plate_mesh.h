@@ -1,4 +1,4 @@
-// The rectangular plate around a model's frames, as triangles that stay the same while heights change.
+// The rectangular plate around a model's frames, as triangles that stay the same when heights change.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ struct PlateMesh {
 
 PlateMesh plate_mesh(const Surface& surface);
 
-// Returns a frame on its plate; it refers to the mesh and to `shown`.
+// Returns the body of a frame on its plate. The body refers to the mesh and to `shown`.
 DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options);
 
 // Returns the transform that fits a box around the origin into the picture, turned and moved by the camera.

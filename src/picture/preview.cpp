@@ -34,7 +34,7 @@ Mat3 oblique_rotation() {
       .matrix();
 }
 
-// Returns the part of a body up to that height.
+// Returns the part of a body below that height.
 Solid cut_open(const Solid& solid, double most_z) {
   Solid open{solid.points, {}};
   open.ground_mm = solid.ground_mm;

@@ -66,7 +66,8 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Draws in two passes, as in surface splatting: first the front, then the mean normal of the dots on it.
+// Draws the dots in two passes, as in surface splatting: first the front-most depths, then the mean normals
+// of the dots near these depths.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {

@@ -1,4 +1,4 @@
-// The map from the points of a body to their places in a picture.
+// The map from the points of a body to their positions in a picture.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 
 namespace relievo {
 
-// Orthographic: pixel = middle of the picture + pixels_per_mm * R_screen_body * (point - pan), y downwards.
+// An orthographic projection: pixel = middle of the picture + pixels_per_mm * R_screen_body * (point - pan),
+// y downwards.
 struct ScreenTransform {
   // Points are clamped to this distance from the picture's middle, in pixels, because the rasterizer's
   // integers would overflow.

@@ -6,16 +6,16 @@
 namespace relievo {
 namespace {
 
-// Strengths of lamp and sky. Their sum is 1, so that a place that faces both is as bright as its material and
-// nothing is clipped. With less sky, forms in shadow are lost; with more, the relief looks flat.
+// Strengths of lamp and sky. Their sum is 1, so that a surface that faces both is as bright as its material
+// and nothing is clipped. With less sky, forms in shadow are lost; with more, the relief looks flat.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
-// The brightest sky is above, and a little on the side away from the lamp: slopes that are turned away from
-// it keep their form.
+// The brightest sky is above, and a little on the side away from the lamp, so that slopes turned away from
+// the lamp keep their form.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// The exposure is raised for a raking lamp, as a photographer would do. It is 1 at this cosine of the angle
-// between lamp and normal, which belongs to a lamp as far to the left and above as in front.
+// The exposure is raised for a raking lamp, as a photographer would do. The exposure is 1 at this cosine of
+// the angle between lamp and normal, at which the lamp is as far to the left and above as in front.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
@@ -47,14 +47,14 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
 
 // The room that metal and varnish mirror: a soft box around the lamp, a lower and dimmer reflector on the
 // other side, walls that are bright above and dark below, and the dark room beside the plate. The brightness
-// of box and reflector rises from 0 at the first cosine to its full value at the second. All were chosen by
-// eye; silver was compared with a photograph of coins.
+// of box and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values
+// were chosen by eye; silver was compared with a photograph of coins.
 constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// The viewer's distance, in units of half of the body's longer side. It is finite, so that each place of
-// level ground mirrors another part of the room, and the ground is not of one tone.
+// The viewer's distance, in units of half of the body's longer side. It is finite, so that each part of level
+// ground mirrors another part of the room, and the ground does not have one uniform tone.
 constexpr float viewer_distance = 3.6F;
 
 // The properties by which metals differ.
@@ -234,8 +234,8 @@ Vec3f Shader::metal(const Lit& lit) const {
 
 // The grain runs vertically and bends a little. Growth rings are slanted in the board, so that they shift
 // sideways with the depth of the carving. Lengths are in millimetres: rings are 3.3 mm apart, bend over some
-// 30 and 80 mm, and the noise of fibres and pores is ten to twenty times as long as wide. All were chosen by
-// eye.
+// 30 and 80 mm, and the noise of fibres and pores is ten to twenty times as long as wide. All values were
+// chosen by eye.
 Vec3f Shader::wood(const Lit& lit) const {
   const float x = lit.place.x() + 1.6F * lit.place.z(), y = lit.place.y();
   const float bend = 4 * smooth_noise(x * .03F + 7, y * .012F) + .5F * smooth_noise(x * .11F, y * .03F);

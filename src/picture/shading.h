@@ -1,4 +1,5 @@
-// From light to colour: the lamp, the sky, shadows that the relief casts on itself, and the materials of all pictures.
+// Computes colours from light: the lamp, the sky, shadows that the relief casts on itself, and the materials
+// of all pictures.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,8 @@ struct Light {
   float lamp = 0, sky = 0;
 };
 
-// Shares of light in [0, 1] over the front's plane; 1 is full light. They depend on the place and not on the
-// viewer, so that all views of a plate show the same light.
+// Shares of light in [0, 1] over the front's plane; 1 is full light. They depend on the position and not on
+// the viewer, so that all views of a plate show the same light.
 class LightMap {
  public:
   // `to_lamp` has length 1. A field without pixels gives a map of ones.
@@ -37,13 +38,14 @@ struct Lit {
   Light light;                        // shares of light that reach the point
   Vec3f place;                        // position on the plate, in mm
   float height = 0;                   // share of the relief's height, 0 is its lowest point
-  Vec2f from_middle = Vec2f::Zero();  // relative to half of the body's longer side, in [-1, 1]
+  Vec2f from_middle = Vec2f::Zero();  // offset in units of half the body's longer side, in [-1, 1]
 };
 
 // Returns the vector scaled to length 1; a zero vector stays zero.
 Vec3f direction_of(const Vec3f& light);
 
-// The light of the room around a body, by its direction. It is tabulated, because every pixel uses it.
+// The light of the room around a body, as a function of direction. It is tabulated, because every pixel uses
+// it.
 class Room {
  public:
   // Makes a room that is dark everywhere.

@@ -31,8 +31,8 @@ struct HeightsMm {
 // Returns the front of a solid as heights, see make_height_map().
 HeightsMm make_heights_mm(const Solid& solid, int longer_side_px);
 
-// Returns the front from above, shaded, with the material that the tool leaves coloured from orange to red,
-// by its share of the largest residual. The result has no pixels if there are no samples.
+// Returns a shaded picture of the front from above. Material that the tool leaves is coloured from orange to
+// red, by its share of the largest residual. The result has no pixels if there are no samples.
 Image8 render_reach(const ToolReach& reach, int longer_side_px);
 
 }  // namespace relievo

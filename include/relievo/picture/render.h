@@ -1,5 +1,5 @@
-// Pictures of frames in milliseconds, for programs that show a relief while it is worked on. Everything is
-// drawn on the CPU. For a picture of a finished solid see render_preview().
+// Draws pictures of frames within milliseconds, for programs that show a relief while the user works on it.
+// Everything is drawn on the CPU. For a picture of a finished solid see render_preview().
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct RenderOptions {
 };
 
 // Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane, in rows from below upwards. A cell is NaN where the scan shows nothing, or an edge.
+// view plane, in rows from below upwards. A cell is NaN if the scan shows nothing there, or an edge.
 struct SurfaceDetail {
   Vec2f corner = Vec2f::Zero();  // lower left of the grid, in the coordinates of the surface's points
   float cell = 1;
@@ -63,8 +63,8 @@ struct Shown {
   std::span<const float> heights;                  // heights above the ground, in the model's units
   std::span<const Vec3f> normals;                  // unit length
   float stretch = 1;                               // factor of the heights and normals in the picture, > 0
-  std::optional<std::array<float, 2>> range = {};  // lowest and highest; searched for if not given
-  // The detail, times a gain per point, is added to the slopes between the points, see
+  std::optional<std::array<float, 2>> range = {};  // lowest and highest height; searched if not given
+  // The detail is multiplied by a gain per point and added to the slopes between the points, see
   // FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
@@ -72,8 +72,8 @@ struct Shown {
 
 // Draws frames of one model on a rectangular plate. The background is transparent (opacity 0) except for the
 // plate's soft shadow. Not for concurrent use. In the view from the front the visible triangle of each pixel
-// is cached: if only heights or light change, a picture takes one look-up per pixel, about 10 ms for 500,000
-// pixels on two cores. A picture from another direction takes three times as long.
+// is cached. So, if only heights or light change, a picture takes one look-up per pixel, about 10 ms for
+// 500,000 pixels on two cores. A picture from another direction takes three times as long.
 class FrameRenderer {
  public:
   // Shares ownership of the model.
@@ -89,8 +89,8 @@ class FrameRenderer {
   // Returns the model itself, uncompressed: its depths above its lowest visible point.
   Shown original() const;
 
-  // Returns `samples` heights in mm above the ground, evenly spaced along the line between two places of the
-  // plate's plane, in mm from the middle of the relief. 0 outside the relief.
+  // Returns `samples` heights in mm above the ground. They are evenly spaced along the line between two
+  // positions in the plate's plane, in mm from the middle of the relief. Outside the relief the height is 0.
   std::vector<float> profile(const Shown& shown, const RenderOptions& options, const Vec2& from,
                              const Vec2& to, std::size_t samples);
 
