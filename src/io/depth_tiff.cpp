@@ -66,8 +66,8 @@ float as_signed(std::uint64_t bits, unsigned size) {
 }
 
 // Returns the format of the tags SampleFormat and BitsPerSample if it is supported: whole numbers of 1 to 32
-// and of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are
-// taken as whole numbers.
+// and of 64 bits, signed whole numbers of 8, 16, 32 and 64 bits, and fractions of 16, 32 and 64 bits.
+// Undefined samples are taken as whole numbers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits) {
   const auto is_one_of = [&](auto... sizes) { return ((bits == sizes) || ...); };
   if (sample_format == SAMPLEFORMAT_UINT || sample_format == SAMPLEFORMAT_VOID) {
@@ -88,8 +88,8 @@ std::string describe_samples(unsigned sample_format, unsigned bits) {
   return std::to_string(bits) + "-bit " + (sample_format > 4 ? "complex numbers" : names[known]);
 }
 
-// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the machine's byte order, which is
-// little-endian, and all other widths packed, the most significant bit first.
+// Decodes n samples of a row. Numbers of 8, 16, 24, 32 and 64 bits are in the machine's byte order, which is
+// little-endian. All other widths are packed, the most significant bit first.
 void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to) {
   const unsigned bits = format.bits;
   const bool is_packed = bits % 8 != 0;
@@ -280,11 +280,11 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-// Terrain models have the lowest number of single precision where nothing is known, not always with a tag
-// that states it.
+// Terrain models store the lowest single-precision number where the height is unknown. Not all of them have a
+// tag that states this.
 constexpr float lowest_height = -1e38F;
 
-// Inverts the values if the file stores white as 0, and makes missing ones NaN.
+// Inverts the values if the file stores white as 0, and replaces missing values by NaN.
 void interpret(const Layout& layout, std::optional<float> missing, DepthImage& image) {
   const bool is_inverted = layout.colours == PHOTOMETRIC_MINISWHITE &&
                            layout.samples.kind == SampleKind::whole && layout.bits <= 32;

@@ -12,7 +12,7 @@
 
 namespace relievo::io {
 
-// Return true if the content, or else the name, is that of a file of the format. `source` may be only the
+// Return true if the content, or else the name, shows that the file has this format. `source` may be only the
 // beginning of a file.
 bool is_ply(const Source& source);
 bool is_pcd(const Source& source);
@@ -126,8 +126,8 @@ inline constexpr std::array<ForeignFormat, 10> foreign_endings = {
      {".tiff", "a TIFF picture"},
      {".ply", "a file that does not begin with the line 'ply'"}}};
 
-// Returns a description such as "a ZIP archive" of a file in an unsupported format, or of unknown binary
-// data; empty for text without the mark of such a format.
+// Returns a description, such as "a ZIP archive", of a file in an unsupported format or of unknown binary
+// data. Empty for text that does not begin like such a format.
 std::string foreign_format(const Source& source);
 
 // Returns the names of the formats with that content: "PLY, PCD, LAS".

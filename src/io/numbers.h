@@ -1,5 +1,5 @@
-// Decodes columns of binary numbers to double, and points in rows of equal size, as in binary PLY, PCD and LAS, of
-// which any block can be decoded by itself.
+// Decodes columns of binary numbers to double, and points in rows of equal size, as in binary PLY, PCD and
+// LAS. Any block of such rows can be decoded separately.
 #pragma once
 
 #include <array>
@@ -65,7 +65,7 @@ struct StreamRecords {
   std::string format;              // shown to people
   std::uint64_t faces = 0;         // faces of a mesh, which are not read
   bool may_end_early = false;      // a file with fewer rows than promised is read up to its end
-  std::uint64_t missing_rows = 0;  // promised, but missing because the file ends early
+  std::uint64_t missing_rows = 0;  // rows that are missing because the file ends early
 };
 
 // Returns a cloud of `points` points, with normals and colours if the records have them; all values are

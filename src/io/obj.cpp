@@ -104,8 +104,8 @@ class ObjReader {
       if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;
   }
 
-  // Returns one normal per point, the mean of the normals to which faces refer for it. The result is empty if
-  // no face refers to a normal.
+  // Returns one normal per point: the mean of all normals with which faces use the point. If no face refers
+  // to a normal, the points get the file's normals in their order, provided that their numbers are equal.
   std::vector<Vec3f> point_normals() const {
     const bool has_named =
         std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
@@ -118,7 +118,7 @@ class ObjReader {
     return units;
   }
 
-  // Returns the triangles of the faces; corners without a normal get none.
+  // Adds the triangles of the faces. If the cloud has normals, a corner without a normal gets its point's.
   void add_mesh(RawCloud& raw) const {
     std::size_t begin = 0;
     std::vector<Vec3> polygon;  // reused to keep its memory

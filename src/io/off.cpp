@@ -51,7 +51,7 @@ class OffReader {
   }
 
  private:
-  // Returns the words of the next line that has any; none at the end of the file.
+  // Returns the words of the next line that is not empty; no words at the end of the file.
   Words next_row() {
     while (const auto line = lines_.next()) {
       const std::string_view text = trim(before_comment(*line));
@@ -61,8 +61,8 @@ class OffReader {
     return Words();
   }
 
-  // Returns the next word, of this line or a later one, because the format is free-form. In a later line,
-  // is_wrapped_ becomes true.
+  // Returns the next word, of this line or a later one, because the format is free-form. If it comes from a
+  // later line, is_wrapped_ becomes true.
   std::string_view next_word(Words& words) {
     std::string_view word = words.next();
     while (word.empty() && !is_at_end_) {
@@ -73,7 +73,7 @@ class OffReader {
     return word;
   }
 
-  // Further words in a line belong to properties that are not read. In a row that was wrapped over several
+  // Further words in a line belong to properties that are not read. If the row was wrapped over several
   // lines, however, they are an error.
   Result<void> end_row(Words words) {
     const std::string_view word = words.next();

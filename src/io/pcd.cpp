@@ -1,4 +1,4 @@
-// PCD 0.7 and its forerunners: ascii, binary, and binary_compressed (LZF, one field after the other).
+// Reads PCD 0.7 and earlier versions: ascii, binary, and binary_compressed (LZF, one field after the other).
 #include <lzf.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct PcdHeader {
   Records records;                       // layout of the points; ascii files use only `count`
   std::vector<std::size_t> field_sizes;  // bytes of each field of a point
   std::size_t lines = 0;                 // lines of the header
-  // The indices of the words of an ascii row, and their number.
+  // For ascii rows: the number of words, and the indices of the words to read.
   std::size_t columns = 0;
   std::array<std::size_t, 3> position_columns = {}, normal_columns = {};
   std::size_t colour_column = 0;
@@ -201,7 +201,7 @@ class PcdHeaderReader {
     }
     const Field* colour = find("rgb") ? find("rgb") : find("rgba");
     if (!colour || colour->size != 4) return {};
-    // A colour is one number of 32 bits, 0x00RRGGBB, even where its type is float.
+    // A colour is one number of 32 bits, 0x00RRGGBB, even if its type is float.
     using enum NumberType;
     records.colour = {{{uint8, colour->at + 2}, {uint8, colour->at + 1}, {uint8, colour->at}}};
     header_.colour_column = colour->column;

@@ -15,7 +15,7 @@ inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 // the file's size is broken.
 inline constexpr std::size_t best_packing = 1100;
 
-// Return true if the content begins as files of the format do.
+// Return true if the content begins like a file of this format.
 bool is_png(const Source& source);
 bool is_tiff(const Source& source);
 

@@ -1,4 +1,5 @@
-// A PLY file: its header, and its body, the rows of the vertices and the faces, ascii or binary.
+// Reads the parts of a PLY file: the header, and the body with the rows of vertices and faces, ascii or
+// binary.
 #pragma once
 
 #include <array>

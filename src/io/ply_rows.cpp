@@ -38,14 +38,14 @@ Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
   return content;
 }
 
-// Each row begins on a new line, and may be wrapped over several lines.
+// Reads rows of text. Each row begins on a new line, and may be wrapped over several lines.
 class AsciiRows {
  public:
   AsciiRows(const Source& source, const PlyHeader& header)
       : lines_(source, header.data_offset, header.lines) {}
 
-  // Calls use(property number, word) for each single value of the next row and use_item(property number,
-  // word) for each value of its lists; they return false to refuse a word.
+  // Calls use(property number, word) for each single value of the next row, and use_item(property number,
+  // word) for each value of its lists. Both return false to refuse a word.
   template <typename Use, typename UseItem>
   Result<void> read_row(const PlyElement& element, Use&& use, UseItem&& use_item) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -146,14 +146,14 @@ class AsciiRows {
   std::uint64_t rows_ = 0;  // the complete rows of the element being read
 };
 
-// Each value takes at least two bytes, a digit and a separator; only the last one of the file needs no
-// separator.
+// Returns whether so many bytes can contain the rows of the element. Each value takes at least two bytes, a
+// digit and a separator; only after the last value of the file the separator may be missing.
 bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
 
-// Allocates no memory if the header promises more vertices than the bytes can contain; reading then ends with
-// an error.
+// Reads the vertices. Allocates no memory if the header promises more vertices than the bytes can contain;
+// reading then ends with an error.
 Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
   cloud = sized_cloud(vertex_records(body.header, body.vertex, body.columns),
@@ -286,7 +286,7 @@ class BinaryRows {
 };
 
 // Rows with lists differ in size. Each row is therefore copied without its lists, and the copies are decoded
-// as usual.
+// like rows of equal size.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;

@@ -1,7 +1,7 @@
-// Ear clipping. For any sequence of triangles that are cut off, the signed areas add up to the polygon's, and
-// so do the winding numbers at every point. So if no triangle is turned over, the triangles cover the inside
-// of a polygon that does not cross itself exactly once. The tests for ears only serve to find such a
-// sequence.
+// Triangulates by ear clipping. For any sequence of triangles that are cut off, the signed areas add up to
+// the polygon's area, and the winding numbers at any point add up to the polygon's winding number. So the
+// triangles cover the inside of the polygon exactly once if no triangle is turned over and the polygon does
+// not cross itself. The tests for ears only serve to find such a sequence.
 #include "io/polygon.h"
 
 #include <Eigen/Geometry>
@@ -56,7 +56,7 @@ class EarClipper {
     for (Index i = 0; i < n; ++i) is_ear_[i] = turn(i) > 0 && is_empty(i);
   }
 
-  // Returns no triangles if the polygon crosses itself.
+  // Returns the triangles; none if the polygon crosses itself.
   std::vector<std::array<Index, 3>> clip() {
     std::vector<std::array<Index, 3>> triangles;
     Index at = 0;
@@ -109,7 +109,7 @@ class EarClipper {
     return is_between(at_[next_[i]]) || is_between(at_[before_[i]]);
   }
 
-  // Cuts the ear off. Only the two neighbouring corners can become ears by this.
+  // Cuts the ear off. Only its two neighbouring corners can become ears by this.
   void cut(Index ear) {
     const Index before = before_[ear], next = next_[ear];
     next_[before] = next;

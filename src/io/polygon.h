@@ -19,7 +19,8 @@ namespace relievo::io {
 // connects with the outline.
 std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners);
 
-// Returns true if triangulate() returns the fan from the first corner because the fan covers the polygon.
+// Returns true if the fan from the first corner covers the polygon; triangulate() then returns this fan.
+// After false, triangulate() may still return the fan, if it finds no triangulation.
 bool fan_covers(std::span<const Vec3> corners);
 
 // Calls add(a, b, c) for each triangle of triangulate(). This allocates nothing for the many polygons that a

@@ -83,9 +83,9 @@ std::uint64_t big_endian_32(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// A text of three coordinates has at least 6 bytes per point, usually 20 to 30; an OBJ with two triangles per
-// vertex has about 60 bytes per vertex, a glTF 36. 20 bytes per point give too many points rather than too
-// few.
+// Estimates the size of a scan at 20 bytes per point, which gives too many points rather than too few. A text
+// of three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two triangles per vertex
+// has about 60 bytes per vertex, a glTF 36.
 ScanSize estimate(const io::Source& head, std::uint64_t file_bytes) {
   constexpr std::uint64_t bytes_per_point = 20;
   ScanSize size{file_bytes / bytes_per_point, 0, 0};
@@ -110,8 +110,8 @@ ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
   return size;
 }
 
-// Returns the number of pixels of a PNG, which its first chunk states. A TIFF may state it anywhere in the
-// file; its size is estimated as one pixel per byte.
+// Returns the number of pixels of a picture. The first chunk of a PNG states it. A TIFF may state it anywhere
+// in the file, so it is estimated as one pixel per byte.
 ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
   if (!io::is_png(head) || head.bytes.size() < 24) return {0, 0, file_bytes};
   const std::uint64_t pixels = big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);

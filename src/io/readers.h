@@ -43,7 +43,7 @@ class SourceLines : public Lines {
   std::unexpected<Error> fail(std::string expected) const {
     return source_.error_in_line(number(), std::move(expected));
   }
-  // Returns an error in the line after the last one, where more was expected.
+  // Returns an error in the line after the last one, if more was expected there.
   std::unexpected<Error> fail_at_end(const std::string& expected, const std::string& after = {}) const {
     return source_.error_in_line(number() + 1,
                                  "expected " + expected + ", found the end of the file" + after);
@@ -58,7 +58,7 @@ struct RawCloud {
   Cloud cloud;         // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
   std::string format;  // shown to people
   Mesh mesh = {};      // a copy of the same points with the file's triangles; empty if it has none
-  std::size_t missing_points = 0;  // promised by the header, but missing because the file ends early
+  std::size_t missing_points = 0;  // points that are missing because the file ends early
 };
 
 // Returns true if the first 4,096 bytes contain a control character that does not occur in text.

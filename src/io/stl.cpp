@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t header_size = 84, triangle_size = 50;
 
 // Returns true for a binary file. Some binary files begin with "solid" although the format forbids it, and
-// some text files do not. So the size decides first, and then the zero bytes in the number of triangles of
-// any binary file of less than 800 MB.
+// some text files do not. So the size decides first. Then zero bytes decide, because the number of triangles
+// contains one in any binary file of less than 800 MB.
 bool is_binary(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (bytes.size() < header_size) return has_control_bytes(bytes);

@@ -59,7 +59,7 @@ class Rows {
   std::vector<std::byte> bytes_;
 };
 
-// Returns a sample of rows: runs from all over the file.
+// Returns a sample of the rows, taken from all over the file.
 Result<Cloud> take_sample(Rows& rows) {
   const std::uint64_t count = rows.records().count;
   if (count == 0) return Cloud{};  // their offset may lie behind the end of the file
@@ -80,14 +80,15 @@ Result<Cloud> take_sample(Rows& rows) {
   return sample;
 }
 
-// Estimates from the sample.
+// Values that are estimated from the sample.
 struct Scout {
   Vec3 middle;                // median of the points
   double outlier_radius = 0;  // points further from the middle are outliers
   float sign = 1;             // -1 if the normals point inwards
 };
 
-// The outlier radius is that of outliers(): 20 times the distance within which 90 % of the points lie.
+// Estimates the values. The outlier radius is defined as for outliers(): 20 times the distance within which
+// 90 % of the points lie.
 Scout scout(const Cloud& sample) {
   Scout it;
   std::vector<double> values(sample.size());
@@ -104,8 +105,8 @@ Scout scout(const Cloud& sample) {
   return it;
 }
 
-// A grid over the view that keeps, per square, the sums of the front-most points. Memory is bounded by the
-// number of squares, so three passes over the file are made: they find the box, the front depth of each
+// A grid over the view that keeps, per square, the sums of the front-most points. The number of squares
+// bounds the memory, so three passes over the file are made: they find the box, the front depth of each
 // square, and the sums.
 class ViewGrid {
  public:
@@ -124,14 +125,14 @@ class ViewGrid {
   std::uint64_t points() const { return points_; }
   double extent() const { return std::max(box_.size().x(), box_.size().y()); }
 
-  // Chooses the squares' size so that about `wanted` of them contain points: the sample shows which share of
-  // the box the points fill. Returns false for a cloud without extent, and for an extent too large or small
-  // for single precision.
+  // Chooses the size of the squares so that about `wanted` of them contain points. The sample shows which
+  // share of the box the points fill. Returns false for a cloud without extent, and for an extent too large
+  // or small for single precision.
   bool lay_grid(const Cloud& sample, double wanted) {
     const Vec3 size = box_.size();
     const double longer = extent();
     if (!(longer > 1e-18 && longer < 1e18)) return false;
-    // About 20 points of the sample per square, so that hardly a square on the model is empty.
+    // Squares have about 20 points of the sample, so that hardly a square on the model is empty.
     const auto side =
         static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(sample.size()) / 20), 8.0, 192.0));
     const double coarse = longer / static_cast<double>(side);
@@ -160,8 +161,8 @@ class ViewGrid {
       if (p.counts) top_[p.square] = std::max(top_[p.square], static_cast<float>(p.at.z()));
   }
 
-  // Third pass: adds up the points near that depth. On a slope a square spans a range of depths, which
-  // follows from the normal or, without one, from a slope of 2.
+  // Third pass: adds up the points near the front-most depth. On a slope a square spans a range of depths,
+  // which follows from the normal or, without normals, from a slope of 2.
   void gather(const Cloud& piece) {
     if (sums_.empty()) sums_.resize(top_.size());
     place(piece);

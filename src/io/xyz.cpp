@@ -12,7 +12,7 @@ namespace relievo::io {
 namespace {
 
 // Returns colours as bytes. The largest value determines their range: 1, 255 or 65535. Returns no colours if
-// it is larger.
+// the largest value exceeds 65535.
 std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
   float largest = 0;
   for (const Vec3f& value : values) largest = std::max(largest, value.maxCoeff());

@@ -1,4 +1,4 @@
-// Reads scans from the bytes of a file. Only the programs open files; no function here does.
+// Reads scans from the bytes of a file. The functions here open no files; only the programs do.
 #pragma once
 
 #include <cstddef>
@@ -37,15 +37,14 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 // Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf. A number beyond the
 // range of double is infinite.
 //
-// `beside` is called for the other files to which this one refers, at most once each. Without `beside` such a
-// reference is an error.
+// `beside` is called for the other files to which the file refers, at most once each. Without `beside`, a
+// reference to another file is an error.
 //
 // Errors (kind input) state the line or the byte and what was expected there, or the name of an unsupported
-// format, "a PTX file". A file without a point of finite coordinates is an error. So is a header that
-// promises more than the bytes contain, before memory is allocated for it; a LAS file that ends early,
-// however, is read up to its end. Reading always ends: there is no recursion, and the time is linear in the
-// number of bytes, except for concave polygons of at most 10,000 corners, where it is quadratic in the number
-// of corners.
+// format, "a PTX file". A file without a point of finite coordinates is an error. A header that promises more
+// than the bytes contain is an error, too, before memory is allocated for it; only a LAS file that ends early
+// is read up to its end. Reading always ends: there is no recursion, and the time is linear in the number of
+// bytes. Only concave polygons of at most 10,000 corners take time quadratic in the number of corners.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
@@ -70,8 +69,8 @@ Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::strin
 // commas or white space. Errors: kind option for any other text, or a focal length that is not positive.
 Result<DepthCamera> parse_camera(std::string_view text);
 
-// Finds the size of a scan from the beginning of its file, so that the needed memory is known before the scan
-// is read.
+// The size of a scan. It is found from the beginning of the file, so that the needed memory is known before
+// the scan is read.
 struct ScanSize {
   std::uint64_t points = 0, triangles = 0, pixels = 0;
   bool is_stated = false;  // true if the header states the size; else it is estimated from the file's

@@ -16,7 +16,8 @@
 namespace relievo {
 
 // Return the solid as binary STL, binary little-endian PLY, or OBJ. Coordinates are in single precision, in
-// the solid's unit, which a comment states. Only PLY stores colours. The solid must pass check_solid().
+// the solid's unit, which a comment in the file states. Only PLY stores colours. The solid must pass
+// check_solid().
 std::vector<std::byte> write_stl(const Solid& solid);
 std::vector<std::byte> write_ply(const Solid& solid);
 std::vector<std::byte> write_obj(const Solid& solid);

@@ -1,4 +1,5 @@
-// E57 1.0 (ASTM E2807-11): the points of all scans, each moved by its pose. Pictures and intensities are not read.
+// Reads E57 1.0 (ASTM E2807-11): the points of all scans, each scan moved by its pose. Pictures and
+// intensities are not read.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -38,7 +39,7 @@ std::string_view local_name(std::string_view name) {
   return name.substr(name.find(':') + 1);
 }
 
-// Finds the scan that an element of data3D describes. Errors name the element.
+// Parses the description of a scan in an element of data3D. Errors name the element.
 class ScanParser {
  public:
   ScanParser(const Source& source, const XmlElements& elements, std::size_t scan)
@@ -212,7 +213,7 @@ Vec3 position_at(const E57Scan& scan, std::size_t row) {
   return p[0] * Vec3(std::cos(p[2]) * std::cos(p[1]), std::cos(p[2]) * std::sin(p[1]), std::sin(p[2]));
 }
 
-// Scales colours that are stored as floats. Integer colours are already scaled.
+// Returns a colour value as a byte. Floats are scaled here; integers are already scaled.
 std::uint8_t as_byte(const PackedColumn& column, std::size_t row) {
   double value = column.value(row);
   if (column.kind != PackedColumn::Kind::integer) value = column.scale * value + column.shift;

@@ -17,8 +17,8 @@ constexpr std::size_t checksum_size = 4, header_size = 48;
 
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 
-// Eight bytes per step ("slicing by 8", Kounavis and Berry 2008): table k is for a byte that is followed by k
-// bytes.
+// Makes tables that process eight bytes per step ("slicing by 8", Kounavis and Berry 2008). Table k is for a
+// byte that k bytes follow.
 constexpr CrcTables make_crc_tables() {
   constexpr std::uint32_t polynomial = 0x82F63B78;  // Castagnoli's, reflected
   CrcTables tables{};

@@ -19,13 +19,13 @@ std::uint32_t crc32c(std::string_view bytes);
 
 struct E57Pages {
   std::string bytes;          // the contents of all pages
-  std::size_t page_size = 0;  // with the checksum
+  std::size_t page_size = 0;  // in bytes, with the checksum
   std::string_view xml;       // a part of `bytes`
 
   E57Pages() = default;
   E57Pages(E57Pages&&) = delete;  // `xml` points into `bytes`
 
-  // Converts between the two kinds of offsets. A physical offset within a checksum becomes the end of all
+  // Convert between physical and logical offsets. A physical offset within a checksum becomes the end of all
   // bytes.
   std::uint64_t logical(std::uint64_t physical) const;
   std::uint64_t physical(std::uint64_t logical) const;

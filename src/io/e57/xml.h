@@ -27,7 +27,8 @@ using XmlElements = std::vector<XmlElement>;
 // Reads a whole document. Errors name `source` and the line of the XML.
 Result<XmlElements> parse_xml(std::string_view text, const Source& source);
 
-// Returns the index of the child of that name, or 0, which is the root and no child.
+// Returns the index of the child of that name; 0 if there is none, because element 0 is the root and no
+// child.
 std::size_t find_child(const XmlElements& elements, std::size_t parent, std::string_view name);
 
 }  // namespace relievo::io

@@ -21,8 +21,8 @@ constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in t
 
 constexpr std::size_t points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 
-// Returns a member that is an array of `n` numbers; `otherwise` if it is missing; nothing if it is anything
-// else.
+// Returns a member that is an array of `n` numbers; `otherwise` if the member is missing; nothing if it is
+// anything else.
 std::optional<std::vector<double>> numbers_in(const Json& object, const char* name,
                                               std::vector<double> otherwise) {
   const auto found = object.find(name);
@@ -63,7 +63,7 @@ bool is_readable_with(std::string_view extension) {
   return false;
 }
 
-// The vertices of a primitive; their number is that of the positions.
+// The vertices of a primitive. There is one for each position.
 struct Vertices {
   AccessorValues positions, normals, colours;
 
@@ -184,7 +184,7 @@ class GltfReader {
     return {};
   }
 
-  // Returns the transforms of the node's mesh: that of the node, or those of its copies by
+  // Returns the transforms of the node's mesh: the node's own transform, or the transforms of its copies by
   // EXT_mesh_gpu_instancing.
   Result<std::vector<Transform>> copies_of(const Json& node, const Transform& transform,
                                            const std::string& place) {

@@ -28,8 +28,8 @@ struct BufferRows {
   std::size_t stride = 0;
 };
 
-// glTF 2.0 as JSON, or binary (GLB). Buffers are loaded when an accessor needs them, so that a buffer that no
-// mesh uses may be missing. The source must outlive the object.
+// A glTF 2.0 file, as JSON or binary (GLB). Buffers are loaded when an accessor needs them, so that a buffer
+// that no mesh uses may be missing. The source must outlive the object.
 class GltfFile {
  public:
   static Result<GltfFile> open(const Source& source);
@@ -39,8 +39,8 @@ class GltfFile {
   // Returns element i of an array in the file's root if it is an object, else null.
   const Json* element(std::string_view array, std::size_t i) const;
 
-  // Returns the numbers of accessor i. Errors: kind input, at `place`, if it does not exist, does not fit
-  // into its buffer, or if the buffer is not available.
+  // Returns the numbers of accessor i. Errors: kind input, at `place`, if the accessor does not exist or does
+  // not fit into its buffer, or if the buffer is not available.
   Result<AccessorValues> accessor(std::size_t i, const std::string& place);
 
  private:
@@ -74,8 +74,8 @@ class GltfFile {
 // Returns the value as a non-negative integer, also if it is written as 4.0; nothing for any other value.
 std::optional<std::size_t> whole_number(const Json& value);
 
-// Returns a member that is a non-negative integer; `otherwise` if it is missing; nothing if it is anything
-// else.
+// Returns a member that is a non-negative integer; `otherwise` if the member is missing; nothing if it is
+// anything else.
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
 
 // Returns the object's members with these names, as text for a message: count -4, type "VEC3".

@@ -101,7 +101,7 @@ Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const
   return std::move(*decoded);
 }
 
-// Returns the bytes that a URI contains, or those of the file to which it refers.
+// Returns the bytes that a URI contains, or the bytes of the file to which it refers.
 Result<std::string_view> GltfFile::load(const std::string& uri, const std::string& place) {
   const auto known = loaded_.find(uri);
   std::vector<std::byte> bytes;
@@ -151,7 +151,7 @@ Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::s
   return bytes.substr(*start, *length);
 }
 
-// A compressed view's extension states the buffer of its bytes; the view's own buffer may be missing.
+// The extension of a compressed view states the buffer of its bytes; the view's own buffer may be missing.
 Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place) {
   const Json* json = element("bufferViews", i);
   if (!json) return source_->error(place, "expected a bufferView, found none");

@@ -24,7 +24,7 @@ constexpr std::array<ComponentType, 6> component_types = {{{5120, NumberType::in
                                                            {5125, NumberType::uint32, 1},
                                                            {5126, NumberType::float32, 1}}};
 
-// Limits the zeros of an accessor without a buffer view, whose numbers are all 0 except for the sparse ones:
+// Limits the zeros of an accessor without a buffer view. Its numbers are all 0 except for the sparse ones, so
 // a small file could ask for any number of zeros. No mesh has so many vertices at the origin.
 constexpr std::size_t most_zeros = 1 << 20;
 
@@ -144,7 +144,7 @@ Result<GltfFile::Layout> GltfFile::layout_of(const Json& json, const std::string
   return Layout{*count, components, type->type, is_normalised ? type->scale : 1};
 }
 
-// Returns the location of the vectors of `in_view`, which is an accessor or a part of a sparse one.
+// Returns the location of the vectors of `in_view`, which is an accessor, or a part of a sparse accessor.
 Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, const std::string& place) {
   const auto fail = [&](std::string expected) { return source_->error(place, std::move(expected)); };
   const auto offset = number_in(in_view, "byteOffset", 0),

@@ -48,7 +48,7 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   const auto body = body_of(compressed, indices_header, indices_tail);
   if (!body || layout.count > body->size()) return std::nullopt;
   MeshoptBytes from(*body);
-  std::array<std::uint32_t, 2> last{};  // the lowest bit of a number selects the one that it changes
+  std::array<std::uint32_t, 2> last{};  // the lowest bit of a number selects which of the two it changes
   std::vector<std::uint32_t> indices(layout.count);
   for (std::uint32_t& index : indices) {
     const std::uint32_t number = from.next_number();
@@ -57,7 +57,8 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   return from.is_at_end() ? std::optional(in_bytes(indices, layout.stride)) : std::nullopt;
 }
 
-// Decodes octahedron-encoded unit vectors, in place. The third number stands for 1; the fourth stays.
+// Decodes octahedron-encoded unit vectors, in place. The third number of a vector stands for 1; the fourth
+// stays.
 template <typename Integer>
 bool unfold_octahedron(Bytes& bytes) {
   constexpr float most = std::numeric_limits<Integer>::max();
@@ -149,8 +150,8 @@ struct Edge {
   Index a = 0, b = 0;
 };
 
-// Decodes mode 1 of EXT_meshopt_compression. A triangle is mostly one byte, which names an edge and a vertex among
-// those that were met last.
+// Decodes mode 1 of EXT_meshopt_compression. Most triangles are stored in one byte, which names one of the
+// last edges and one of the last vertices.
 class TriangleDecoder {
  public:
   TriangleDecoder(MeshoptBytes data, std::string_view table) : data_(data), table_(table) {}

@@ -1,6 +1,6 @@
 // Decodes buffer views that are compressed by the glTF extensions KHR_meshopt_compression and
-// EXT_meshopt_compression. Appendices A and B of the former specify the format; it includes all of the
-// latter. Tested by tests/io/meshopt_test.cpp.
+// EXT_meshopt_compression. Appendices A and B of KHR_meshopt_compression specify the format, which includes
+// all of EXT_meshopt_compression. Tested by tests/io/meshopt_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -53,8 +53,8 @@ constexpr Unsigned without_zigzag(Unsigned stored) {
   return (stored & 1) != 0 ? static_cast<Unsigned>(~half) : half;
 }
 
-// Decodes `count` elements of `stride` bytes each. `stream` includes the header; the result is nothing if it
-// does not contain that many elements.
+// Decodes `count` elements of `stride` bytes each. `stream` includes the header. Returns nothing if the
+// stream does not contain that many elements.
 std::optional<std::vector<std::byte>> decode_meshopt_attributes(std::string_view stream, std::size_t count,
                                                                 std::size_t stride);
 
@@ -80,9 +80,9 @@ struct MeshoptLayout {
 std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
-// Returns the count * stride bytes of a view. Nothing if the compressed bytes do not have that many elements,
-// or if the extensions do not allow the layout. The memory taken is at most 1,024 times that of the
-// compressed bytes.
+// Returns the count * stride bytes of a view. Returns nothing if the compressed bytes do not have that many
+// elements, or if the extensions do not allow the layout. The memory taken is at most 1,024 times the size of
+// the compressed bytes.
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout);
 

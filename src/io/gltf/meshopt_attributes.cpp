@@ -71,8 +71,8 @@ std::uint32_t number_of(const ChannelBytes& bytes) {
          std::uint32_t{bytes[3]} << 24;
 }
 
-// Changes a channel of one element to that of the next. Depending on the mode, the differences are those of
-// bytes or words, or are bits to flip, rotated by the upper half of the mode.
+// Changes a channel of one element to the channel of the next element. Depending on the mode, the differences
+// are between bytes or between words, or they are bits to flip, rotated by the upper half of the mode.
 void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last) {
   if (mode == 0) {
     for (std::size_t i = 0; i < channel_size; ++i)
@@ -115,7 +115,7 @@ class Attributes {
 
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
-    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block
+    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // least size of a block
     // Checks the sizes before memory is allocated. On 32-bit systems the product could overflow.
     if (count / block > body_size_ / least_size || count > std::numeric_limits<std::size_t>::max() / stride_)
       return std::nullopt;

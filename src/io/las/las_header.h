@@ -1,4 +1,4 @@
-// The header of LAS and LAZ files.
+// Reads the header of LAS and LAZ files.
 #pragma once
 
 #include "io/numbers.h"
@@ -7,7 +7,7 @@
 namespace relievo::io {
 
 struct LasHeader {
-  Records records;         // for LAZ, the decompressed ones, with the offset of the compressed points
+  Records records;         // for LAZ, the decompressed records, with the offset of the compressed points
   int minor = 0;           // minor version, 1.0 to 1.5
   std::size_t format = 0;  // point format, 0 to 10
   bool is_compressed = false;

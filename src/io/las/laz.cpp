@@ -1,5 +1,5 @@
-// LAZ: LAS compressed by LASzip 2 or later (M. Isenburg, "LASzip: lossless compression of LiDAR data", 2013, and the
-// specification of LAZ 1.4), point formats 0 to 10, in chunks or as a whole.
+// Reads LAZ: LAS compressed by LASzip 2 or later (M. Isenburg, "LASzip: lossless compression of LiDAR data",
+// 2013, and the specification of LAZ 1.4). Point formats 0 to 10 are read, in chunks or as a whole.
 #include <algorithm>
 #include <atomic>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Version 2 of the items (version 1 of wave packets), which LASzip has written since 2011.
+// Decodes version 2 of the items (version 1 of wave packets), which LASzip has written since 2011.
 #include "io/las/point_items.h"
 
 #include <algorithm>
@@ -282,9 +282,9 @@ void LayeredPoint::decode_position(Channel& channel) {
   channel.heights[level] = p[2];
 }
 
-// Writers of version 3 store a point's colour under scanner 0 unless the scanner changes with this point.
-// When they switch back to a scanner that already had colours, they store the difference to the previous
-// scanner's last colour, which is then replaced.
+// Writers of version 3 store a point's colour under scanner 0 unless the scanner changes with this point. If
+// the new scanner already had colours, they store the difference to the last colour of the previous scanner,
+// and this last colour is then replaced.
 void LayeredPoint::decode_colour(bool changes_scanner) {
   const std::size_t scanner = are_colours_mixed_ && !changes_scanner ? 0 : channel_;
   LazColour* last = &colour_channels_[colour_channel_]->last;

@@ -1,4 +1,5 @@
-// The parts of points in the point formats 0 to 5, which one decoder reads in turn, point by point.
+// Decodes the parts of points in the point formats 0 to 5. One arithmetic decoder reads the parts in turn,
+// point by point.
 #pragma once
 
 #include <array>

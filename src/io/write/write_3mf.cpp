@@ -1,4 +1,4 @@
-// 3MF: a ZIP archive with the model as XML.
+// Writes 3MF: a ZIP archive with the model as XML.
 #include <zip.h>
 
 #include <array>
@@ -28,7 +28,7 @@ void append_number(std::string& to, T value) {
   to.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-// Returns the text of n elements, which is made in blocks concurrently.
+// Returns the text of n elements. Blocks of the text are made concurrently.
 template <typename Append>
 std::string in_blocks(std::size_t n, Append&& append_element) {
   std::vector<std::string> parts((n + grain - 1) / grain);

@@ -1,4 +1,4 @@
-// Binary little-endian PLY: clouds, and solids with float vertices.
+// Writes binary little-endian PLY: clouds, and solids with float vertices.
 #include <algorithm>
 
 #include "io/write/mesh_bytes.h"
@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// Returns whether float is too imprecise. It has seven digits, which suffice unless most of them are needed
-// for the cloud's position rather than its shape.
+// Returns whether float is too imprecise for the coordinates. Its seven digits suffice unless most of them
+// are needed for the cloud's position rather than its shape.
 bool needs_double(const Cloud& cloud) {
   const Box box = bounds(cloud);
   if (box.is_empty()) return false;

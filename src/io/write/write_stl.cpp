@@ -20,7 +20,8 @@ std::byte* put_vector(std::byte* to, const Vec3f& v) {
 }
 
 void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  // The normal is that of the rounded corners, because some readers compute it from these and compare.
+  // The normal is computed from the rounded corners, because some readers compute it from them, too, and
+  // compare.
   const Vec3 normal = (b - a).cast<double>().cross((c - a).cast<double>());
   to = put_vector(to, normal.stableNormalized().cast<float>());
   for (const Vec3f& corner : {a, b, c}) to = put_vector(to, corner);
