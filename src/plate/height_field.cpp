@@ -12,7 +12,8 @@
 namespace relievo {
 namespace {
 
-// Heights are measured from the lowest point, so that single precision keeps their digits.
+// Returns the front's triangles in pixels. Heights are measured from the lowest point, so that single
+// precision keeps their digits.
 RasterInput front_input(const Solid& solid, const HeightField& field) {
   RasterInput input;
   input.triangles = std::span(solid.triangles).first(solid.front_triangles);

@@ -30,8 +30,8 @@ struct HeightField {
   }
 };
 
-// Returns a field of zeros for a front with that box. Its longer side has `longer_side_px` pixels; the field
-// has no pixels if that is not in [1, RasterInput::most_pixels] or the box is empty.
+// Returns a field of zeros for a front with that box. Its longer side has `longer_side_px` pixels. The field
+// has no pixels if this number is not in [1, RasterInput::most_pixels] or the box is empty.
 HeightField flat_height_field(const Box& box, int longer_side_px);
 
 // Returns the heights of a solid's front, quickly. The field has no pixels in the same cases as
@@ -44,8 +44,8 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px);
 // wall is high. The field has no pixels in the same cases as flat_height_field(); `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, int longer_side_px);
 
-// Returns the number of samples along the longer side, in [2048, 4096]: they are a twelfth of the tool's
-// radius apart if that range allows it.
+// Returns the number of samples along the longer side, in [2048, 4096]. The samples are a twelfth of the
+// tool's radius apart if that range allows it.
 inline int samples_for(const Tool& tool, double longer_mm) {
   constexpr int least_samples = 2048, most_samples = 4096;
   constexpr double samples_per_radius = 12;

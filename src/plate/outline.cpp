@@ -155,7 +155,7 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-// Returns the box around points or, if a size is given, the box of that size less the margin.
+// Returns the box around points. If a size is given, it has the same centre and this size less the margin.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);

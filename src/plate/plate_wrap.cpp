@@ -92,8 +92,7 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     for (Index& i : t) i = other[i];
     triangles.push_back(t);
   }
-  plate.triangles =
-      std::move(triangles);  // front_triangles stays: no front triangle lies on a side as a whole
+  plate.triangles = std::move(triangles);  // front_triangles stays: no front triangle lies entirely on a side
   drop_unused(plate);
   return {};
 }

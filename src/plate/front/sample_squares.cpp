@@ -68,8 +68,8 @@ bool can_be_joined(const Level& parts, int x, int y) {
   return true;
 }
 
-// Joins four squares to one of the next level wherever the surface turns by at most `most` across that
-// square; the four are then not in use.
+// Joins four squares to a larger one wherever the surface turns by at most `most` across the larger square.
+// The four squares are then no longer in use.
 Level joined(Level& parts, float most) {
   Level whole(parts.ranges.width / 2, parts.ranges.height / 2);
   for (int y = 0; y < whole.ranges.height; ++y)

@@ -1,4 +1,4 @@
-// The squares by which a surface is sampled. Tested by tests/plate/sample_squares_test.cpp.
+// Chooses the squares by which a surface is sampled. Tested by tests/plate/sample_squares_test.cpp.
 #pragma once
 
 #include <span>

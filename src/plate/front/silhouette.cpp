@@ -48,7 +48,7 @@ void mark_smaller_fans(std::span<const Spoke> around, std::span<const Triangle> 
 }
 
 // Removes triangles until the boundary passes every point at most once. Removing a fan may pinch other
-// points, so it is repeated; this ends because each round removes triangles.
+// points, so the removal is repeated. It ends because each round removes triangles.
 void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
   while (true) {
     const std::vector<std::uint8_t> is_pinched = pinched_points(triangles, points);

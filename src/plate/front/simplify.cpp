@@ -26,7 +26,7 @@ constexpr std::size_t edges_per_block = 8192;
 // the original's triangles, which are within the limit. Files could not store a smaller difference.
 constexpr double steep_tolerance_mm = 1e-6;
 
-// A place where a triangle of the approximation exceeds its tolerance.
+// A position where a triangle of the approximation exceeds its tolerance.
 struct Candidate {
   Index triangle;
   double error;
@@ -74,8 +74,8 @@ class Approximation {
     return no_index;
   }
 
-  // Returns the other triangle of the edge on which the place lies; no_index if it is inside t or on the
-  // hull.
+  // Returns the other triangle of the edge on which the place lies; no_index if the place is inside t or on
+  // the hull.
   Index across(const Vec2& place, Index t) const {
     const Triangle& corners = mesh_.triangles[t];
     for (std::size_t i = 0; i < 3; ++i)
@@ -127,7 +127,7 @@ class Approximation {
   }
 
  private:
-  // Returns the neighbour across an edge that separates t from the place; t itself if it contains the place.
+  // Returns the neighbour across an edge that separates t from the place; t itself if t contains the place.
   Index towards(const Vec2& place, Index t, Index from) const {
     const Triangle& corners = mesh_.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -219,10 +219,10 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // Starts with the corners of the hull, the boundary of the relief and of flat ground, and the extreme
-  // heights: errors are largest at extremes, and the plate's thickness and height must not change. With all
-  // points of the ground's boundary, the edges of that boundary are in the triangulation, so that flat ground
-  // stays flat.
+  // Chooses the first points: the corners of the hull, the boundary of the relief and of flat ground, and the
+  // extreme heights. Errors are largest at extremes, and the plate's thickness and height must not change.
+  // With all points of the ground's boundary, the edges of that boundary are in the triangulation, so that
+  // flat ground stays flat.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -241,9 +241,9 @@ class Simplifier {
       if (extreme->z() != ground) choose(at_point(0, 0, static_cast<Index>(extreme - front_.points.begin())));
   }
 
-  // Returns the place with the largest error of each triangle that exceeds its tolerance; or, if there are
-  // any, the points outside all triangles, which can exist because the hull is rounded. Sets error_ to the
-  // largest error of all.
+  // Returns, for each triangle that exceeds its tolerance, the position with its largest error, and sets
+  // error_ to the largest error of all. If points lie outside all triangles, which can happen because the
+  // hull is rounded, returns these points instead.
   std::vector<Candidate> find_worst(const Approximation& now) {
     containing_.resize(front_.points.size());
     slopes_sq_ = now.slopes_sq();
@@ -273,8 +273,8 @@ class Simplifier {
     return is_limited ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
   }
 
-  // Returns the first of the two triangles at a place whose tolerance is smaller than the error there;
-  // no_index if there is none.
+  // `sides` are the one or two triangles at a position with that error. Returns the first whose tolerance is
+  // smaller than the error; no_index if both tolerances are large enough.
   Index triangle_beyond(const std::array<Index, 2>& sides, double error) const {
     for (const Index t : sides) {
       if (t == no_index) continue;
@@ -319,8 +319,8 @@ class Simplifier {
   }
 
   // The difference of two piecewise flat surfaces is extreme at the corners of their overlay: at the
-  // original's points (the approximation's are among them), and where edges of the two cross. Edges within
-  // one triangle cross none.
+  // original's points (the approximation's are among them), and where edges of the two cross. An edge within
+  // one triangle crosses no other edge.
   void measure_edges(const Approximation& now, std::size_t begin, std::size_t end,
                      std::vector<Candidate>& found, double& worst) const {
     for (std::size_t e = begin; e < end; ++e) {

@@ -67,8 +67,7 @@ class Fans {
 constexpr double thinnest = 0x1p-20;
 constexpr double most_moved_mm = 1e-3;  // limit of moves by flips, for triangles that files store unfolded
 
-// Flips one edge after another. Each flip makes the thinner of two triangles wider, so that the flipping
-// ends.
+// Flips one edge after another. Each flip makes the thinner of two triangles wider, so the flipping ends.
 class Flipper {
  public:
   Flipper(Solid& front, bool may_lose_edges) : front_(front), may_lose_edges_(may_lose_edges) {
@@ -213,8 +212,8 @@ class Flipper {
 constexpr int most_steps = 6;  // units in the last place by which a point is moved
 constexpr int most_passes = 8;
 
-// Returns the places of points as files store them. The floats are stored first, because g++ 12 drops the
-// rounding of double(float(x)) when it vectorises.
+// Returns the positions of points in the plane, rounded as in files. The floats are stored first, because g++
+// 12 drops the rounding of double(float(x)) when it vectorises.
 std::vector<Vec2> stored_places(const Solid& solid) {
   std::vector<Vec2f> stored;
   stored.reserve(solid.points.size());
