@@ -159,8 +159,8 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-// Returns the coefficients of the right-hand side of (9). For point p it is the sum over its edges of weight
-// / 2 (s_p + s_q) . (p - q).
+// Returns the coefficients of the right-hand side of (9). The right-hand side of point p is the sum over its
+// edges of weight / 2 (s_p + s_q) . (p - q).
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {

@@ -151,7 +151,7 @@ class NearPlaces {
   const KdTree<Vec2>& tree_;
   double distance_;
   Vec2 asked_ = Vec2::Zero();
-  double known_ = std::numeric_limits<double>::quiet_NaN();  // distance of asked_ to the nearest place
+  double known_ = std::numeric_limits<double>::quiet_NaN();  // distance of asked_ to the nearest position
 };
 
 // Returns whether each point is near a jump that is inverted at one of the knots, and not on the silhouette.

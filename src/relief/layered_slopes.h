@@ -23,8 +23,8 @@ RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights&
          Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
 }
 
-// make_slopes() computes with one number or with eight. A Float8 is not a template argument itself, because
-// GCC then forgets that it needs no alignment.
+// make_slopes() computes with one number or with eight. Float8 itself is not used as a template argument,
+// because GCC would then forget that it needs no alignment.
 template <typename Real>
 struct OneNumber {
   using Values = Real;
@@ -47,7 +47,7 @@ RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::V
                                 Real height_share_sq, Real max_slope) {
   const typename Numbers::Values sine_sq = x * x + y * y, left_sq = sine_sq * height_share_sq;
   const Real most_sq = max_slope * max_slope;
-  // The tangent is sine / cosine; beyond the steepest slope its length is set to max_slope instead.
+  // The tangent is sine / cosine. Beyond the steepest slope, the slope's length is set to max_slope instead.
   const typename Numbers::Values scale = sine_sq <= most_sq * (1 - left_sq)
                                              ? 1 / Numbers::root(1 - left_sq)
                                              : max_slope / Numbers::root(sine_sq);

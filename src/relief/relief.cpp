@@ -172,8 +172,8 @@ class ReliefModel::Maker {
                                           boundary_rho(model.surface(), shape.boundary_width))),
         input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {}
 
-  // Returns the relief of that shape without the last step of its style; its height is final already. Steps
-  // at depth jumps take their share of `height` or, if none is given, of the height of slopes and steps
+  // Returns the relief of that shape without the last step of its style; Relief::height is already final.
+  // Steps at depth jumps take their share of `height` or, if none is given, of the height of slopes and steps
   // together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, model_.with_membrane(asked)};

@@ -72,9 +72,9 @@ class SlicedEllMatrix {
   bool owns_pattern_ = true;
 };
 
-// Returns the matrix for SlicedEllMatrix::normals(): the unit normal of each point is that of the sum of the
-// cross products of the triangles around it, (0, 0, 1) at points in no triangle. The sum is linear in the
-// heights where x and y are fixed. Only triangles inside the relief count.
+// Returns the matrix for SlicedEllMatrix::normals(). The normal of a point is along the sum of the cross
+// products of the triangles around it; at points in no triangle it is (0, 0, 1). The sum is linear in the
+// heights if x and y are fixed. Only triangles inside the relief count.
 //
 // `like`, if given, must have entries for neighbours in ascending order; its pattern is reused.
 SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,

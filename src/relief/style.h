@@ -53,8 +53,8 @@ struct RaisedHeights {
   }
 };
 
-// The least divisor of gains: with smaller ones a small change of normals would change slopes many times as
-// much near the steepest slopes.
+// The least divisor of gains. With smaller divisors, a small change of normals would change slopes many times
+// as much near the steepest slopes.
 inline constexpr float least_gain_divisor = .25F;
 
 // A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of

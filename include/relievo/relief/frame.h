@@ -17,7 +17,7 @@ struct FrameOptions {
   Shape shape;
   std::optional<double> height;                    // a locked height: u is searched until the relief has it
   std::shared_ptr<const std::vector<float>> base;  // heights of the base, one per point; null is a plane
-  double height_tolerance = 5e-4;  // relative to the locked height; a larger one may save a solve
+  double height_tolerance = 5e-4;  // relative to the locked height; a larger tolerance may save a solve
 
   bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
 };

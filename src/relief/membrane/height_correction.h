@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// The limits of corrected heights, and the two forces that act on them.
+// The limits of corrected heights, and the parameters of the pull and of the ties at the silhouette.
 struct HeightLimits {
   double height;                  // > 0: corrected heights lie between 0 and this
   double pull_length;             // MembraneParams::pull_length

@@ -112,7 +112,7 @@ class TuningSearch {
 
   Violation violation_of(const MembraneParams& params) { return compare(params, estimate(params)); }
 
-  // Compares scores with what is required, and remembers the parameters with the smallest violation.
+  // Compares scores with the required scores, and remembers the parameters with the smallest violation.
   Violation compare(const MembraneParams& params, const Scores& scores) {
     const double detail = std::max(required_.detail - scores.detail, 0.0),
                  order = std::max(required_.order - scores.order, 0.0);

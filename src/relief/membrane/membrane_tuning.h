@@ -41,8 +41,8 @@ class BaselineComparison {
   // Returns the heights that (9) gives layered_shape() at u, before compression; in single precision.
   std::vector<double> heights(double u, const MembraneParams& params) const;
 
-  // Returns the baseline's scores minus those of these heights, compressed, both at the same final height:
-  // positive where the baseline's are better.
+  // Returns the baseline's scores minus the scores of these heights after compression, both at the same final
+  // height. The result is positive where the baseline is better.
   Scores deficit(std::vector<double> heights, const MembraneParams& params) const;
 
  private:

@@ -94,9 +94,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns, per point, 6 times the area of the relief that belongs to it, a third of each triangle. Scans have
-// more points per area of the view plane where the surface is steep, so an unweighted mean over points would
-// make slopes too steep.
+// Returns, per point, 6 times the area that belongs to the point: a third of each of its triangles inside the
+// relief. Scans have more points per area of the view plane where the surface is steep, so an unweighted mean
+// over points would make slopes too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
