@@ -64,8 +64,8 @@ class LiveModel {
   // a method that has no frames.
   Result<LiveFrame> frame(const ReliefOptions& options);
 
-  // Returns a picture of the frame on its plate. The lengths in `render` are replaced by those of the
-  // options. Errors: those of frame() and check().
+  // Returns a picture of the frame on its plate. The options' lengths replace the lengths in `render`.
+  // Errors: those of frame() and check().
   Result<Picture> picture(const ReliefOptions& options, RenderOptions render = {});
 
   // The functions below are the steps of frame() and picture(), for programs that show a relief while it is

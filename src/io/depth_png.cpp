@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t longest_side_px = 1'000'000;
 
-// Gives libspng the bytes of a file without its ancillary chunks. These may be large or broken, and libspng
-// would allocate what their lengths promise.
+// Gives libspng the bytes of a file without its ancillary chunks. These chunks may be large or broken, and
+// libspng would allocate as much memory as their lengths promise.
 class NeededChunks {
  public:
   explicit NeededChunks(std::string_view bytes) : bytes_(bytes) {}

@@ -31,12 +31,12 @@ bool is_text(const Source& source);
 // - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
 //   order, among any other properties and elements. Of the other elements, `face` and `tristrips` are read,
 //   before or after the vertices. Each ascii row begins on a new line.
-// - OBJ: v, vn and f. The normal of a vertex is the mean of the normals that faces refer to for it. If no
+// - OBJ: v, vn and f. The normal of a vertex is the mean of the normals with which faces use it. If no
 //   face refers to any, it is the vn with the same index. Faces may refer to normals that are missing.
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
 // - OFF, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
-//   scene, transformed by its nodes; without nodes, those of all meshes. They may be quantised, and
+//   scene, transformed by its nodes; without nodes, of all meshes. Numbers may be quantised, and
 //   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
 // - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y
 //   normal_z and rgb.

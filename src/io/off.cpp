@@ -160,7 +160,7 @@ class OffReader {
   }
 
   // Returns whether the words after a face may be another face. The words of a face's colour usually do not
-  // look like one.
+  // look like a face.
   static bool is_face(Words words) {
     const auto length = parse_integer(words.next());
     std::int64_t corners = 0;

@@ -15,7 +15,7 @@
 namespace relievo::io {
 namespace {
 
-// The header of a PCD file, which states the layout of a point's numbers.
+// The form in which a PCD file stores its points.
 enum class PcdData { ascii, binary, compressed };
 
 struct PcdHeader {

@@ -18,7 +18,7 @@
 
 namespace relievo::io {
 
-// The header of a PLY file, which states the elements that follow and the layout of their rows.
+// A property of an element, as the header of a PLY file declares it.
 struct PlyProperty {
   std::string_view name;
   NumberType type;                       // type of the value, or of each value of the list

@@ -60,8 +60,8 @@ class AsciiRows {
       }
     }
     const std::string_view word = words_.next();
-    // MeshLab writes colours of a face's corners that its header does not declare. Therefore only vertex rows
-    // with too many words are errors.
+    // MeshLab writes colours for the corners of faces without declaring them in the header. Therefore only
+    // vertex rows with too many words are errors.
     if (!word.empty() && element.name == "vertex") return fail_in_long_row(element, word);
     words_ = Words();
     ++rows_;

@@ -131,7 +131,7 @@ std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
 }
 
 // Looks for a group of columns among the file's names. `spellings` is a list of groups of names; the first
-// group that is complete in the file sets the columns. Returns false if there is none.
+// group that is complete in the file sets the columns. Returns false if no group is complete.
 bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t> columns) {
   for (; !spellings.empty(); spellings = spellings.subspan(columns.size())) {
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = find_name(names, spellings[i]);

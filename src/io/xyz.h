@@ -48,7 +48,7 @@ struct XyzLayout {
 // Returns the number that a field spells, with a decimal comma if the layout has them.
 std::optional<double> parse_field(std::string_view field, const XyzLayout& layout);
 
-// Returns true if x, y and z are among the names, or easting, northing and elevation, or other names of
+// Returns true if the names include x, y and z, or easting, northing and elevation, or other names of
 // coordinates.
 bool has_coordinates(const ColumnNames& names);
 

@@ -78,8 +78,8 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
 }
 
 // An orbiting camera keeps the scale of the view from the front as long as the plate's corners stay in the
-// picture. They may come closer to the picture's edge than in the view from the front, where the plate's
-// shadow needs space.
+// picture. The corners may come closer to the picture's edge than in the view from the front, where the
+// plate's shadow needs space.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
   constexpr double least_padding = .03;
   const double side = std::min(options.width, options.height);

@@ -1,4 +1,4 @@
-// Colours the material that a milling tool leaves in pictures of a body. Tested by
+// Colours, in pictures of a body, the material that a milling tool leaves. Tested by
 // tests/picture/reach_tint_test.cpp.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace relievo {
 // y downwards.
 struct ScreenTransform {
   // Points are clamped to this distance from the picture's middle, in pixels, because the rasterizer's
-  // integers would overflow.
+  // integers would otherwise overflow.
   static constexpr double farthest_px = 100000;
 
   int width = 0, height = 0;

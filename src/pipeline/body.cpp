@@ -36,7 +36,8 @@ double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
 
-// Returns the base of a form: in a die, high places become deep ones.
+// Returns the base of a form. A mirrored form mirrors the base, and a die makes a raised base hollow, or a
+// hollow one raised.
 BaseOptions formed_base(const ReliefOptions& options) {
   BaseOptions base = options.base;
   base.is_mirrored = is_mirrored(options.form);

@@ -30,7 +30,8 @@ bool is_sampled(const ReliefOptions& options) {
   return !options.draft_deg && options.form != Form::lithophane;
 }
 
-// Returns whether a triangle belongs to one surface: it is not ground, not a wall, and does not span a jump.
+// Returns, per triangle, whether it lies on one surface: it is neither ground nor wall, and does not span a
+// depth jump.
 std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   std::vector<std::uint8_t> is_smooth(surface.triangulation.triangles.size());
   const Boundary& boundary = surface.boundary;

@@ -105,7 +105,7 @@ class Row {
 
   Mat3 to_view_;
   double height_ = 0;
-  Vec3 at_ = Vec3::Zero();  // left, bottom and middle of the depth of the next model
+  Vec3 at_ = Vec3::Zero();  // left, bottom and middle depth of the next model
 };
 
 }  // namespace

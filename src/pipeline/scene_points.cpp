@@ -18,7 +18,7 @@ namespace {
 constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
 constexpr Colour white{255, 255, 255};
 
-// A cloud in its place in the scene, with outward normals, and the same cloud in view coordinates.
+// A cloud placed in the scene, with outward normals, and the same cloud in view coordinates.
 struct PlacedCloud {
   std::string name;
   Cloud cloud, viewed;
@@ -37,8 +37,8 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Appends the colours of `added` points to those of `size` points. If only one of the two has colours, the
-// other's are white.
+// Appends the colours of `added` points to those of `size` points. If only one of the two groups has colours,
+// the points of the other become white.
 void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector<Colour>& from,
                     std::size_t added) {
   if (to.empty() && from.empty()) return;

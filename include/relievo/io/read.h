@@ -57,11 +57,12 @@ struct PictureChannels {
   int channel = 0;                   // number of the channel to read, from 1; 0: the only one
 };
 
-// Returns the depths in a PNG (grey, 8 or 16 bits; colour if all channels are equal) or TIFF (grey; whole
-// numbers of 1 to 32 and 64 bits or fractions of 16, 32 and 64, strips or tiles, any compression that libtiff
-// supports). Transparency is not read. Values that GDAL's no-data tag states become NaN. In pictures where 0
-// is white, whole numbers are inverted, so that bright pixels have large values. Errors: kind input for other
-// or broken pictures and palettes, for a missing channel, and for more than 2^27 pixels or fewer than 4 x 4.
+// Returns the depths in a PNG or TIFF. A PNG must be grey with 8 or 16 bits, or have equal colour channels. A
+// TIFF must be grey, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64 bits, in strips or
+// tiles, with any compression that libtiff supports. Transparency is not read. Values that GDAL's no-data tag
+// states become NaN. In pictures where 0 is white, whole numbers are inverted, so that bright pixels have
+// large values. Errors: kind input for other or broken pictures and palettes, for a missing channel, and for
+// more than 2^27 pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 
@@ -76,10 +77,10 @@ struct ScanSize {
   bool is_stated = false;  // true if the header states the size; else it is estimated from the file's
 };
 
-// Returns the number of points and triangles of a cloud or mesh, or of pixels of a depth image, in a file of
-// `file_bytes` bytes that begins with `head`: PLY, PCD, LAS, binary STL and PNG state these numbers; for
-// other formats they are estimated. 64 kB of `head` suffice. A header may promise anything, so the result is
-// limited to the numbers that fit into the file. All numbers are 0 for an empty file.
+// Returns the number of points and triangles of a cloud or mesh, or of pixels of a depth image. `head` is the
+// beginning of a file of `file_bytes` bytes; 64 kB suffice. PLY, PCD, LAS, binary STL and PNG state these
+// numbers; for other formats they are estimated. A header may promise anything, so the result is limited to
+// the numbers that fit into the file. All numbers are 0 for an empty file.
 ScanSize scan_size(std::span<const std::byte> head, std::string_view name, std::uint64_t file_bytes);
 
 }  // namespace relievo

@@ -47,9 +47,9 @@ std::vector<std::byte> write_zip(std::span<const ZipEntry> entries, unsigned lev
 std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = {});
 
 // Return the image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
-// characters, values of at least one. A positive `mm_per_pixel` is stored as the physical size of a pixel
-// (pHYs). The result is empty for an image without pixels or with a side of more than a million, for a number
-// of pixels other than width times height, and for other keys and values.
+// characters, values of at least one character. A positive `mm_per_pixel` is stored as the physical size of a
+// pixel (pHYs). The result is empty for an image without pixels or with a side of more than a million, for a
+// number of pixels other than width times height, and for other keys and values.
 std::vector<std::byte> write_png(const Image8& image);
 std::vector<std::byte> write_png(const Image16& image,
                                  std::span<const std::pair<std::string, std::string>> text = {},

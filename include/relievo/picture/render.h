@@ -28,7 +28,7 @@ struct Picture {
 struct Camera {
   double yaw_deg = 0, pitch_deg = 0;
   double zoom = 1;          // 1 fits the plate into the picture
-  Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, in the middle of the picture
+  Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, that is in the middle of the picture
 
   bool operator==(const Camera&) const = default;
 };

@@ -24,7 +24,8 @@ enum class Control : std::uint8_t { narrow, wide, all_zero, literal };
 
 using Group = std::array<std::uint8_t, group_size>;
 
-// Reads the differences of a group. If all bits are set, the difference follows in a byte of its own.
+// Reads the differences of a group. If all bits of a difference are set, the difference follows in a byte of
+// its own.
 Group next_differences(MeshoptBytes& from, unsigned bits) {
   Group differences{};
   if (bits == 0) return differences;

@@ -95,7 +95,7 @@ class LasHeaderReader {
     return {};
   }
 
-  // Finds the columns and the range of colours. They should have 16 bits, but some programs write 8.
+  // Finds the columns and the range of colours. Colours should have 16 bits, but some programs write 8 bits.
   void take_colours() {
     const std::size_t place = colour_places[format_];
     if (place == 0) return;

@@ -49,7 +49,7 @@ struct LazLayout {
 constexpr std::size_t record_header = 54;   // size of the header of a variable-length record
 constexpr std::uint32_t chunks_vary = ~0U;  // stored instead of the points per chunk if these vary
 constexpr std::uint64_t most_points_a_byte =
-    256;  // limit; 40 was measured for a row of points at equal steps
+    256;  // limit; 40 points per byte were measured for a row at equal steps
 
 // Reads the variable-length record of LASzip and the table of chunks. All chunks lie within the file, and
 // together they have the number of points that the header promises. Errors name the byte.
@@ -309,7 +309,7 @@ bool decode_layers(const LazLayout& layout, const LazChunk& chunk, const LazPoin
   return true;
 }
 
-// Sets the colours as bytes. They should be stored with 16 bits, but some programs write 8.
+// Sets the colours as bytes. Colours should be stored with 16 bits, but some programs write 8 bits.
 void set_colours(Cloud& cloud, const std::vector<LazColour>& colours) {
   std::uint16_t highest = 0;
   for (const LazColour& colour : colours) highest = std::max(highest, std::ranges::max(colour));
