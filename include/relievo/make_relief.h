@@ -37,8 +37,8 @@ struct ScanReport {
   std::optional<FoundPlane> plane;
 
   bool lacks_plane = false;            // a plane was to be left out, but none was found
-  bool has_estimated_normals = false;  // the points had none, so they were estimated
-  bool has_turned_normals = false;     // they pointed inwards and were reversed
+  bool has_estimated_normals = false;  // the points had no normals, so normals were estimated
+  bool has_turned_normals = false;     // the points' normals pointed inwards and were reversed
 
   // Returns the facts about the points of a surface.
   static ScanReport of(const Surface& surface);

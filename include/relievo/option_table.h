@@ -23,7 +23,7 @@ namespace relievo {
 enum class OptionStage {
   input,     // a depth image is read
   view,      // the visible points are prepared
-  model,     // the system of their heights is prepared
+  model,     // the system for the heights is prepared
   shape,     // the heights are found
   plate,     // the plate is built around the relief
   body,      // the plate is bent and formed

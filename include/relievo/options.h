@@ -80,7 +80,8 @@ struct ReliefOptions : NumericOptions {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
   }
   double effective_alpha() const { return alpha.value_or(4); }
-  double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // of Shape::max_slope
+  // The default is the angle of Shape::max_slope.
+  double effective_steepest_deg() const { return steepest_deg.value_or(76); }
   // The margin is small if a diameter is given, as for coins.
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // The plate of a lithophane is thin, because light has to pass through its thinnest places.

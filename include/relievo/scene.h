@@ -23,7 +23,7 @@ struct Pose {
   Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z, all fixed axes; 90 about z takes x to y
   std::optional<Vec3> translate = {};  // movement, in the units of the files
   double scale = 1;                    // above 0
-  bool is_mirrored = false;            // x is reversed first
+  bool is_mirrored = false;            // x is reversed before scaling and turning
 
   bool operator==(const Pose& other) const;
 };

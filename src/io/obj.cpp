@@ -73,7 +73,7 @@ class ObjReader {
       if (*vertex > highest_vertex_) highest_vertex_ = *vertex, highest_line_ = first_line_;
       corners_.push_back({*vertex, no_index});
       const std::size_t second = word.find('/', slash + 1);
-      if (second >= word.size() - 1) continue;  // "1", "1/2" and "1/2/"
+      if (second >= word.size() - 1) continue;  // no normal: "1", "1/2" and "1/2/"
       const auto normal = resolve(word.substr(second + 1), normals_.size());
       if (!normal) return fail("expected the number of a normal, found " + in_quotes(word));
       corners_.back().normal = *normal;

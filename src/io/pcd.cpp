@@ -123,7 +123,7 @@ class PcdHeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // the product does, too
+    const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // so the product fits
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})
       return lines_.fail(cat("expected the number of points before DATA, up to 4294967294, found ",

@@ -20,8 +20,8 @@ constexpr float darkest_hollow = .2F;
 // 1/e of the sky that a hollow can lose is left. It is about 24 degrees, the slope of a clear fold.
 constexpr float hollow_depth = 1 / 2.2F;
 
-// Tangent of the lamp's apparent size: a soft box of a metre, one and a half metres away. Shadows of a small
-// lamp have edges that pass for edges of the relief.
+// Tangent of the lamp's apparent size, that of a soft box of a metre at a distance of one and a half metres.
+// Shadows of a smaller lamp have edges that look like edges of the relief.
 constexpr float lamp_width = .7F;
 
 // Share of the lamp's light that a full shadow takes away. The rest is light from the room, which brightens a

@@ -44,7 +44,7 @@ Cloud some_of(const Cloud& cloud, std::size_t count) {
   return some;
 }
 
-// Calls f for the corners of a mesh's triangles, or for the points of a cloud that are not outliers.
+// Calls f for each corner of a mesh's triangles, or for each point of a cloud that is not an outlier.
 template <typename F>
 void each_point(const CloudFile& file, F&& f) {
   for (const Triangle& triangle : file.mesh.triangles)

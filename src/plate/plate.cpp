@@ -91,7 +91,7 @@ Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const P
 
 // Below a micrometre, rounding to single precision would make rim or walls degenerate.
 constexpr double least_size_mm = 1e-3;
-constexpr double least_tolerance_mm = 1e-4;  // finer ones would follow the rounding of files
+constexpr double least_tolerance_mm = 1e-4;  // finer tolerances would follow the rounding of files
 
 bool is_good(double mm) {
   return std::isfinite(mm) && mm >= least_size_mm;

@@ -90,7 +90,6 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   return layers;
 }
 
-// Applies equation (6) layer by layer.
 LayerWeights LayerWeights::of(double u, double detail, double height_share) {
   const auto kept = [&](double share) {
     return static_cast<float>(

@@ -112,8 +112,8 @@ void RunningMedian::add(std::int32_t value) {
   std::int32_t* const v = values_;
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
-    // Shifts the half on the other side of the median by one and inserts the value into its own half. The
-    // next value replaces the same end.
+    // Moves the values on the other side of the median by one, and inserts the new value on its own side. The
+    // next new value replaces the same end.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

@@ -24,7 +24,7 @@ namespace {
 // A grid of points over the front, and the triangle that contains each point.
 struct SampleGrid {
   double step = 0;
-  Vec2 corner;  // upper left
+  Vec2 corner;  // upper left corner of the grid
   RasterInput input;
   Image<Index> triangle;  // no_index beside the front
 

@@ -155,7 +155,7 @@ class Flipper {
       return std::ranges::all_of(side, [&](Index t) { return is_thin(t); });
     };
     const std::vector<Index> before = side_of(c, a, false), after = side_of(c, b, true);
-    const bool is_inside = before.size() == fans_->around(c).size();  // they go all around c, up to abc
+    const bool is_inside = before.size() == fans_->around(c).size();  // they surround c
     return !is_inside && !are_thin(before) && !are_thin(after);
   }
 

@@ -17,7 +17,7 @@ namespace relievo {
 namespace {
 
 // The width of a cell is `cell_size` of the longer side, a quarter of the bending length, so that cells
-// resolve this length. If points are too sparse for that, it is `least_cell_size` sampling distances.
+// resolve this length. If points are too sparse for that, the width is `least_cell_size` sampling distances.
 constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is almost 0, but keeps the
 // system regular.

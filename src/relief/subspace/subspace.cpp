@@ -145,7 +145,7 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
     };
     parallel_for(control_.points.size(), mean_slope, 512);
   });
-  system_.solve(storage.slopes, storage.heights, storage.system);  // z_c
+  system_.solve(storage.slopes, storage.heights, storage.system);  // z_c, the heights of the control points
 }
 
 // Below a thousandth of the height range the reference height is too small to divide by. There the ratio
