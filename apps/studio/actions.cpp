@@ -25,7 +25,7 @@ bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
 
-// Fails if the path of a scan is that of a device or a folder. A missing file is not an error.
+// Fails if a scan's path is that of a device or a folder. A missing file is not an error.
 Result<void> check_place(const ScanSource& input) {
   return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
 }
@@ -132,7 +132,7 @@ Result<Answer> Actions::leave(const Json& json) {
   return done();
 }
 
-// Keeps the state of a document unless a newer one is kept: then answers with status 409.
+// Keeps the state of a document. If a newer state is kept, answers with status 409 instead.
 Result<Answer> Actions::keep(const Json& json) {
   const std::string id = json.value("document", "");
   const Json state = json.value("state", Json());
@@ -166,8 +166,8 @@ Result<Answer> Actions::recent(const Json& json) {
   return answer_of(Json{{"recent", recent_list(after)}});
 }
 
-// With `storing_` locked: see Store::recent(). The documents that are being opened come first, as they are not kept before
-// their scan was read.
+// With `storing_` locked: returns the list of Store::recent(). The documents that are being opened come
+// first, as they are not kept before their scan was read.
 Json Actions::recent_list(const std::string& after) {
   Json list = Json::array();
   const auto opened = opened_.with([](const auto& all) { return all; });
@@ -295,7 +295,7 @@ Result<void> Actions::begin_with(const std::string& path, const std::string& ful
   }
   const ScanSource input{{}, place.lexically_normal().string(), place.filename().string(), {}};
   first_ = {{"input", to_json(input)}, {"is_there", true}};
-  // The page prepares a kept document in its own view.
+  // If the document is kept, the page opens it, with its own view.
   if (store_.document(document_of(input)) == "") {
     RELIEVO_TRY(const auto engine, open_document(input, {}));
     engine->open(input, first_view());

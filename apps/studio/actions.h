@@ -1,4 +1,5 @@
-// The actions that the page can ask for, as JSON in and out. Tested by apps/studio/tests/server.test.mjs.
+// Does the actions that the page requests. Takes and returns JSON. Tested by
+// apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,7 @@ namespace relievo::app::studio {
 
 constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // bytes of a dropped file
 
-// Reads the body of a request and passes its blocks to `take`. Returns whether all of it arrived and was
+// Reads the body of a request and passes its blocks to `take`. Returns whether the whole body arrived and was
 // taken.
 using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;
 
@@ -38,19 +39,20 @@ class Actions {
   // Does the action of that name, for which has() must be true.
   Answer run(std::string_view name, const nlohmann::json& json);
 
-  // Takes a file of the browser block by block: a scan, or a project with or without its scan. If the body
-  // does not arrive completely, the answer is empty.
+  // Takes a file that the browser sends block by block: a scan, or a project file with or without its scan.
+  // If the body does not arrive completely, the answer is empty.
   Answer take_scan(const std::string& name, const BodyReader& read);
   Answer take_project(const std::string& name, const BodyReader& read);
 
-  // Makes the first page begin with a scan or a project; `full` is the absolute path. Errors: kind input if
-  // it cannot be read.
+  // Makes the first page begin with a scan or a project; `full` is the absolute path of the file. Errors:
+  // kind input if the file cannot be read.
   Result<void> begin_with(const std::string& path, const std::string& full);
 
   // Returns the facts that the page needs before it can show anything.
   nlohmann::json about();
 
-  // Returns for each open document its engine's status, and the time and the tab of its last keeping.
+  // Returns for each open document the status of its engine, the time of its last kept change, and the tab
+  // that made this change.
   std::vector<nlohmann::json> statuses();
 
  private:
@@ -91,7 +93,8 @@ class Actions {
   Store& store_;
   Mutex storing_;         // guards store_ and first_; disk operations may lock it for long
   nlohmann::json first_;  // the input with which the first page begins, or null
-  Guarded<std::map<std::string, Opened>> opened_;  // by document; locked only briefly, also within storing_
+  Guarded<std::map<std::string, Opened>>
+      opened_;  // by document; locked briefly, also while storing_ is locked
 };
 
 }  // namespace relievo::app::studio

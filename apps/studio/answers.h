@@ -1,4 +1,5 @@
-// Answers to the page's requests: JSON, pictures and errors. Tested by apps/studio/tests/server.test.mjs.
+// Makes the answers to the page's requests: JSON, pictures and errors. Tested by
+// apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,7 +13,7 @@
 namespace relievo::app::studio {
 
 struct Answer {
-  int status = 200;  // of HTTP
+  int status = 200;  // HTTP status
   std::string type;  // MIME type of the body
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers = {};
@@ -20,8 +21,9 @@ struct Answer {
 
 Answer answer_of(const nlohmann::json& json, int status = 200);
 
-// Returns the error with its HTTP status: 400 and 422 for a wrong request, 409 if the engine has nothing to
-// answer with, 500 if the disk failed, 202 for cancelled work, which browsers do not report as an error.
+// Returns the error with its HTTP status: 400 and 422 for a wrong request, 409 if no relief can be made or
+// none is ready, 500 if the disk failed, 507 if the memory ran out. Cancelled work has 202, which browsers do
+// not report as an error.
 Answer answer_of(const Error& error);
 
 // Returns the pixels as the body, and the facts about them in the header X-Relievo.

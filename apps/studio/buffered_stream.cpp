@@ -54,7 +54,7 @@ ssize_t BufferedStream::write(const char* from, std::size_t size) {
   return wait_for(socket_, POLLOUT) ? ::send(socket_, from, size, MSG_NOSIGNAL) : -1;
 }
 
-// The server never uses addresses, as it answers requests of this machine alone.
+// The server never uses addresses, as it answers only requests of this machine.
 void BufferedStream::get_remote_ip_and_port(std::string& ip, int& port) const {
   ip = "127.0.0.1";
   port = 0;

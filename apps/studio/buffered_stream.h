@@ -10,8 +10,8 @@
 
 namespace relievo::app::studio {
 
-// Reads the bytes received before, then from the socket, which it does not own. Reading returns 0 at the end
-// of the connection, and -1 for errors and after waiting too long.
+// Reads from a socket, which it does not own, after the bytes that were received from it before. Reading
+// returns 0 at the end of the connection, and -1 for errors and after waiting too long.
 class BufferedStream : public httplib::Stream {
  public:
   BufferedStream(int socket, std::string received) : socket_(socket), received_(std::move(received)) {}

@@ -25,16 +25,17 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// Half of 1024, the usual limit of open files of a program.
+// This is half of 1024, the usual limit of open files of a program.
 constexpr std::size_t most_connections = 512;
-// Limits of the requests that are answered at the same time: those of a few pages, and uploads that arrive
-// slowly. Each page keeps one request for events open, which would block a single thread.
+// The least and the largest number of requests that are answered at the same time. They allow for a few
+// pages, and for uploads that arrive slowly. Each page keeps one request for events open, which would block a
+// single thread.
 constexpr std::size_t fewest_answering = 4, most_answering = 96;
 constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
 constexpr auto longest_head = 5s;             // from the first byte of a head to its last
 constexpr auto longest_rest = 30s;            // from one request of a connection to the next
 constexpr auto longest_farewell = 2s;         // time for a refused sender to read the answer
-constexpr auto shortest_wait = 1s;            // after which a connection may have to make room
+constexpr auto shortest_wait = 1s;            // after which a connection may be closed to make room
 
 // A connection that no thread works on.
 struct Connection {
@@ -49,7 +50,7 @@ bool has_whole_head(const Connection& connection) {
   return connection.received.find("\r\n\r\n") != std::string::npos;
 }
 
-// Closing at once would destroy an answer that the other side has not read while it is still sending.
+// Closing the socket at once would destroy the answer if the other side is still sending and has not read it.
 Connection ending(int socket) {
   ::shutdown(socket, SHUT_WR);
   return {socket, {}, Clock::now() + longest_farewell, true};
@@ -102,7 +103,7 @@ struct Connections::State {
 
   ~State() { ::close(wake); }
 
-  // Starts another thread if all are busy. If the system gives none, the existing threads go on. The caller
+  // Starts another thread if all are busy. If the system gives no thread, the existing ones go on. The caller
   // holds `mutex`.
   void add_thread_if_needed() {
     if (is_stopping || ready.size() <= idle || threads.size() > most_answering) return;
@@ -141,7 +142,7 @@ struct Connections::State {
     if (!wait_for_head({socket, {}, Clock::now() + longest_head})) close(socket);
   }
 
-  // Returns false if there is no memory to wait with. The caller holds `mutex`.
+  // Adds the connection to `waiting`. Returns false if there is no memory for it. The caller holds `mutex`.
   bool wait_for_head(Connection connection) {
     try {
       waiting.push_back(std::move(connection));
@@ -170,9 +171,9 @@ struct Connections::State {
     }
   }
 
-  // Receives what has arrived, and closes connections that are over or too late. The caller holds `mutex`.
-  // `watched` and `waiting` have the same order, but meanwhile connections may have been removed from the
-  // front of `waiting` and added to its end.
+  // Receives the bytes that have arrived, and closes connections that are over or too late. The caller holds
+  // `mutex`. `watched` and `waiting` have the same order, but meanwhile connections may have been removed
+  // from the front of `waiting` and added to its end.
   void look_at(const std::vector<pollfd>& watched) {
     const Clock::time_point now = Clock::now();
     auto found = watched.begin();
@@ -185,8 +186,9 @@ struct Connections::State {
     }
   }
 
-  // Receives what has arrived, and makes the connection ready for a thread once its head is complete. Returns
-  // false if the connection is over or too late, or if there is no memory for it. The caller holds `mutex`.
+  // Receives the bytes that have arrived, and makes the connection ready for a thread once its head is
+  // complete. Returns false if the connection is over or too late, or if there is no memory for it. The
+  // caller holds `mutex`.
   bool take_in(std::list<Connection>::iterator at, Clock::time_point now) {
     try {
       const Arrival arrival = receive(*at);
@@ -224,7 +226,7 @@ struct Connections::State {
   }
 
   // Answers the request that has arrived on a connection, and returns the connection for its next request.
-  // The connection ends if something fails when an answer can no longer report it, such as memory while the
+  // The connection ends if something fails too late for an answer to report it, such as memory while the
   // answer is sent.
   Connection answer_on(Connection connection) {
     refill_memory_reserve();

@@ -1,5 +1,5 @@
-// Connections of the studio's server. A thread is given to a request only when its head has arrived, so that
-// slow or silent connections occupy no thread. Tested by apps/studio/tests/server.test.mjs.
+// Manages the connections of the studio's server. A thread is given to a request only when its head has
+// arrived, so that slow or silent connections occupy no thread. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ class Connections {
   // Answers one request. Returns whether the connection may send another.
   using Answer = std::function<bool(BufferedStream&)>;
 
-  // Starts a few threads; more are started when they are needed. Throws std::system_error if the system does
-  // not allow a few.
+  // Starts a few threads, and more when they are needed. Throws std::system_error if the system does not even
+  // allow these few.
   explicit Connections(Answer answer);
   ~Connections();  // see stop()
 

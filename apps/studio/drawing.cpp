@@ -42,7 +42,8 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<st
 CurveSamples sample_curve(const Shape& shape, double delta) {
   const bool is_layered = shape.style == Style::layered;
   const Compression saturation = saturation_alone(shape.compression);
-  // Layers keep a slope as it is where the share is 1, whatever the formula's largest value.
+  // With layers, the weight for `saturation` times this scale is the share of a slope that saturation or tone
+  // curve leave.
   const double scale = is_layered ? saturation_scale(shape.compression) : 1;
   CurveSamples samples;
   for (std::size_t i = 0; i < CurveSamples::size; ++i) {
@@ -53,12 +54,13 @@ CurveSamples sample_curve(const Shape& shape, double delta) {
   return samples;
 }
 
-// Returns a height with as many decimals as the page gives to files: if it is the largest one, it can be reached.
+// Rounds a height down to the decimals that the page uses for files. Then the largest height can still be
+// reached.
 double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
-// Returns whether the options ask for nothing but the relief on a rectangular plate, which FrameRenderer can draw.
+// Returns whether the options ask only for the relief on a rectangular plate, which FrameRenderer can draw.
 bool is_plain(const ReliefOptions& options) {
   return options.outline == Outline::rectangle && !options.rim_mm && options.base.kind == BaseKind::plane &&
          options.wrap.kind == WrapKind::none && options.form == Form::relief && !options.draft_deg &&
@@ -74,7 +76,8 @@ ReliefOptions coarse(ReliefOptions options) {
   return options;
 }
 
-// Returns whether the piece is exactly as thick as plate and relief together, of however few samples it is made.
+// Returns whether the thickness of the piece is that of plate and relief together, even if the piece is
+// coarse.
 bool is_level(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
          options.form != Form::die && !options.rim_mm && options.outline != Outline::none &&
@@ -119,7 +122,8 @@ PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& m
   return {request.u ? rounded_down(height, 1e4) : asked, true};
 }
 
-// A piece has the height that is met or the largest that can be reached.
+// Returns the options for the piece. Its height is the requested one or, if that cannot be reached, the
+// largest.
 ReliefOptions Drawing::piece_options(const PictureRequest& request, const LiveFrame& made) const {
   ReliefOptions options = request.options;
   const PieceHeight height = height_of(request, made);
@@ -139,7 +143,7 @@ void Drawing::take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& 
   std::shared_ptr<const ToolReach> reach;
   if (made->report.reach) reach = {made, &*made->report.reach};
   finished_.reset();
-  const bool is_flat = options.wrap.kind == WrapKind::none;  // as is the front whose reach was measured
+  const bool is_flat = options.wrap.kind == WrapKind::none;  // the tool's reach was measured before bending
   finished_.emplace(options, solid, reach, SolidRenderer(solid, is_flat ? reach : nullptr),
                     relief_height_mm(*made, options));
 }
@@ -189,7 +193,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.width_mm = request.options.effective_width_mm();
   answer.most_width_mm = live_.most_width_mm();
   if (request.is_original) {
-    options.has_shadows = false;           // the model's full depth would cover the ground with them
+    options.has_shadows = false;           // at the model's full depth they would cover the ground
     options.material = Material::plaster;  // not the material of the piece
     live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
@@ -224,7 +228,7 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   const LiveFrame made = frame(request, true);
   if (is_plain(request.options)) return along(live_.shown(made));
   const ReliefOptions wanted = piece_options(request, made);
-  RELIEVO_CHECK(check_rim(wanted, height_of(request, made).mm));  // coarse pieces have no draft angle
+  RELIEVO_CHECK(check_rim(wanted, height_of(request, made).mm));  // making a coarse piece does not check this
   RELIEVO_TRY(const DrawnPiece* const shown, piece(wanted));
   return section_of(*shown->solid, line);
 }

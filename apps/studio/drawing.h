@@ -21,17 +21,17 @@ struct ModelFacts {
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // the relief's box, in the scan's units
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
-  std::vector<Remark> remarks;         // their texts are sentences
-  std::vector<std::size_t> histogram;  // histogram of sqrt(|k|) from 0 to 1
+  std::vector<Remark> remarks;         // each text is a sentence
+  std::vector<std::size_t> histogram;  // histogram of sqrt(|k|) for the curvatures k, from 0 to 1
 };
 
-// The share of a slope that a relief keeps, over curvature, both in [0, 1]: at sqrt(|k|) = i / (size - 1). The page draws them
-// as the tone curve.
+// The fraction of a slope that a relief keeps, from 0 to 1, at curvatures k with sqrt(|k|) = i / (size - 1).
+// The page draws these samples as the tone curve.
 struct CurveSamples {
   static constexpr std::size_t size = 81;
 
-  std::vector<double> share;  // that saturation or tone curve ask for
-  std::vector<double> kept;   // in the relief of this height; in layers the same as `share`
+  std::vector<double> share;  // the fraction that saturation or tone curve ask for
+  std::vector<double> kept;   // the fraction in the relief of this height; with layers the same as `share`
 };
 
 struct PictureRequest {
@@ -44,47 +44,47 @@ struct PictureRequest {
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
   RenderOptions render;      // its lengths are set from the options
-  std::shared_ptr<const Progress> progress = {};  // of a picture that can be cancelled
+  std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
 struct PictureAnswer {
   Picture picture;
   bool is_finished = false;  // shows the piece as export makes it, or the model itself
-  bool is_plain = false;     // the piece is one that frames show, too
+  bool is_plain = false;     // the piece is a relief on a rectangular plate, which frames show, too
   double drawing_s = 0;
   double width_mm = 0;                  // the relief's longer side
   Vec3 size_mm = Vec3::Zero();          // the piece's size
-  bool is_size_exact = false;           // whether the file has that size too; a coarse piece may differ
+  bool is_size_exact = false;           // whether the file has this size; that of a coarse piece may differ
   std::optional<double> most_width_mm;  // largest width_mm that fits into the requested plate
   std::optional<std::array<Vec2, 2>>
       relief_mm;  // corners of the relief's box, relative to the middle of the piece; empty if bent
 
+  // The share of the front that the tool reaches, and the most material that it leaves.
   struct Reach {
     double share = 1, left_mm = 0;
   };
-  std::optional<Reach>
-      reach;  // of the tool: the share of the front that it reaches, and the most material that it leaves
+  std::optional<Reach> reach;  // empty without a tool
 
   // The members below describe how the relief was made. A picture of the model itself leaves them at their
   // defaults.
   Compression compression;      // found by the engine
   double height_mm = 0;         // the height to make the file with
-  double relief_height_mm = 0;  // of the relief in the file; lower if a tool leaves material
+  double relief_height_mm = 0;  // of the relief in the file; differs from height_mm if a tool leaves material
   bool is_height_met = true;
   FrameTimes times;
   CurveSamples curve;
 };
 
-// A piece with what draws it.
+// A piece with its renderer.
 struct DrawnPiece {
-  ReliefOptions options;  // that it was made of
+  ReliefOptions options;  // by which it was made
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ToolReach> reach;  // of the options' tool; null without one
   SolidRenderer renderer;
-  std::optional<double> height_mm = {};  // see relief_height_mm(); nothing of a piece that is not finished
+  std::optional<double> height_mm = {};  // see relief_height_mm(); empty for a coarse piece
 };
 
-// The height that a piece is made with, and whether it is the one that was asked for.
+// The height of a piece, and whether it is the requested one.
 struct PieceHeight {
   double mm = 0;
   bool is_met = true;
@@ -93,9 +93,9 @@ struct PieceHeight {
 // Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. A model of few points comes with the detail that these points leave out; other models
-  // come without. `outliers` is the number of outliers that were left out of the scan, and `remarks` are its
-  // other remarks.
+  // Shares the model. If the model has fewer points than the scan, `shown` also has the detail that these
+  // points do not resolve. `outliers` is the number of outliers that were left out of the scan, and `remarks`
+  // are its other remarks.
   Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
@@ -103,24 +103,25 @@ class Drawing {
   // While frozen, pictures show the last frame instead of the requested one, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws a frame, whose height is met within 3 % unless the picture is to be fine. If the options ask for more than a
-  // rectangular plate, draws a piece, whose height is met: the finished one if it was taken, otherwise one that is made
-  // faster, of fewer samples and without a draft angle or tool. Errors: those of make_relief().
+  // Draws a frame. A fine picture has exactly the requested height, others come within 3 % of it. If the
+  // options ask for more than a rectangular plate, draws a piece of exactly that height. This is the finished
+  // piece if take() was called with it, otherwise a coarse one, which is made faster, with fewer samples and
+  // without a draft angle or tool. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
-  // Returns the options of the piece that the request would show; nothing if it is at hand. Errors: those of
-  // with_width().
+  // Returns the options of the piece that the request would show; nothing if take() was called with this
+  // piece. Errors: those of with_width().
   Result<std::optional<ReliefOptions>> missing_piece(PictureRequest request);
 
-  // Takes the piece that was made of such options. It stays until the next one.
+  // Takes the finished piece that was made with these options, and keeps it until it gets the next one.
   void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);
 
   // Returns the height in mm of the highest relief that the options allow, see LiveModel::highest_mm().
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 
-  // Returns heights above the ground in mm along a line in the picture from the front, of the finished piece
-  // if pictures show it. Errors: those of picture().
+  // Returns heights above the ground in mm along a line in the picture from the front. They are those of the
+  // finished piece if pictures show it. Errors: those of picture().
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:

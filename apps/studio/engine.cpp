@@ -19,7 +19,7 @@ std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
 }
 
-// Ignores a cancelled piece: the picture then shows what is drawn without it.
+// Ignores the error of a cancelled piece: the picture is then drawn without that piece.
 Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
 }
@@ -36,7 +36,7 @@ struct ShownModel : NumberedModel {
   LoadedScan scan;
 };
 
-// Returns the values with the side that was chosen for them.
+// Returns the values with the chosen side in place of the view "auto".
 OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best) {
   const auto side = values.find("view");
   if (side == values.end() || side->second != OptionValue("auto") || !best) return values;
@@ -63,7 +63,8 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  // `ready` locks this while the session is locked. So nobody may call the session while this is locked.
+  // Preparation::ready locks this while the session is locked. So the session must not be called while this
+  // is locked.
   Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>>
@@ -93,7 +94,7 @@ struct Engine::State {
     preparation.all_sides = [this](Progress&) -> Preparation::Points {
       return shared.with([](const Shared& s) { return s.scan; }).all_sides();
     };
-    preparation.makes_first_relief = !changed;  // without threads the page does not ask for one
+    preparation.makes_first_relief = !changed;  // without threads the page requests no coarse relief
     preparation.mode = options.mode;
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
@@ -102,8 +103,8 @@ struct Engine::State {
     return preparation;
   }
 
-  // In the session's thread: reads the scan if necessary, and returns the points that the view shows. A view
-  // that is still to be chosen becomes that of the best side.
+  // In the session's thread: reads the scan if necessary, and returns the points that the view shows. If the
+  // side is yet to be chosen, sets `view` to the best one.
   Preparation::Points points(View& view, std::optional<double> number, Progress& progress) {
     if (auto done = read(progress); !done) return std::unexpected(done.error());
     const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
@@ -137,7 +138,7 @@ struct Engine::State {
     return shared.with([](const Shared& s) { return NumberedModel(s.shown); });
   }
 
-  // Returns the scan that was read last. If no relief could be made of it, the shown scan takes its place.
+  // Returns the scan that was read last or, if no relief could be made of it, the shown scan.
   LoadedScan scan_in_use() {
     const SessionStatus status = session.status();
     const bool has_failed = !status.is_preparing && status.error;
@@ -147,9 +148,9 @@ struct Engine::State {
     });
   }
 
-  // Draws the model in a view that is not prepared yet. The coarse relief is made once per view, and is used
-  // until that view is prepared, even if options change. Other pictures do not wait for it, and the next view
-  // cancels it.
+  // Draws the model in a view that is not prepared yet. The coarse relief is made once per view. It is used
+  // until that view is prepared, even if options change. Other pictures do not wait for this relief, and the
+  // next view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
     std::uint64_t model = 0;  // the model that was drawn when the coarse relief was begun
     for (std::optional<TurnedRelief> relief;;) {
@@ -271,7 +272,8 @@ Result<ModelFacts> Engine::facts() {
   return state_->with_drawing([](Drawing& drawing) -> Result<ModelFacts> { return drawing.facts(); });
 }
 
-// Finds the height that the draft angle of the options allows, if they have one, while other pictures are drawn.
+// Finds the height that the draft angle of the options allows, if they have one, while other pictures are
+// drawn.
 Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
   if (!request.options.draft_deg) return {};
   const NumberedModel shown = state_->shown_model();
@@ -286,7 +288,7 @@ Result<void> Engine::finish(PictureRequest& request) {
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());
-  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // it may have waited for another piece
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // another piece may have come first
   std::uint64_t model = 0;
   RELIEVO_TRY(const std::optional<ReliefOptions> missing, state_->with_drawing([&](Drawing& drawing) {
     model = state_->drawn_model;
@@ -323,7 +325,7 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
 }
 
 Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
-  if (request.options.rim_mm)  // the height under the draft angle decides whether its bevel leans enough
+  if (request.options.rim_mm)  // whether its bevel leans enough depends on the height under the draft angle
     if (auto known = find_draft_limit(request, PieceUse::entry); !known)
       RELIEVO_CHECK(unless_cancelled(known.error()));
   return state_->with_drawing([&](Drawing& drawing) { return drawing.profile(std::move(request), line); });
@@ -367,7 +369,8 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  // Pictures have the width that the plate leaves among their options, exports may have none: both make the same piece.
+  // The options of pictures have the width that the plate leaves; those of exports may have none. With the
+  // width, both ask for the same piece.
   RELIEVO_TRY(const ReliefOptions sized, with_width(model->surface(), options));
   return state_->maker.piece(use, shown, sized);
 }

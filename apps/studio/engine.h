@@ -1,4 +1,4 @@
-// The native engine behind the page: has one scan, makes its relief, and draws both.
+// The native engine of a document: reads one scan, makes its relief, and draws both.
 #pragma once
 
 #include <functional>
@@ -15,29 +15,29 @@
 
 namespace relievo::app::studio {
 
-// The engine's present work, and the scan of this work.
+// An engine's present work, and the scan that it shows.
 struct EngineStatus {
   bool is_busy = false;
   std::string stage;
   double fraction = 0;
   std::optional<Error> error;  // error of the last opening or change of view
   ScanSource input;            // the shown scan
-  OptionValues view;           // last requested: the options by which a scan is prepared
-  std::string making_stage;    // stage of the file that is being made; empty if there is none
+  OptionValues view;           // last requested options for preparing the scan
+  std::string making_stage;    // stage of the finished piece that is being made; empty if there is none
   double making_fraction = 0;
-  std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first
-  bool can_turn = false;    // whether pictures of other views than the model's can be drawn
+  std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first model
+  bool can_turn = false;    // whether pictures can show the model in other views
 };
 
-// Every method may be called from any thread. Those that draw wait for each other.
+// Every method may be called from any thread. Methods that draw wait for each other.
 class Engine {
  public:
   // `changed` is for systems without threads: it is called when status() has changed within a call.
   explicit Engine(const std::function<void()>& changed = {});
   ~Engine();
 
-  // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready;
-  // if that fails, it stays for good.
+  // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
+  // or for good if the new one fails.
   void open(const ScanSource& input, const OptionValues& view);
 
   // Does the parts of open() and choose_view() that are needed to show the scan in that view: none if it is
@@ -58,18 +58,20 @@ class Engine {
 
   EngineStatus status() const;
 
-  // Errors of this and the methods below: kind geometry if there is no relief yet.
+  // Returns the facts about the shown model. Errors of this and the methods below: kind geometry if there is
+  // no relief yet.
   Result<ModelFacts> facts();
 
-  // See Drawing. While another view is prepared, pictures show the last frame of the model before it. A
-  // finished piece is made before its picture. Any other picture cancels that piece, so as not to wait for
-  // it, and a picture that is not fine cancels all fine ones. Errors: also those of piece().
+  // These draw as Drawing does. While another view is prepared, pictures show the last frame of the model
+  // before it. A picture of a finished piece waits until the piece is made. Any other picture cancels that
+  // work, so as not to wait for it, and a picture that is not fine cancels all fine ones. Errors: also those
+  // of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
   // Returns the height in mm of the highest relief that the options allow, their draft angle included.
-  // Finding the height under a draft angle takes as long as making a piece, and other pictures cancel it
-  // likewise. Errors: those of Drawing::reachable_height() and highest_with_draft(); kind cancelled.
+  // Finding the height under a draft angle takes as long as making a piece, and other pictures cancel this
+  // work, too. Errors: those of Drawing::reachable_height() and highest_with_draft(); kind cancelled.
   Result<double> reachable_height(PictureRequest request);
 
   // Draws the scan itself as it looks in a view.
@@ -78,9 +80,9 @@ class Engine {
   // Returns the six sides, the best one first; see rank_views().
   Result<std::vector<ViewGuess>> suggest_views();
 
-  // Returns the finished relief as `relievo make` makes it, and keeps it for the next call with these options. Errors: those
-  // of make_relief(); kind option if the view that the options ask for is not the one prepared; kind cancelled after
-  // cancel_making().
+  // Returns the finished relief as `relievo make` makes it, and keeps it for the next call with these
+  // options. Errors: those of make_relief(); kind option if the view of the options is not prepared; kind
+  // cancelled after cancel_making().
   Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options,
                                                   PieceUse use = PieceUse::file);
   void cancel_making();

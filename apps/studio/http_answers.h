@@ -1,4 +1,5 @@
-// Answers and bodies of requests over HTTP. Bodies have limits. Tested by apps/studio/tests/server.test.mjs.
+// Answers requests over HTTP, and reads their bodies, whose size is limited. Tested by
+// apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include "studio/answers.h"
@@ -17,13 +18,15 @@ void send(Answer answer, httplib::Response& response);
 // Sends an error that the page can show, and closes the connection without reading the rest of the request.
 void refuse(httplib::Response& response, int status, const std::string& text);
 
-// Answers after an exception: JSON of a wrong type where a text or number belongs, and files too large to be made.
+// Answers a request that ended with an exception: memory or threads ran out, or JSON had a value of a wrong
+// type.
 void answer(httplib::Response& response, const std::exception_ptr& exception);
 
 // Returns whether the head of a request allows its body; otherwise refuses it before any of it is read.
 bool is_welcome(const httplib::Request& request, httplib::Response& response, std::size_t most_bytes);
 
-// Reads a body block by block. Returns whether all of it arrived and was taken; otherwise refuses it.
+// Reads a body block by block. Returns whether the whole body arrived and was taken; otherwise refuses the
+// request.
 bool read_body(const httplib::ContentReader& read, httplib::Response& response, std::size_t most_bytes,
                const std::function<Result<void>(std::string_view)>& take);
 

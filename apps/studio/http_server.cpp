@@ -7,8 +7,8 @@ namespace {
 
 using httplib::Request;
 
-// Runs tasks in the thread that accepts connections. They only pass the connection to Connections, which has
-// threads of its own.
+// Runs tasks in the thread that accepts connections. The tasks only pass the connection to Connections, which
+// has threads of its own.
 class DirectQueue : public httplib::TaskQueue {
  public:
   void enqueue(std::function<void()> task) override { task(); }
@@ -26,8 +26,8 @@ std::optional<std::uint64_t> announced_body(const Request& request) {
 
 HttpServer::HttpServer() : connections_([this](BufferedStream& stream) { return answer(stream); }) {
   new_task_queue = [] { return new DirectQueue; };
-  // The default options would let another program of this user take some of the connections, and read the
-  // token in them.
+  // With the library's default options another program of this user could take some of the connections, and
+  // read the token in them.
   set_socket_options([](int socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);

@@ -1,4 +1,4 @@
-// HTTP on 127.0.0.1, with limits that the library lacks. Tested by apps/studio/tests/server.test.mjs.
+// Serves HTTP on 127.0.0.1, with limits that the library lacks. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 
 namespace relievo::app::studio {
 
-// A httplib::Server with its connections managed by Connections. No other program can share its port. A
+// An httplib::Server whose connections are managed by Connections. No other program can share its port. A
 // connection is closed after a request if its body was not read to the end.
 class HttpServer : public httplib::Server {
  public:
   HttpServer();
 
-  // Opens the port, or a free one for 0. Returns the port; nothing if it is taken.
+  // Opens the port, or any free one if it is 0. Returns the opened port; nothing if the port is taken.
   std::optional<int> bind(int port);
 
   // Answers until stop() is called.

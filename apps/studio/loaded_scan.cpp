@@ -14,7 +14,8 @@ namespace relievo::app::studio {
 namespace {
 
 // Returns for each model the share of its points to keep, so that all models are about equally dense: points
-// are drawn as discs of one size. No model is thinned to more than three times the spacing of the finest.
+// are drawn as discs of one size, which suits only one density. Models are thinned to at most three times the
+// spacing of the finest.
 std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
   std::vector<double> apart;
   if (places.empty()) return apart;

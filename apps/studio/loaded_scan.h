@@ -1,4 +1,4 @@
-// A scan, or a scene of several, that was read.
+// Keeps a scan, or a scene of several scans, in memory.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace relievo::app::studio {
 
-// Immutable; copies are cheap, for they share the points.
+// A scan or a scene that was read. It is immutable, and copies are cheap, as they share the points.
 class LoadedScan {
  public:
   LoadedScan() = default;                     // no scan
@@ -18,21 +18,21 @@ class LoadedScan {
 
   const ScanSource& input() const { return input_; }
 
-  // Returns the points for ranking views: those of all models, placed in the front view, without outliers; of
-  // meshes the vertices. Null if no scan was read.
+  // Returns the points for ranking views: the points of clouds without outliers and the vertices of meshes,
+  // placed as in the front view. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
 
-  // Returns points of all sides, for turning and for the choice of a view: for a single mesh they are
-  // scattered evenly over it, otherwise they are those of cloud().
+  // Returns points of all sides, for turning the model and for choosing a view. On a single mesh they are
+  // scattered evenly; otherwise they are those of cloud().
   Result<std::shared_ptr<const Cloud>> all_sides() const;
 
   // Returns the number of outliers that were left out: points of clouds far from all others.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns the remarks on the scan's files, one line each: points that the readers left out, with the file's
-  // name in a scene, and that points are sampled from meshes.
+  // Returns the remarks on the scan's files, one line each: on the points that the readers left out, in a
+  // scene with the name of the file, and on the sampling of points from meshes.
   std::vector<std::string> remarks() const;
 
   // Returns the points for the relief in that view; about `points` of them if they are sampled from meshes or
@@ -50,8 +50,8 @@ class LoadedScan {
   std::size_t left_out_ = 0;
 };
 
-// Reads a scan. Errors: those of load_input(); kind memory, which names the scan; kind cancelled as soon as `is_unwanted`
-// returns true.
+// Reads a scan. Errors: those of load_input(); kind memory, which names the scan; kind cancelled as soon as
+// `is_unwanted` returns true.
 Result<LoadedScan> read_scan(const ScanSource& from, const std::function<bool()>& is_unwanted);
 
 }  // namespace relievo::app::studio

@@ -48,7 +48,7 @@ void OpenDocuments::leave(const std::string& tab) {
   forget_tab(tab);
 }
 
-// With `mutex_` locked.
+// With `mutex_` locked: removes a tab that is closed or shows another document.
 void OpenDocuments::forget_tab(const std::string& tab) {
   std::erase_if(tabs_, [&](const Tab& each) { return each.name == tab; });
 }

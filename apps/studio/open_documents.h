@@ -1,4 +1,5 @@
-// The documents that are open: each has its scan, and an engine of its own. Tested by apps/studio/tests/tabs.test.mjs.
+// Keeps the open documents, each with its scan and an engine of its own. Tested by
+// apps/studio/tests/tabs.test.mjs.
 #pragma once
 
 #include <functional>
@@ -19,8 +20,8 @@ class OpenDocuments {
   // least recently used document is closed; a tab that shows it opens it anew.
   static constexpr std::size_t most_hidden = 1, most_open = 6;
 
-  // The largest number of tabs that are known. Beyond it, the tab that opened its document first is forgotten: a
-  // tab that has crashed does not report that it is closed.
+  // The largest number of tabs that are known. Beyond it, the tab that opened its document first is
+  // forgotten: a tab that has crashed does not report that it is closed.
   static constexpr std::size_t most_tabs = 64;
 
   struct Entry {
@@ -34,8 +35,8 @@ class OpenDocuments {
   // Returns the document's engine; null if the document is not open.
   std::shared_ptr<Engine> find(const std::string& document);
 
-  // Opens the document if it is not open, and returns its engine. From now on the tab shows this document and no other; no
-  // tab does if `tab` is empty.
+  // Opens the document if it is not open, and returns its engine. From now on the tab `tab` shows only this
+  // document; no tab does if `tab` is empty.
   std::shared_ptr<Engine> open(const std::string& document, const std::string& tab);
 
   bool is_open(const std::string& document);
@@ -69,7 +70,7 @@ class OpenDocuments {
   Mutex mutex_;
   std::list<Entry> entries_;
   std::list<Tab> tabs_;                           // the one that opened its document last is first
-  std::vector<std::shared_ptr<Engine>> closing_;  // whose cancelled work has yet to end
+  std::vector<std::shared_ptr<Engine>> closing_;  // of closed documents, until their cancelled work ends
 };
 
 }  // namespace relievo::app::studio

@@ -1,4 +1,4 @@
-// The page's files, which are embedded in the program.
+// Finds the page's files, which are embedded in the program.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// The actions that concern the engine of a document, and the facts that the page gets at its start.
+// Does the actions on the engine of a document, and collects the facts that the page gets at its start.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -22,7 +22,8 @@ Result<ReliefOptions> options_in(const Json& json) {
   return options_from_json(json.value("options", Json()), "options");
 }
 
-// Returns the models of a scene file and how each stands, as such a file has them; none for other scans.
+// Returns the models of a scene file with their placements, in the form of such a file; an empty array for
+// other scans.
 Json models_of(const ScanSource& input) {
   Json models = Json::array();
   if (!input.sample.empty() || ending_of(input.path) != "json") return models;

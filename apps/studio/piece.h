@@ -1,4 +1,4 @@
-// Finished pieces of a model, as export makes them.
+// Makes the finished pieces of a model, as export makes them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@
 
 namespace relievo::app::studio {
 
-// Returns the height of the relief in a piece: exactly the one that was asked for, unless only what a tool reaches was.
+// Returns the height of the relief in a piece: exactly the requested one. Only if the piece is made as a tool
+// leaves it, returns the height that it got.
 double relief_height_mm(const MadeRelief& made, const ReliefOptions& options);
 
 // A prepared model with a number that no other model has.
@@ -28,10 +29,11 @@ struct NumberedModel {
 // user's entry, or a picture. Work for a picture is cancelled by the next picture.
 enum class PieceUse { file, entry, picture };
 
-// Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any thread.
+// Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any
+// thread.
 class PieceMaker {
  public:
-  // `changed` is called within piece() and draft_limit() when stage() has changed. It may be empty.
+  // `changed` is called during piece() and draft_limit() when stage() has changed. It may be empty.
   explicit PieceMaker(std::function<void()> changed) : changed_(std::move(changed)) {}
 
   struct Stage {
@@ -40,19 +42,19 @@ class PieceMaker {
   };
   Stage stage() const;
 
-  // Returns the piece, and keeps it for the next call with that model and options. Errors: those of make_relief(); kind
-  // cancelled after cancel().
+  // Returns the piece, and keeps it for the next call with that model and options. Errors: those of
+  // make_relief(); kind cancelled after cancel().
   Result<std::shared_ptr<const MadeRelief>> piece(PieceUse use, const NumberedModel& shown,
                                                   const ReliefOptions& options);
 
-  // Returns highest_with_draft(), and keeps it for the next call with that model and options, whatever their height.
-  // Errors: those of highest_with_draft(); kind cancelled after cancel().
+  // Returns highest_with_draft(), and keeps it for the next call with that model and the same options apart
+  // from their height. Errors: those of highest_with_draft(); kind cancelled after cancel().
   Result<double> draft_limit(PieceUse use, const NumberedModel& shown, const ReliefOptions& options);
 
-  // Returns what draft_limit() returned for that model and options; nothing if it is not known.
+  // Returns the result of draft_limit() for that model and these options; nothing if it is not known.
   std::optional<double> known_draft_limit(const NumberedModel& shown, const ReliefOptions& options) const;
 
-  // Ends what is being made, for that use alone if one is given.
+  // Cancels the work that is running. If a use is given, cancels only work for that use.
   void cancel(std::optional<PieceUse> use = {});
 
  private:
@@ -68,15 +70,15 @@ class PieceMaker {
     double height_mm = 0;
   };
 
-  // Calls make(progress), which is in stage() and can be cancelled meanwhile.
+  // Calls make(progress). Meanwhile stage() returns the progress, and cancel() cancels the work.
   template <typename Make>
   auto watched(const NumberedModel& shown, PieceUse use, const Make& make);
 
   std::function<void()> changed_;
   Guarded<Making> making_;
   Guarded<std::vector<DraftLimit>> draft_limits_;
-  Mutex mutex_;                             // guards what follows
-  std::shared_ptr<const MadeRelief> made_;  // null before the first
+  Mutex mutex_;                             // guards the members below
+  std::shared_ptr<const MadeRelief> made_;  // null before the first piece
   std::uint64_t made_model_ = 0;
   ReliefOptions made_options_;
 };

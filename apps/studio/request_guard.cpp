@@ -35,7 +35,7 @@ bool is_equal(std::string_view a, std::string_view b) {
   return different == 0;
 }
 
-// Any port will do: a tunnel through ssh has one of its own.
+// Returns whether a host is this machine. Its port does not matter: a tunnel through ssh has one of its own.
 bool is_here(const std::string& host) {
   const std::size_t colon = host.rfind(':');
   const std::string_view name = std::string_view(host).substr(0, colon);

@@ -15,7 +15,7 @@ namespace relievo::app::studio {
 // page.
 class RequestGuard {
  public:
-  // Takes the token of a former run, or draws one if there is none.
+  // Takes the token of a former run, or draws a random one if `former_token` is no token.
   explicit RequestGuard(const std::string& former_token);
 
   void set_port(int port) { port_ = port; }

@@ -106,7 +106,7 @@ Json to_json(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Rounds to thousandths: a quarter of a pixel in the page's curve, and short in the header.
+// Rounds to thousandths. These are a quarter of a pixel in the page's curve, and keep the header short.
 Json rounded(const std::vector<double>& samples) {
   Json json = Json::array();
   for (const double sample : samples) json.push_back(std::round(sample * 1e3) / 1e3);
@@ -180,7 +180,8 @@ Result<ExportOrder> export_order_from(const Json& json) {
   return ExportOrder{static_cast<int>(*pixels), material};
 }
 
-// Options without a value are empty texts, or null if they are numbers.
+// Returns the options for preparing a scan. Those without a value are empty texts, or null if they are
+// numbers.
 static Json shown_json(const OptionValues& values) {
   Json json = Json::object();
   for (const OptionRow& option : option_table()) {

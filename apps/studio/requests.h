@@ -1,4 +1,5 @@
-// The page's requests and the engine's answers as JSON. Tested by apps/studio/tests/server.test.mjs.
+// Reads the page's requests from JSON, and writes the engine's answers as JSON. Tested by
+// apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,7 +13,7 @@ namespace relievo::app::studio {
 // Returns a request's body as JSON. Errors: kind input if it is not JSON, or no object.
 Result<nlohmann::json> parse_body(std::string_view body);
 
-// Errors: kind input or option, naming the field.
+// These read fields of a request. Errors: kind input or option, which name the field.
 Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
@@ -23,7 +24,7 @@ Result<ExportOrder> export_order_from(const nlohmann::json& json);
 // Returns the page's options for preparing a scan; missing ones get their defaults.
 OptionValues view_values(const nlohmann::json& json);
 
-// Returns these options for a new document.
+// Returns the options for preparing the scan of a new document.
 OptionValues first_view();
 
 nlohmann::json to_json(const EngineStatus& status);
@@ -32,11 +33,11 @@ nlohmann::json to_json(const ModelFacts& facts);
 // Returns the facts that are sent with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
 
-// Returns the six sides: for each its name, the direction towards the viewer, and the direction shown
-// upright.
+// Returns the six sides, each with its name, the direction towards the viewer, and the direction that is
+// shown upright.
 nlohmann::json view_list();
 
-// Returns the materials of pictures: for each its id, and its name for users.
+// Returns the materials of pictures, each with its id and its name for users.
 nlohmann::json material_list();
 
 nlohmann::json error_json(const Error& error);

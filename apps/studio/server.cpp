@@ -26,7 +26,7 @@ constexpr int most_waiting = 32, most_pages = 8;
 constexpr int most_files =
     24;  // uploads at the same time: a quarter of the threads, so that other requests are answered
 
-// Raises a counter by one until it is destroyed.
+// Raises a counter by one for as long as this object exists.
 class ScopedCount {
  public:
   explicit ScopedCount(std::atomic<int>& count) : count_(count), number_(++count) {}
@@ -42,7 +42,7 @@ class ScopedCount {
   int number_;
 };
 
-// The events of one stream: statuses that changed.
+// The events of one stream: the statuses that have changed.
 class StatusStream {
  public:
   StatusStream(std::atomic<int>& pages, Actions& actions, const std::string& run_name)
@@ -114,8 +114,8 @@ struct Server::State {
                          std::string(file->type));
   }
 
-  // Streams the statuses of the open documents as they change, and at first the name of this run. The page
-  // keeps the stream open until it is closed.
+  // Streams the name of this run, and then the statuses of the open documents as they change. The page keeps
+  // the stream open until it is closed.
   void follow(Response& response) {
     if (pages >= most_pages) return refuse(response, 503, "too many pages are open");
     had_page = true;

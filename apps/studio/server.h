@@ -1,4 +1,4 @@
-// The studio's web server: serves the page's files and its requests to this machine alone.
+// The studio's web server: serves the page's files, and answers the page's requests, only on this machine.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace relievo::app::studio {
 struct ServerOptions {
   int port = 0;  // 0: the port of the last run, or a free one if that is taken
   std::string
-      page_folder;  // if given, page files are read from there, not from the program; for work on the page
+      page_folder;  // if given, page files are read from this folder, not the program; for work on the page
   std::chrono::seconds linger{15};  // how long to go on after the last page is closed
 };
 

@@ -1,4 +1,4 @@
-// Sections of a finished solid.
+// Computes sections of a finished solid.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,8 @@
 
 namespace relievo::app::studio {
 
-// A line seen from the front, in mm from the middle of the relief or, of a finished piece, of that piece.
+// A line across the front. Its ends are in mm from the middle of the relief or, if a piece is cut, from the
+// middle of the piece.
 struct SectionLine {
   Vec2 from, to;
   std::size_t samples = 400;  // at least 2

@@ -17,7 +17,7 @@ class DroppedScan {
  public:
   virtual ~DroppedScan() = default;
 
-  // Errors: kind output.
+  // Adds bytes at the end. Errors: kind output.
   virtual Result<void> append(std::string_view bytes) = 0;
 
   // Waits until all bytes that arrived are stored safely, which may take as long as a disk needs. Errors:
@@ -42,38 +42,41 @@ struct KeptAmount {
 // Returns the name of the document of that scan: 16 hexadecimal digits.
 std::string document_of(const ScanSource& input);
 
-// Keeps scans and, where a derived class says so, documents. Not for concurrent use, but for begin_scan().
+// Keeps scans. This class keeps no documents; a derived class may. Not for concurrent use, except
+// begin_scan().
 class Store {
  public:
   static constexpr std::size_t most_recent = 24;
 
   virtual ~Store() = default;
 
-  // Returns what the user should know of the place: that it is another one, or cannot be written to. Usually empty.
+  // Returns a message for the user if documents are kept in another folder than usual, or cannot be kept.
+  // Usually empty.
   virtual std::string notice() const { return {}; }
 
-  // Returns a document as keep_document() stored it; an empty text before. Errors: kind output if it cannot be read.
+  // Returns a document as keep_document() stored it; an empty text if it was never kept. Errors: kind output
+  // if it cannot be read.
   virtual Result<std::string> document(const std::string& /*id*/) const { return {}; }
 
   // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors:
   // kind input if `id` is no document's name, kind output.
   virtual Result<void> keep_document(const std::string&, std::string_view, bool /*is_moving*/) { return {}; }
 
-  // Keeps the document's picture, an address that begins with "data:". Errors: as above.
+  // Keeps the document's picture, an address that begins with "data:". Errors: those of keep_document().
   virtual Result<void> keep_picture(const std::string& /*id*/, std::string_view) { return {}; }
 
   // Makes a document the newest in the list.
   virtual void touch(const std::string& /*id*/) {}
 
-  // Returns the most_recent documents that were opened or changed last, the newest first; if `after` is not
-  // empty, those that follow that document in this order.
+  // Returns the most_recent documents that were opened or changed last, the newest first. If `after` is not
+  // empty, returns those that follow that document in this order.
   virtual std::vector<KeptDocument> recent(const std::string& /*after*/) const { return {}; }
 
-  // Returns the number and size of all documents. They are kept until they are removed.
+  // Returns the number of all documents, which stay until remove() is called for them, and their size.
   virtual KeptAmount amount() const { return {}; }
 
-  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if
-  // `id` is no document's name, kind output.
+  // Removes a document, and its dropped scans that no other document needs. Errors: kind input if `id` is no
+  // document's name, kind output.
   virtual Result<void> remove(const std::string& /*id*/) { return {}; }
 
   // Begins a dropped scan. Folders in the name are ignored. May be called from any thread.
@@ -82,7 +85,7 @@ class Store {
   // Keeps a dropped scan that is complete and finished, and returns it as an input. Errors: kind output.
   virtual Result<ScanSource> keep(DroppedScan& scan) = 0;
 
-  // Returns the dropped scan with those bytes as an input; none if it is not there.
+  // Returns the dropped scan with that hash as an input; nothing if it is not kept.
   virtual std::optional<ScanSource> find_scan(const std::string& /*hash*/) const { return std::nullopt; }
 };
 

@@ -98,7 +98,8 @@ std::string digits_of(const std::string& hash) {
   return hash.substr(hash.find(':') + 1);
 }
 
-// Returns the folders of kept scans that a text names: a document in all its steps, or a scene.
+// Returns the names of the folders of kept scans whose paths are in a text: in a document with all its steps,
+// or in a scene.
 std::set<std::string> scans_in(std::string_view text) {
   constexpr std::string_view before = "/scans/";
   constexpr std::size_t digits = 16;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_studios = 9;  // with state folders side by side
+constexpr int most_studios = 9;  // largest number of studios with folders side by side
 constexpr std::string_view mark_owner = "studio";
 constexpr unsigned private_folder = 0700;
 
@@ -28,14 +28,14 @@ Descriptor lock_of(const std::string& folder) {
   return lock;
 }
 
-// Returns the path without a slash at its end, so that another name can be made of it.
+// Returns the path without a slash at its end, so that a suffix such as -2 can be appended.
 std::string plain_path(const std::string& path) {
   std::error_code failed;
   const fs::path whole = fs::absolute(fs::path(path) / ".", failed).lexically_normal().parent_path();
   return failed ? path : whole.string();
 }
 
-// Returns a folder for temporary files if there is no home.
+// Returns the folder for the state of programs or, if the user has no home, a folder for temporary files.
 std::string default_state_folder() {
   const std::string state = environment_variable("XDG_STATE_HOME"), home = environment_variable("HOME");
   if (!state.empty()) return state + "/relievo";
