@@ -1,14 +1,14 @@
 // Measures, in Chromium at 1280 x 800, the milliseconds from an event of the mouse to the picture that shows it, and
 // from the choice of a file to the first relief and to the relief of all points.
 //   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
-// With the page in one file, the engine is the one inside it. A movement is a drag of 4 seconds with 60 events a second,
-// which waits for no picture. Events that arrive while a picture is made are shown by the next one.
+// With relievo.html, the page in one file, measures the engine inside it. A movement is a drag of 4 seconds with 60
+// events a second, which waits for no picture. Events that arrive while a picture is made are shown by the next one.
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {EngineProcess, areKindsDrawn, findBrowser, openPanels, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
-// The sliders by their present and former names. A drag covers these shares of a slider or of the picture.
+// The names are the present and the former ones of a slider. A drag covers these shares of a slider or of the picture.
 const MOVEMENTS = {
   height: {slider: /^Height$/, from: 0.45, to: 0.6},
   detail: {slider: /^(Fine d|D)etail$/, from: 0.1, to: 0.5},
@@ -73,7 +73,7 @@ async function measureOpening(scan) {
     row([path.basename(scan, path.extname(scan)), name, times.sort((a, b) => a - b)[2].toFixed(0), "", "", ""]);
 }
 
-// Both functions open a scan, and return a function that ends its engine.
+// These two functions open a scan, and return a function that ends its engine.
 async function openInPage(page, scan) {
   await page.goto(pathToFileURL(html).href);
   await page.locator("#file").setInputFiles(scan);
@@ -101,7 +101,7 @@ async function drag(page, {slider, tool, from, to}) {
   for (let i = 0; i < SECONDS * EVENTS_PER_SECOND; ++i) {
     const wait = begin + 1000 * i / EVENTS_PER_SECOND - performance.now();
     if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
-    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // to `to` and back in 2 s
+    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // forth and back in 2 s
     await page.mouse.move(...place(share));
   }
   const heard = await page.evaluate(() => window.heard);
@@ -109,8 +109,8 @@ async function drag(page, {slider, tool, from, to}) {
   return heard;
 }
 
-// Runs in the page: records the times of events, and those of pictures with the time of the newest event that each
-// shows.
+// Runs in the page: records the times of events and of pictures, and for each picture the time of the newest event that
+// it shows.
 function listen(type) {
   const heard = window.heard = {events: [], pictures: [], pixels: 0};
   addEventListener(type, (event) => heard.events.push(event.timeStamp), {capture: true});
@@ -122,7 +122,7 @@ function listen(type) {
   });
 }
 
-// Returns for each event how long it took until a picture showed it, sorted.
+// Returns the times from each event to the first picture that shows it, sorted.
 function latencies(events, pictures) {
   const times = events.map((event) => pictures.find(({shows}) => shows >= event)?.at - event);
   return times.filter(Number.isFinite).sort((a, b) => a - b);

@@ -1,5 +1,5 @@
-// The engine, and its answer when the page began: options with their ranges and defaults, names of views, materials and
-// stages. The page has no copy of these.
+// Asks the engine for the options with their ranges and defaults, and for the names of views, materials and stages. The
+// page has no copy of these.
 
 import {Engine} from "./engine.js";
 import {toast} from "./messages.js";
@@ -19,8 +19,8 @@ async function ask() {
 
 export const about = await ask();
 
-// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated}, numbers also
-// have min and max, enumerations have choices.
+// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated}. Numbers also
+// have min and max, and enumerations have choices.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
 // Returns the default of an option; null if it has none. `by` is the method, or a form or "diameter" that has a default

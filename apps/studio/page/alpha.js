@@ -1,5 +1,5 @@
-// The flatness: the paper's height coefficient alpha. If the height is not locked, alpha and the saturation determine
-// it.
+// Makes the row of the flatness, which is the paper's height coefficient alpha. If the height is not locked, alpha and
+// the saturation determine it.
 
 import {optionOf} from "./about.js";
 import {$, pair, sentence, textField} from "./controls.js";

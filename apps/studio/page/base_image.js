@@ -1,4 +1,4 @@
-// The height map of the base: an image that is chosen, or dropped on its row.
+// Makes the row of the base's height map, an image that the user chooses, or drops on the row.
 
 import {$, make} from "./controls.js";
 import {engineOptions, isGone, markGone} from "./document.js";
@@ -60,7 +60,8 @@ export class BaseImage {
     }
   }
 
-  // Returns whether an error of a picture means that the image is missing. The first time, also shows that.
+  // Returns whether a picture failed because the image is missing. Tells the user, and returns false for the image from
+  // then on.
   isMissing({kind, input}) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     if (kind !== "input" || !path || isGone(path) || input !== path) return false;

@@ -1,11 +1,12 @@
 // Compares the relief with the model: a picture of the model lies over that of the relief, in the same size and place.
-// The engine fits each picture to its plate, and the model's plate is the figure with its margin, so the zooms differ.
+// The engine fits each picture to its plate. The model's plate is the figure with its margin, so the two pictures need
+// different zooms.
 
 import {$, clamp, make} from "./controls.js";
 import {isRound} from "./measure.js";
 
 const NEAR = 12; // pixels from the divider within which the pointer takes it
-const ALIKE = 1e-3; // scales that differ by less differ by less than a pixel
+const ALIKE = 1e-3; // scales with a ratio this near to 1 differ by less than a pixel
 const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // the range of the engine
 
 export class Comparing {
@@ -13,7 +14,7 @@ export class Comparing {
     this.stage = stage;
     this.canvas = $("#before");
     this.split = 0.5;
-    this.ratio = 1; // ratio of the model's zoom to that of the relief
+    this.ratio = 1; // the model's zoom divided by the relief's
   }
 
   get isShown() {
@@ -67,7 +68,7 @@ export class Comparing {
     return this.stage.on.placing.isMirrored;
   }
 
-  // Draws the model like the relief in the picture, unless that picture is already drawn.
+  // Draws the model in the size and place of the relief, unless this picture is already drawn.
   async draw(isFine) {
     const request = this.request(isFine), {stage} = this, {zoom} = request.camera, {options, ...rest} = request;
     const {margin, thickness, form} = options, {width_mm: width} = stage.about;
@@ -96,8 +97,8 @@ export class Comparing {
     this.layOnPlate(context, image.width / this.stage.size.width);
   }
 
-  // Seen from the front, changes the model's own rectangular plate into the plate of the piece, if that is round or
-  // larger. `scale` is the number of the picture's pixels per pixel of the page.
+  // In pictures from the front, replaces the model's own rectangular plate by the plate of the piece, if that is round
+  // or has a size of its own. `scale` is the number of the picture's pixels per pixel of the page.
   layOnPlate(context, scale) {
     const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
     const {outline, plate, wrap, margin} = stage.doc.now.options, isEllipse = isRound(outline);

@@ -19,8 +19,8 @@ export function make(tag, attributes = {}, ...children) {
 export const pair = (label, control, attributes = {}) =>
   make("label", {class: "pair", ...attributes}, make("span", {}, label), control);
 
-// Returns a field. It calls take(text) with the typed text, and after Escape show(), which must restore the former
-// text.
+// Returns a text field. It calls take(text) with the typed text. After Escape it calls show(), which must restore the
+// former text.
 export function textField(attributes, {take, show}) {
   const input = make("input", {autocomplete: "off", ...attributes});
   input.onchange = () => take(input.value.trim());
@@ -39,7 +39,7 @@ export function check(radio, isChecked) {
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
-// Returns the size of type relative to that on screens of the usual size: drawings with texts grow with it.
+// Returns the font size relative to that on screens of the usual size. Drawings with texts grow by this factor.
 export const scaleOfType = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.5;
 
 export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));

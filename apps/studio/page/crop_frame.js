@@ -1,5 +1,5 @@
-// The crop on the picture: the whole scan as the view shows it, and a frame that can be drawn, moved and resized. The
-// relief leaves out everything outside the frame.
+// Crops the scan on its picture: shows the whole scan in the view, and a frame that the user draws, moves and resizes.
+// The relief leaves out everything outside the frame.
 
 import {$, clamp, make, paint} from "./controls.js";
 import {directionsOf} from "./directions.js";
@@ -26,7 +26,8 @@ function boxOf({data, width, height}, scale) {
     height: (bottom - top) / scale};
 }
 
-// Returns the numbers of a crop with a side moved to a share of the box: 0 left, 1 bottom, 2 right, 3 top.
+// Returns the numbers of a crop after a side was moved to `share` of the box. The sides are 0 left, 1 bottom, 2 right
+// and 3 top.
 function withSide(numbers, side, share) {
   const other = numbers[(side + 2) % 4], moved = [...numbers];
   moved[side] = side < 2 ? clamp(share, 0, other - LEAST) : clamp(share, other + LEAST, 1);
@@ -39,7 +40,7 @@ function movedBy(numbers, x, y) {
 }
 
 export class CropFrame {
-  // Calls done() when the user closes the frame, and failed(error).
+  // Calls done() when the user closes the frame, and failed(error) if the scan cannot be drawn.
   constructor({engine, doc, done, failed}) {
     Object.assign(this, {engine, doc, failed, key: "", box: null, drag: null});
     this.element = $("#crop-frame");
@@ -144,13 +145,15 @@ export class CropFrame {
     return x > left && x < right && y > top && y < bottom && cropText([...this.numbers.slice(0, 4), 0, 1]) !== "";
   }
 
-  // Returns a pixel's place in shares of the scan's box, measured from its lower left corner.
+  // Returns the position of a pixel as shares of the width and the height of the scan's box, from the lower left
+  // corner.
   shares(x, y) {
     const {left, top, width, height} = this.box;
     return [clamp((x - left) / width, 0, 1), clamp(1 - (y - top) / height, 0, 1)];
   }
 
-  // A drag moves a side or a corner, from the inside the whole frame; from anywhere else it draws another frame.
+  // Begins a drag. From a side or a corner, it moves this side or corner. From the inside it moves the frame, and from
+  // anywhere else it draws another one.
   press(x, y, event) {
     if (!this.box || event.button !== 0 || !event.isPrimary || this.drag) return;
     this.element.setPointerCapture(event.pointerId);
@@ -175,7 +178,7 @@ export class CropFrame {
     return [...low, ...low.map((x, k) => Math.max(a[k], b[k], x + LEAST)), ...depths];
   }
 
-  // The cursor shows whether a drag would move, resize or draw the frame.
+  // Sets the cursor, which shows whether a drag would move, resize or draw the frame.
   hover(x, y) {
     if (!this.box) return;
     const sides = this.sidesAt(x, y).sort(), isRising = ["0,1", "2,3"].includes(String(sides));

@@ -1,5 +1,5 @@
-// The tone curve: the share of a slope that is kept, over the square root of its curvature. The engine samples the
-// curve or, if there is none, the paper's formula, and sends the samples with each picture.
+// Edits the tone curve: the share of a slope that is kept, over the square root of the curvature. The engine samples
+// the curve or, if there is none, the paper's formula, and sends the samples with each picture.
 
 import {about} from "./about.js";
 import {$, ARROWS, Pause, clamp, make} from "./controls.js";
@@ -22,7 +22,7 @@ const round = (x) => Math.round(x * 1000) / 1000;
 export const format = (points) => points.map(([x, y]) => `${round(x)},${round(y)}`).join(";");
 
 export class CurveEditor {
-  // While a point moves, calls onChange(tone), which returns the tone to show; afterwards calls onEnd().
+  // Calls onChange(tone) while a point moves, and then onEnd(). onChange() returns the tone to show.
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
     this.rest = new Pause(onEnd, REST_MS);
@@ -41,7 +41,8 @@ export class CurveEditor {
     this.preset.onchange = () => this.change(this.preset.value, true);
   }
 
-  // Returns the points of the curve or, without one, some points of the paper's formula, which can be moved.
+  // Returns the points of the curve. Without a curve, returns some points of the paper's formula, which the user can
+  // move.
   get points() {
     if (this.tone) return parse(this.tone);
     const {share} = this.samples;

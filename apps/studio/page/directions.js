@@ -1,4 +1,5 @@
-// Views as directions: the unit vectors {towards, up} point to the viewer and upwards.
+// Converts views to directions and back. The directions are unit vectors: `towards` points to the viewer, and `up`
+// upwards.
 
 import {about} from "./about.js";
 import {sentence} from "./controls.js";

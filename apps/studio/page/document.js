@@ -1,5 +1,5 @@
-// The document: the options of the relief and the steps before and after, for undo and redo. It is plain data, so that
-// it can be stored and saved.
+// Keeps the document: the steps of the user's work, each with the options of the relief, for undo and redo. It is plain
+// data, so that it can be stored and saved.
 
 import {about, defaultOf, optionOf} from "./about.js";
 
@@ -25,10 +25,10 @@ export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
 
 const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
-// Returns a step with a part's values in place of its own.
+// Returns a step in which the values of `part` replace the former ones.
 const withPart = (step, part) => ({...step, ...part, options: {...step.options, ...part.options}});
 
-// Returns a part without the values that were changed between the steps `base` and `later`.
+// Returns `part` without the values that were changed between the steps `base` and `later`.
 function unlessChanged({options = {}, ...part}, base, later) {
   const kept = (values, was, is) =>
     Object.fromEntries(Object.entries(values).filter(([name]) => isSame(was[name], is[name])));
@@ -41,7 +41,7 @@ export class Document {
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // steps before the first one
-    this.changedAt = 0; // in milliseconds since 1970: of two states the newer one wins
+    this.changedAt = 0; // in milliseconds since 1970; decides which of two states is newer
   }
 
   stamp() {
@@ -108,12 +108,13 @@ export class Document {
     return true;
   }
 
-  // Sets values that the engine found in the present step, without a new step.
+  // Puts values that were found by the engine into the present step, without adding a step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }
 
-  // Ends the running stroke; if `stroke` is given, only that one, as a slider's pause may end after another drag began.
+  // Ends the running stroke. If `stroke` is given, ends only that one: a slider's pause may end after another drag
+  // began.
   endStroke(stroke = null) {
     if (stroke !== null && stroke !== (this.stroke ?? this.cancelled)) return;
     this.stroke = this.cancelled = null;
@@ -132,7 +133,7 @@ export class Document {
     return true;
   }
 
-  // Returns whether there is a step so many steps after the present one, or before it for negative numbers.
+  // Returns whether so many steps can be redone or, if the number is negative, undone.
   can = (by) => this.steps[this.at + by] !== undefined;
 
   undo = () => this.move(-1);
@@ -146,7 +147,7 @@ export class Document {
     this.onChange(before);
   }
 
-  // Returns all of it as plain data.
+  // Returns the document as plain data.
   keep = () => ({version: 1, changed: this.changedAt, steps: this.steps, at: this.at});
 
   // Takes over a kept state. Returns whether the state is valid.
@@ -163,7 +164,8 @@ export class Document {
 // A lithophane, which is printed, has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
-// Returns the options for the engine and `relievo make`, without most values of a new document.
+// Returns the options for the engine and `relievo make`. Leaves out those with the value of a new document, unless the
+// engine wants them stated.
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
   for (const [name, value] of Object.entries(step.options)) {
@@ -177,7 +179,7 @@ export function engineOptions(step) {
   return options;
 }
 
-// The paths of height maps of bases that the engine failed to read for a picture.
+// The paths of base images that the engine failed to read for a picture.
 const goneImages = new Set();
 export const isGone = (path) => goneImages.has(path);
 export const markGone = (path, isGone = true) => (isGone ? goneImages.add(path) : goneImages.delete(path));
@@ -196,7 +198,8 @@ export function projectOf(step) {
   return {relievo: 1, input, options: engineOptions(step), studio};
 }
 
-// Returns whether a light is valid. A project file may have another one, which the engine would refuse in each picture.
+// Returns whether a light is valid. A project file may have an invalid one, and the engine would then refuse each
+// picture.
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 

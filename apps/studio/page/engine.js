@@ -1,13 +1,13 @@
-// The engine as the page uses it. A transport takes requests to it: transport.js sends them to the program `relievo
-// studio` by HTTP, and in the page that is a single file, apps/web/page/transport.js replaces it.
+// Calls the engine for the page. A transport takes the page's requests to the engine: transport.js sends them by HTTP
+// to the program `relievo studio`. In the page that is one file, apps/web/page/transport.js sends them to a worker.
 //
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files that it refers to are uploaded together;
 //                                  drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove: whether
 //                                  work is kept until it is removed; slowMs: frames that take longer are drawn with
 //                                  fewer pixels}. The Engine has the same traits
-//   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture,
-//                                  with the object `about` about it; the request may be left out
+//   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture;
+//                                  `about` has facts about the picture; the request may be left out
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and once with
 //                                  {run} alone when an engine is found; onLost when the engine is lost; say with a
@@ -77,10 +77,10 @@ export class Engine {
 
   // Returns facts about the model.
   facts = () => this.#ask("facts");
-  // Returns {view, up} of each side, best first.
+  // Returns {view, up} of each side, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, about}. Aborting its signal cancels a picture.
+  // These return {image: ImageData, about}. Aborting `options.signal` cancels the picture.
   frame = (request, options) => this.#picture("frame", request, options);
   scan = (request) => this.#picture("scan", request);
 
@@ -94,7 +94,7 @@ export class Engine {
   // Returns {triangles, points, size_mm, height_mm} of the finished piece, which the engine then has ready for
   // exportFile().
   piece = (options) => this.#make("piece", {options});
-  // Return the file of a piece, and a project file with its scan, as a Blob.
+  // These return a Blob: the file of a piece, and a project file with its scan.
   exportFile = (request) => this.#make("export", request);
   packProject = (project) => this.#ask("save", {project});
 
@@ -104,9 +104,10 @@ export class Engine {
     return this.#ask("cancel_piece");
   }
 
-  // Returns {document, input, is_there, picture} of the documents that were changed last, or of those before `after`.
+  // Returns {document, input, is_there, picture} of the documents that were changed last, or of the next ones after the
+  // document `after`.
   recent = async (after = "") => (await this.#ask("recent", {after})).recent;
-  // Returns {documents, bytes} of all that is kept until it is removed.
+  // Returns {documents, bytes}: the number of kept documents, and the space that they take.
   kept = () => this.#ask("kept");
   remove = (document) => this.#ask("remove", {document, tab: TAB});
   keep = (document, state, isMoving) => this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});

@@ -1,5 +1,6 @@
-// The typed or chosen entries for the piece. The document takes them in the order in which they were made, each as a
-// step of its own. If the engine may be unable to make a piece with an entry, the entry is tried first.
+// Collects the entries that the user types or chooses for the piece. The document takes them in the order in which they
+// were made, each as a step of its own. If the engine may be unable to make a piece with an entry, the entry is tried
+// first.
 
 import {$} from "./controls.js";
 import {engineOptions, shownOptions} from "./document.js";
@@ -41,9 +42,9 @@ export class Entries {
     }
   }
 
-  // Throws the engine's error if it cannot read the options or make a piece with them; a request for one height of the
-  // piece finds out. Two errors do not count: a width that does not fit, as it is corrected later, and a view that is
-  // not prepared yet.
+  // Throws the engine's error if it cannot read the options or make a piece with them. To find out, requests one height
+  // of the piece. Two errors do not count: a width that does not fit, as it is corrected later, and a view that is not
+  // prepared yet.
   async tryOut(step, {isMade}) {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;

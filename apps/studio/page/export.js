@@ -1,4 +1,4 @@
-// The dialog that exports files of the finished piece, as downloads of the browser.
+// Shows the dialog that exports files of the finished piece, as downloads of the browser.
 
 import {about} from "./about.js";
 import {$, download, fileSize, make, unbroken} from "./controls.js";
@@ -90,7 +90,7 @@ export class ExportDialog {
     $("#export-progress").value = making.fraction;
   }
 
-  // Does some work while its progress is shown, and shows the error if it fails. Returns whether it succeeded and the
+  // Does some work and shows its progress. If the work fails, shows the error. Returns whether it succeeded and the
   // dialog is still open.
   async run(text, work) {
     const number = ++this.runs, isWanted = () => this.dialog.open && number === this.runs;

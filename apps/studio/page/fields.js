@@ -1,11 +1,12 @@
-// The sliders: options of the engine, each with a label, a place, and the usual range.
+// Lists the options of the engine that have a slider, each with a label, a place, and the usual range.
 
 import {optionOf} from "./about.js";
 import {sentence} from "./controls.js";
 import {spread} from "./slider.js";
 
-// Labels are words for what the eye sees; the tip has the symbol of the paper. The slider spans the range `hand`. A
-// number may be typed within the whole range of the option, which has a number in every document, but for the width.
+// The labels say what the eye sees; the tip has the symbol of the paper. The slider spans the range `hand`. A number
+// may be typed within the whole range of the option. Documents have a number for each of these options, but the width
+// may be null.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
   width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},

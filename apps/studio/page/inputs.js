@@ -9,7 +9,7 @@ export function keepPanels(panels, storage) {
   }
 }
 
-// Arrow keys move within a radio group.
+// Lets arrow keys move within a radio group.
 export function takeArrowKeys(group) {
   group.onkeydown = (event) => {
     const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
@@ -31,14 +31,14 @@ export function takeDrops(veil, open) {
   addEventListener("dragover", show(true));
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
-    const isTaken = event.defaultPrevented; // by the element on which they were dropped
+    const isTaken = event.defaultPrevented; // the element below has taken the files
     show(false)(event);
     if (!isTaken) open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 
-// The field with a typed text that is neither entered nor taken back. Ctrl Z applies to this field, and its text stays
-// when the document changes.
+// The field whose typed text is neither entered nor taken back. Ctrl Z applies to this field, and its text stays when
+// the document changes.
 let unfinished = null;
 export const isUnfinished = (field) => field === unfinished;
 
@@ -55,8 +55,8 @@ function doPostponed() {
   act();
 }
 
-// Calls a function as soon as nothing is being typed, because a field loses the focus when it is moved. The function
-// replaces one that still waits.
+// Calls `act` as soon as the user types nothing, because `act` moves fields, and a moved field can lose the focus. A
+// new call replaces a function that is still waiting.
 export function whenFinished(act) {
   postponed = act;
   doPostponed();
@@ -108,8 +108,9 @@ addEventListener("change", (event) => {
 
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
-// Calls the function of a key: one of `commands` with Ctrl or Cmd; without them one of `always` or, while isReady(), of
-// `keys`; and hold(true) while B is down. Keys are ignored while a dialog is open, and letters while the user types.
+// Calls the function of a key. With Ctrl or Cmd it is one of `commands`. Without them it is one of `always` or, while
+// isReady(), one of `keys`; hold(isHeld) is called when B is pressed and released. Keys are ignored while a dialog is
+// open, and letters while the user types.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;

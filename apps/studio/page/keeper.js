@@ -2,14 +2,14 @@
 // in the browser, so that it outlives the engine and the page. This file does not depend on the page, so that tests can
 // run it alone.
 
-// A state is sent at the earliest after this period since the state before, and after this pause since the answer to
-// that state: the page and the engine need time for pictures.
+// The least time from one state to the next, and from the answer to a state to the next state: the page and the engine
+// also need time for pictures.
 const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {
   // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers and "older" if a
-  // newer state is kept already; onOlder(document); onFailed(error); onKept(). `storage` has the interface of
-  // localStorage.
+  // newer state is kept already. Then calls onKept(), onOlder(document) or, after other errors than "lost",
+  // onFailed(error). `storage` has the interface of localStorage.
   constructor({send, storage, prefix, onOlder, onFailed, onKept}) {
     Object.assign(this, {send, storage, prefix, onOlder, onFailed, onKept});
     this.waiting = new Map(); // by document, the newest state that is not yet sent
@@ -20,7 +20,7 @@ export class Keeper {
     this.pump();
   }
 
-  // Sends the waiting states when the engine is back.
+  // Call this when the engine is back: sends the waiting states.
   retry() {
     if (!this.isSending) this.pump();
   }
@@ -31,7 +31,7 @@ export class Keeper {
     this.storage.removeItem(this.prefix + document);
   }
 
-  // Stores the waiting states in the browser when the page is closed.
+  // Stores the waiting states in the browser. The page calls this when it is closed.
   flush() {
     for (const [document, {state}] of this.waiting) this.copy(document, JSON.stringify(state));
   }
@@ -69,7 +69,7 @@ export class Keeper {
     await new Promise((resolve) => setTimeout(resolve, pause));
     this.isSending = false;
     if (!mustWait) return this.pump();
-    // The next change or the engine's return tries again; until then the newest state stays in the browser.
+    // The next change, or retry() when the engine is back, sends the state again. Until then it stays in the browser.
     this.flush();
   }
 

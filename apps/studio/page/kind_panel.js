@@ -1,5 +1,5 @@
-// The panel of the kind of work: the controls that matter for the kind, those of a rim if there is one, and the button
-// that turns the piece into its die. The controls of the other options stay in the panels below.
+// The panel of the kind of work. It has the controls that matter for the kind, those of the rim if there is one, and
+// the button that turns the piece into its die. The controls of the other options stay in the panels below.
 
 import {$} from "./controls.js";
 import {whenFinished} from "./inputs.js";
@@ -37,7 +37,7 @@ export class KindPanel {
     $("#make-die").hidden = !isDie && (form !== "relief" || wrap !== "none");
   }
 
-  // Shows the size of the die that is in a picture.
+  // Shows the size of the die in the newest picture.
   pictured({size_mm: size, is_size_exact: isExact}) {
     const {now} = this.doc, kind = kindOf(now);
     if (now.options.form === "die" && kind !== "die" && isExact)

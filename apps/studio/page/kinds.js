@@ -1,4 +1,4 @@
-// The kinds of work, as pictures of this scan: each sets the piece, its size and its material.
+// Shows the cards of the kinds of work, with pictures of this scan. A kind sets the piece, its size and its material.
 
 import {defaultOf} from "./about.js";
 import {$, check, make, paint} from "./controls.js";
@@ -9,7 +9,7 @@ import {shortLength, shown} from "./lengths.js";
 // The outlines of plates that may have any width and height.
 export const FREE_OUTLINES = ["rectangle", "round", "ellipse"];
 
-// A rectangular plate with nothing besides.
+// The options of a rectangular plate without extras.
 const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
   "rim-height": null, "rim-bevel": null, base: "plane", "base-image": "", wrap: "none", form: "relief", draft: null});
 
@@ -48,7 +48,7 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work of a document's step. The material does not matter: a thick plate with round corners is a
+// Returns the kind of work of a document's step. The material does not matter: any thick plate with round corners is a
 // carving. A die that was made of a piece has the kind of that piece.
 export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
   if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;
@@ -62,8 +62,9 @@ export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfP
 export const dieOf = ({options: {form}}) =>
   ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
 
-// Returns the changes that begin a kind of work, or continue from its last step. A coin and a seal have the same
-// diameter, and a kind with a plate with corners begins with the size of the present plate.
+// Returns the changes that begin a kind of work or, with its last step `last`, continue it. If both kinds have a
+// diameter, the present diameter stays. A kind whose plate has corners begins with the size of the present plate,
+// unless this plate is an ellipse.
 function partOf(kind, {diameter, plate, outline}, last) {
   const {part, material} = KINDS[kind];
   const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;
@@ -80,8 +81,8 @@ function measuresOf({diameter, plate, width, height}) {
     .filter(Boolean).join(", ");
 }
 
-// OF_KINDS has the options that kinds set. kept() returns the others, which determine the view and the shape of the
-// relief.
+// OF_KINDS has the options that kinds set. kept() returns the other options, which determine the view and the shape of
+// the relief.
 const OF_KINDS = new Set(Object.values(KINDS).flatMap(({part}) => Object.keys(part)));
 const kept = (options) => Object.fromEntries(Object.entries(options).filter(([name]) => !OF_KINDS.has(name)));
 
@@ -136,8 +137,8 @@ export class KindCards {
     if (lost) this.say(lost);
   }
 
-  // Returns the step with which a kind of work continues after another one: its last step in this document, or its
-  // first.
+  // Returns the step with which a kind of work continues after another one. It is based on the kind's last step in this
+  // document; without one, the kind begins anew.
   stepOf(kind, step = this.doc.now) {
     const {steps} = this.doc, isThis = (former) => kindOf(former) === kind;
     const part = partOf(kind, step.options, steps.slice(0, steps.indexOf(step) + 1).findLast(isThis));
@@ -160,8 +161,8 @@ export class KindCards {
     }
   }
 
-  // Draws the pictures one after the other when there is a model, while nothing else is drawn. Before the first model
-  // they show the coarse relief of the view `turned`, if that is given.
+  // Draws the cards' pictures one after the other, each only while nothing else is drawn. They show the relief of
+  // `model`. While `model` is 0, they show the coarse relief of the view `turned`; without this view, nothing is drawn.
   async pictured(model, turned) {
     const drawn = model ? "exact" : turned ? "coarse" : "", key = model || drawn;
     if (!drawn || key === this.model) return;

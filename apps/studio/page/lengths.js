@@ -14,8 +14,9 @@ function number(text) {
   return /^\d*[1-9]\d*,\d{3}$/.test(text) || !Number.isFinite(value) ? NaN : value;
 }
 
-// Returns the millimetres of a text such as "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5", or its number if it must have
-// no unit; NaN for other texts. Lengths without a unit are in units of `mm` millimetres.
+// Returns the millimetres of a text such as "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5"; NaN for other texts. Lengths
+// without a unit are in units of `mm` millimetres. If `mayHaveUnit` is false, returns the number of a text, which must
+// have no unit.
 export function parseLength(text, mayHaveUnit = true, mm = 1) {
   const {sum, unit} = text.match(WHOLE)?.groups ?? {};
   if (!sum || (unit && !mayHaveUnit)) return NaN;
@@ -34,7 +35,7 @@ export const millimetresPerUnit = () => MM[shown.unit];
 // Returns the unit of an option as the page shows it.
 export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
-const NOISE = 1e-6; // mm, the difference of equal sums of lengths, which must not affect the rounding of 6.175
+const NOISE = 1e-6; // mm, more than the rounding errors of sums, which must not decide how 6.175 is rounded
 
 // Returns a length without its unit. `decimals` is for millimetres; inches have three decimals, or four if needed.
 export function lengthText(mm, decimals = 2) {
@@ -48,11 +49,11 @@ export const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.u
 // Returns the size of a piece.
 export const sizeText = (size) => `${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`;
 
-// Returns a length as the text of a field has it, without zeros at its end.
+// Returns a length as text for a field, without zeros at its end.
 export const shortLength = (mm) => String(Number(lengthText(mm, 4)));
 
-// Returns the number that was typed into a field. Outside the range, or without a number, says what was expected and
-// returns null.
+// Returns the number that was typed into a field. If there is none, or it is outside the range, says what was expected
+// and returns null.
 export function typedNumber(text, {label, unit, min, max}, say) {
   const isLength = unit === "mm", scale = isLength ? millimetresPerUnit() : 1, value = parseLength(text, isLength,
     scale);

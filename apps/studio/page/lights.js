@@ -1,4 +1,4 @@
-// Directions of light as vectors and as angles, and the lights of the light table.
+// Converts directions of light between vectors and angles, and lists the lights of the light table.
 
 export const TABLE_LIGHTS = [
   {name: "Upper left", light: [-1, 1, 1]},

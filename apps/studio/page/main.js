@@ -81,10 +81,10 @@ const projects = new Projects({engine, open: openInput, take, failed, rest: () =
 const shelf = new Shelf({engine, opened, keeper, open: openInput, failed});
 
 let facts = null; // facts about the shown model
-let last = null; // numbers of the newest picture
+let last = null; // facts about the newest picture
 let isKept = !about.notice;
 
-// Sets the tone curve, and returns the document's curve: it stays unchanged after the drag was taken back.
+// Sets the tone curve. Returns the document's curve, which stays unchanged after the drag was taken back.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
   return doc.now.options.tone;
@@ -125,14 +125,15 @@ function changed(before) {
   stage.invalidate();
 }
 
-// Shows a state that another tab or another engine has kept.
+// Shows the document after another tab or another engine has changed it.
 function stateCame() {
   showDocument();
   stage.invalidate();
   shownView.adopt();
 }
 
-// A drag updates its own control at once, the others when it pauses or ends: showing them takes as long as a picture.
+// A drag updates its own control at once. The others follow when it pauses or ends, as showing them takes as long as a
+// picture.
 const showing = new Pause(showDocument, SHOW_MS);
 
 function showDocument() {
@@ -156,7 +157,7 @@ function showEntries() {
   for (const part of [entries, pieces, sliders, kinds]) part.show();
 }
 
-// Tells the user once that work is not kept. A lost engine is reported elsewhere.
+// Tells the user once that work is not kept. If the engine is lost, another message says so.
 function notKept({message}) {
   if (isKept) toast(`Your work is not kept: ${message}`);
   isKept = false;
@@ -174,7 +175,7 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  const {u} = doc.now, isNewest = u === null || u === frame.u; // otherwise it was requested before u was typed
+  const {u} = doc.now, isNewest = u === null || u === frame.u; // false if requested before u was typed
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     doc.note({u: frame.u, options: {height: clamp(frame.height_mm, 1e-3, 1e5)}});
     sliders.all.height.show(doc.now.options.height);
@@ -252,7 +253,7 @@ async function arrived(status) {
   stage.share = 1;
   scanPanel.tell(facts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : facts.models); // another scene would not find their files
+  scenePanel.show(engine.takesSeveral ? [] : facts.models); // a new scene file would not find the models' files
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
@@ -261,14 +262,14 @@ async function arrived(status) {
 const reopening = new Pause(() => opened.closed().catch(failed), 200);
 function failed(error) {
   const isReady = opened.isReady && !opened.status.busy;
-  if (error.kind === "geometry" && !isReady) return; // the next status will show it
+  if (error.kind === "geometry" && !isReady) return; // the next status will report this error
   if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error));
   reopening.begin();
 }
 
-// Takes typed texts first, as they belong to the shown work.
+// Opens an input, after the typed texts are entered: they belong to the work that is still shown.
 async function openInput(input, work) {
   await outcome.entered();
   return opened.open(input, work).catch(failed);

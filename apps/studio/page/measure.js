@@ -14,7 +14,8 @@ const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 
 let labels = []; // {x, y, width} of each drawn label, with x and y of its middle
 
-// Returns the place nearest to `y` that keeps a label clear of the others, within the picture.
+// Returns the height nearest to `y` at which a label is within the picture and clear of the other labels; `y` if there
+// is none.
 function freeHeight(x, y, width, row, picture) {
   const isFree = (y) => y >= row / 2 && y <= picture.height - row / 2 && labels.every((other) =>
     Math.abs(other.x - x) >= (other.width + width) / 2 || Math.abs(other.y - y) >= row);
@@ -37,7 +38,7 @@ function rise(from, to) {
   return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
 }
 
-// Returns a line between two pixels with a text in its middle or at another pixel, on a background that keeps it
+// Returns a line between two pixels, with a text in its middle or at the pixel `at`. A background keeps the text
 // readable. The text stays within the picture and clear of earlier labels.
 function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, (y1 + y2) / 2]) {
   const scale = scaleOfType(), width = widthOf(text), row = ROW * scale, height = row - 2;
@@ -49,12 +50,12 @@ function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, 
     make("rect", {class: "ground", x: x - width / 2, y: y - height / 2, width, height, rx: 5}), label];
 }
 
-// Returns where a dimension is drawn beside the end of a piece, in pixels. The dimension stays within the picture if
-// the end does.
+// Returns the pixel at which a dimension is drawn beside the end of a piece. If that end is within the picture, so is
+// the dimension.
 const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
 
-// Returns the place of a dimension's label, so that it does not cover the figure: outside of the line or, without room
-// there, at its lower end. Outside of a horizontal line is above it, as the figure is below.
+// Returns the middle of a dimension's label, which must not cover the figure. The label of a horizontal line is above
+// it. That of a vertical line is on the line's outer side or, without room there, at its lower end.
 function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
   const scale = scaleOfType(), half = widthOf(text) / 2 + STROKE, middle = [(x1 + x2) / 2, (y1 + y2) / 2];
   if (y1 === y2) return [middle[0], y1 - ROW * scale / 2];
@@ -73,7 +74,7 @@ function dimension(from, to, text, picture, at) {
 
 export const isRound = (outline) => outline === "circle" || outline === "ellipse";
 
-// Returns the part of a line that lies on a plate of that size; null if it passes by.
+// Returns the part of a line that lies on a plate of that size; null if the line misses the plate.
 function onPlate({from, to}, [width, height], isEllipse) {
   const scaled = ([x, y]) => [2 * x / width, 2 * y / height], a = scaled(from), d = scaled(sub(to, from));
   let low = 0, high = 1;
@@ -121,7 +122,8 @@ export class Measure {
     return ["from", "to"].find(near) ?? null;
   }
 
-  // Returns the line while it is drawn or one of its ends is dragged.
+  // Returns the line after its dragged end has come to `place`. If no end is dragged, returns a new line from where the
+  // drag began.
   dragged = (line, {end, from}, place) => (end ? {...line, [end]: place} : {from, to: place});
 
   lineMarks({from, to}, kind = "cut") {
@@ -132,7 +134,7 @@ export class Measure {
 
   // --------------------------------------------------------------------------------------------------- dimensions
 
-  // Returns the marks of plate and relief.
+  // Returns the dimensions of plate and relief as SVG elements.
   dimensionMarks() {
     const {about, size: picture} = this.stage;
     if (!about) return [];
@@ -178,8 +180,8 @@ export class Measure {
 
   // -------------------------------------------------------------------------------------------------- the pointer
 
-  // Requests the height under the pointer, one request at a time, always for the newest place. `place` is null if the
-  // pointer has left.
+  // Requests the height at `place` under the pointer, one request at a time, always for the newest place. `place` is
+  // null if the pointer has left.
   point(place) {
     this.wanted = place;
     if (place) return this.askHeight();

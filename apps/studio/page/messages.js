@@ -5,7 +5,7 @@ import {$, Pause, make} from "./controls.js";
 const shown = new Pause(hideToast, 8000);
 let isLost = false;
 
-// The parts above a message make room for it, and the element with the focus stays visible.
+// Lets the parts above a message make room for it, and keeps the element with the focus visible.
 new ResizeObserver(() => {
   document.documentElement.style.setProperty("--toast-height", `${$("#toast").offsetHeight}px`);
   if (!$("#toast").hidden) $(".inspector :focus")?.scrollIntoView({block: "nearest"});

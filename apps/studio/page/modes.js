@@ -1,4 +1,4 @@
-// The modes of the picture: tool, light table, comparison, and material.
+// Sets the modes of the picture: tool, light table, comparison, and material.
 
 import {about} from "./about.js";
 import {$, check, make} from "./controls.js";

@@ -1,4 +1,4 @@
-// The document that this page shows: opens scans and projects, follows the engine's status of the document, and
+// Opens the document that this page shows: a scan or a project. Follows the engine's status of the document, and
 // continues after another engine or another tab has changed it.
 
 import {namesOf} from "./about.js";
@@ -18,11 +18,11 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun(former) when another document is shown, with the input of the former one if there was one;
+  // Calls on.begun(former) when another document is shown, with the input of the former one or null;
   // on.progress(status); on.measured(status) when pictures of the first view can be drawn during its preparation;
-  // on.arrived(status) when the model is ready; on.changed() when a newer state came from elsewhere; on.missing(input,
-  // kept) if the scan is missing; on.refused(why) if the view cannot be prepared, without a reason if that was
-  // cancelled; on.failed(error); and on.closed() when no document is left to show.
+  // on.arrived(status) when the model is ready; on.changed() when a newer state came from another tab or engine;
+  // on.missing(input, kept) if the scan is missing; on.refused(why) if the view cannot be prepared, where `why` is ""
+  // if the user cancelled it; on.failed(error); and on.closed() when no document is left to show.
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
     this.asked = null; // the view that this page requested last, until the engine reports it
@@ -37,8 +37,8 @@ export class OpenDocument {
     return this.model > 0;
   }
 
-  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved: it becomes
-  // the document's steps or, if the document has a state already, its newest step.
+  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. It becomes
+  // the document's steps. If the document has a state already, only the step `at` of the work becomes its newest step.
   async open(input, work = null) {
     const found = await this.engine.find(input);
     if (!found.is_there) return this.on.missing(found.input, work ?? found.kept);
@@ -58,7 +58,7 @@ export class OpenDocument {
     await this.openInEngine(found.input);
   }
 
-  // Opens the shown document in the engine. Its status may have arrived already.
+  // Opens the shown document in the engine. The status of the document may have arrived already.
   async openInEngine(input) {
     const {id} = this, isOpen = this.engine.open(input, viewOf(this.doc.now));
     this.isOpen = isOpen.catch(() => {}); // the caller gets the error from the line below
@@ -67,7 +67,7 @@ export class OpenDocument {
     if (status && this.id === id) this.take(status);
   }
 
-  // Requests the document's view after the engine has opened the document. Before that the engine would refuse.
+  // Requests the document's view, after the engine has opened the document: before that, the engine would refuse.
   async chooseView() {
     const {id} = this;
     this.asked = viewOf(this.doc.now);
@@ -147,7 +147,7 @@ export class OpenDocument {
   }
 
   complain({error, model}) {
-    const {path, name} = this.input; // of a dropped scan, the path in the engine's store
+    const {path, name} = this.input; // the path of a dropped scan is in the engine's store
     const message = path ? error.text.replaceAll(path, () => name) : error.text;
     const why = error.kind === "cancelled" ? "" : inWords({input: error.input, message});
     if (model > 0 && !(this.asked && why)) return this.on.refused(why);
@@ -168,7 +168,8 @@ export class OpenDocument {
     return true;
   }
 
-  // Called when another engine has replaced the former one.
+  // Call this when another engine has replaced the former one. Shows the engine's state of the document if that is
+  // newer than the shown one, and opens the document again.
   async resume() {
     if (!this.id) return;
     if (await this.adopt()) toast("The engine is back. It had newer work on this scan, which is shown here.");
@@ -179,7 +180,7 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // Called when the engine has closed the document, which makes its last status invalid.
+  // Call this when the engine has closed the document: opens it again. The last status of the document is then invalid.
   async closed() {
     this.statuses.delete(this.id);
     await this.reopen();

@@ -1,4 +1,4 @@
-// Returns the document for files and projects, after it has taken all entries and its picture is drawn.
+// Returns the document for files and projects, after all entries are taken and its picture is drawn.
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";
@@ -11,15 +11,15 @@ export class Outcome {
     Object.assign(this, {doc, stage, entries, pieces, frame});
   }
 
-  // Waits until all typed entries are taken or refused, also those that Enter has not confirmed.
+  // Waits until all entries are taken or refused. These include typed texts that Enter has not confirmed.
   async entered() {
     confirmTyping();
     this.pieces.takeSteps();
     await this.entries.settled();
   }
 
-  // Returns the order for the piece as soon as it is known. An unreachable height is replaced by the one that is
-  // reached.
+  // Waits for the picture of the piece, and returns the order for its files. If the wanted height is out of reach, the
+  // order has the height of the picture.
   async known() {
     await this.entered();
     const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), frame = this.frame();
@@ -29,7 +29,7 @@ export class Outcome {
     return {options, note, name: fileName(now), material: now.material, step: now};
   }
 
-  // Returns the document's step with the height of its files.
+  // Returns the document's step, with the height that its files have.
   async step() {
     const {step, options: {height}} = await this.known();
     return {...step, options: {...step.options, height}};

@@ -1,4 +1,4 @@
-// The rows of all options of the engine that have no slider.
+// Makes the rows of all options of the engine that have no slider.
 
 import {about, optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
@@ -17,7 +17,7 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
-// Choices of the command line that need more words.
+// Labels of choices whose names on the command line need more words.
 const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"};
 const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // other stages: "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
@@ -28,7 +28,7 @@ const TIPS = {base: "Surface under the relief", wrap: "Body around which the fin
 const UNITS = {MM: "mm", DEG: "°"};
 const LEAST_STEP = 0.001; // least step of arrow keys
 
-// The options of two lengths, with the text between these.
+// The options that are two lengths, with the text between these lengths.
 const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
 
 // Returns a text such as "200x150" or "5,-3" with each length replaced by typed(length). A text that is no such pair is
@@ -41,12 +41,13 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns whether the user chose the width: it differs from those of a new document and of all kinds of work.
+// Returns whether the user chose this width. Such a width differs from those of a new document and of all kinds of
+// work.
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns the other changes that come with an outline: a size that it cannot have is dropped, and without an outline
-// also the rim.
+// Returns the other changes that come with an outline. A size that the outline cannot have is dropped; without an
+// outline, the rim is dropped, too.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
   const isRound = value === "circle", isFree = FREE_OUTLINES.includes(value);
@@ -54,8 +55,8 @@ function besidesOutline(value, {diameter, plate}, shownWidth) {
   return hasSize ? rim : {...rim, diameter: null, plate: "", shift: "", width: shownWidth};
 }
 
-// Returns the other changes that come with an option: a given size of the plate determines the width of the relief,
-// unless the user chose a width.
+// Returns the other changes that come with a new value of an option. A given size of the plate also determines the
+// width of the relief, unless the user chose a width.
 function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
@@ -67,7 +68,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// Names of options for controls with other labels.
+// The names of options whose controls have other labels.
 const OTHERS = {tone: "Tone curve", view: "View"};
 // The page's texts for the expected values of an option.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
@@ -88,7 +89,7 @@ function labelOf(name) {
     control?.closest("label")?.firstElementChild.textContent ?? name;
 }
 
-// Returns the message of an error in the words of the page: an option has the name of its label.
+// Returns the message of an error in the words of the page, which name an option by its label.
 export function inWords({input, message}) {
   const label = optionOf(input) && labelOf(input);
   const text = message.replace(ADVICE, OTHER), [found] = (EXPECTED[input] && text.match(/, found '.*$/)) ?? [];
@@ -109,7 +110,7 @@ export class PieceRows {
     this.rows.base.element.after(this.baseImage.element);
   }
 
-  // The elements by the names of their options.
+  // Returns the rows' elements by the names of their options.
   get elements() {
     return Object.fromEntries(Object.entries(this.rows).map(([name, {element}]) => [name, element]));
   }
@@ -119,7 +120,7 @@ export class PieceRows {
       take: (change) => this.set(option, change)});
   }
 
-  // Returns {element, input, isNumber, unit, min, max} of an option.
+  // Makes the row of an option. Returns {element, input, rest, isNumber, unit, min, max}.
   row(name) {
     const {choices, help, min, max, unit, default: otherwise} = optionOf(name);
     const attributes = {id: name, "data-option": name, autocomplete: "off", "aria-label": LABELS[name]};
@@ -142,8 +143,8 @@ export class PieceRows {
     return {element, input, rest, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
 
-  // Arrow keys go from a number to the next round one, in small steps with Shift. It is taken after a pause of the
-  // keys.
+  // Changes a number by the up and down keys to the next round one, with Shift in smaller steps. The document takes the
+  // number when no such key was pressed for REST_MS, or earlier by takeSteps().
   step(event, name) {
     const row = this.rows[name], {input, isNumber, unit, min, max} = row, isLength = unit === "mm";
     const scale = isLength ? millimetresPerUnit() : 1, value = parseLength(input.value, isLength, scale) / scale;
@@ -155,7 +156,7 @@ export class PieceRows {
     row.rest.begin();
   }
 
-  // Takes the entered choice or text, unless the row needs a number and the text is none.
+  // Takes the entered choice or text. Refuses a text that is no number in a row for numbers.
   take(name) {
     const {input, rest, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     rest.end();
@@ -165,7 +166,8 @@ export class PieceRows {
     return this.set(name, () => (PAIRS[name] ? inMm(name, value ?? "") : value));
   }
 
-  // Changes an option after all earlier entries; `change` returns the new value for the present one.
+  // Changes an option after all earlier entries. `change` gets the option's value at that time, and returns the new
+  // one.
   set(name, change) {
     const part = ({options}) => {
       const value = change(options[name]);

@@ -4,9 +4,9 @@ const SLACK = 8; // degrees that fingers may turn while they scale
 
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
 
-// Calls begin() when the second finger comes down, end() when one is lifted, and between these move(from, to, ratio,
-// turn): the middle of the fingers before and after in pixels of the element, the ratio of their distances, and the
-// turn in degrees to the left.
+// Calls begin() when the second finger comes down, and end() when one is lifted. Between these it calls move(from, to,
+// ratio, turn): the middle of the fingers before and after in pixels of the element, the ratio of their distances, and
+// the turn in degrees to the left.
 function takePinches(element, {begin, move, end}) {
   const fingers = new Map();
   let last = null; // the last measurement, while there are two fingers
@@ -41,7 +41,7 @@ function takePinches(element, {begin, move, end}) {
   for (const type of ["pointerup", "pointercancel"]) element.addEventListener(type, lift);
 }
 
-// Scales the figure at once, and notes the turn, which is made when the fingers are lifted. All of it is one step.
+// Scales the figure at once. The turn is made when the fingers are lifted, in the same step of the document.
 function placeFigure(stage, ratio, turn) {
   const {drag, about} = stage, {placing} = stage.on;
   if (drag?.tool !== "place") return; // placing is impossible, or Escape has ended it

@@ -42,7 +42,7 @@ export class Placing {
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
 
-  // Scales the figure from a width on a piece of that size, without changing the size of the piece.
+  // Scales the figure to `factor` times `width`. The piece stays at its present size, `size`.
   scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
     if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");
@@ -58,10 +58,10 @@ export class Placing {
     if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 
-  // Corrects a figure that does not fit its plate; takes the error of the newest picture, and the numbers of the shown
-  // one. A figure that was moved too far returns to the shown place. A figure that is too large gets the largest width
-  // that fits or, if none fits, moves to the middle, in the step that left too little room. Returns whether the error
-  // was one of these.
+  // Corrects a figure that does not fit its plate, in the step that left too little room. The first argument is the
+  // error of the newest picture; `shown` has the facts of the picture that is still shown. A figure that was moved too
+  // far returns to the shown place. A figure that is too large gets the largest width that fits or, if none fits, moves
+  // to the middle. Returns whether the error was one of these.
   fit({kind, input, message}, shown) {
     if (kind !== "option" || input !== "width") return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;

@@ -11,7 +11,7 @@ import {zipOf} from "./zip.js";
 // Returns whether one of several files is a scan or scene that names the others.
 const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
 
-// Returns one file that contains a .gltf and the files that it names.
+// Returns one file that contains a .gltf and the files that the .gltf names.
 async function together(files) {
   const gltf = files.find(({name}) => /\.gltf$/i.test(name));
   if (!gltf) throw new Error("Several files at once: expected scans, or a .gltf with the files that it names.");
@@ -80,7 +80,8 @@ export class Projects {
       () => this.open(input, work), Infinity, [["Locate another file", () => $("#locate").click()]]);
   }
 
-  // Saves the promised step of the document of a scan, without a question if there is no choice.
+  // Saves the step that `promised` gives as a project file. First asks whether to include the scan, unless that is
+  // impossible.
   save(input, promised) {
     const name = plainName(input), saveStep = async (isWithScan) => {
       try {

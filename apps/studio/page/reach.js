@@ -1,12 +1,12 @@
-// The largest height that can be reached: marks it on the slider. If a height is out of reach, names the option that
-// limits it, with a button that loosens this option.
+// Marks on the slider the largest height that can be reached. If a height is out of reach, names the option that limits
+// it, with a button that loosens this option.
 
 import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle is first, as
-// without it the engine answers at once.
+// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle is first,
+// because without it the engine knows the largest height at once.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
@@ -27,14 +27,14 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Called with each picture of a model; a fine one comes when nothing moves. The largest height does not depend on the
-  // wanted height, so it is requested only when something else changes.
+  // Call this with each picture of a model; a fine one comes when nothing moves. The largest height does not depend on
+  // the wanted height, so it is requested only when something else changes.
   async pictured(frame, isFine, model) {
     const isMissed = this.doc.now.isHeightLocked && !frame.is_height_met;
     this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(frame.height_mm)} high` : "");
     if (!isFine) return;
     if (frame.is_height_met) $("#reach").replaceChildren();
-    if (this.doc.now.options.form === "lithophane") return this.clear(); // can have any height
+    if (this.doc.now.options.form === "lithophane") return this.clear(); // a lithophane can have any height
     const {height, ...rest} = shownOptions(this.doc.now), key = `${model} ${JSON.stringify(rest)}`;
     const turn = ++this.turn; // an answer after the next picture is ignored
     if (key !== this.key) this.answer = this.engine.reach({...rest, height});
@@ -45,8 +45,8 @@ export class Reach {
       return turn === this.turn ? this.clear() : undefined; // another view is being prepared
     }
     if (turn !== this.turn) return;
-    // A picture may be too high, as it does not wait for the limit of the draft angle. Steps at depth jumps do not
-    // raise that limit.
+    // With a draft angle the picture may be too high, as it does not wait for the largest height under that angle. The
+    // mark then stays at that height: steps at depth jumps cannot raise it.
     const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";

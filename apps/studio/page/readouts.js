@@ -1,4 +1,4 @@
-// The numbers in the status line, and the chart of the section.
+// Shows the numbers in the status line, and the chart of the section.
 
 import {$, clamp, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown, sizeText, withUnit} from "./lengths.js";
@@ -10,7 +10,7 @@ let times = []; // of the pictures of the last second
 // Returns the size of a picture's piece, which is approximate until the piece is finished.
 const pieceText = ({size_mm: size, is_size_exact: isExact}) => `piece ${isExact ? "" : "≈ "}${sizeText(size)}`;
 
-// Shows the numbers that come with a picture: `height` is the text to show, `facts` are those of the model.
+// Shows the numbers that come with a picture. `height` is the height as text, and `facts` are those of the model.
 export function showNumbers({about, ms, isFine, height, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
@@ -52,7 +52,7 @@ function ticks(low, high, count) {
 
 const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // pixels beside the chart at the usual size of type
 
-// Shows heights along a line; none if the line misses the piece.
+// Shows the heights along a line. `heights` is empty if the line misses the piece.
 export function showSection(heights, from, to) {
   const svg = $("#section-chart"), box = svg.getBoundingClientRect();
   svg.replaceChildren();
@@ -83,7 +83,7 @@ export function showSection(heights, from, to) {
 
 let pointed = null; // place of the pointer over the chart, kept as the chart is redrawn under it
 
-// Shows the place and the height of the section under the pointer in an element of the chart.
+// Shows the place of the pointer and the height of the section there, in the element `reading` of the chart.
 function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
   const show = () => {
     if (pointed === null) return reading.replaceChildren();

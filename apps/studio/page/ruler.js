@@ -1,5 +1,5 @@
-// The scale of the picture: a bar of a round length in its corner, and for the tools that place and measure rulers
-// along its edges, which begin at the lower left corner of the piece.
+// Shows the scale of the picture: a bar of a round length in its corner. While the user measures or places the figure,
+// there are rulers along the picture's edges instead. They begin at the lower left corner of the piece.
 
 import {make, scaleOfType} from "./controls.js";
 import {millimetresPerUnit, shortLength, shown} from "./lengths.js";
@@ -20,8 +20,8 @@ function scaleBar({pixelsPerMm, size: {height}}) {
     make("text", {class: "scale", x: EDGE + 6, y: y - 6}, `${shortLength(mm)} ${shown.unit}`)];
 }
 
-// Returns the strokes of a ruler with its 0 at the pixel `zero` that is `pixels` long and goes to the right or, with
-// the sign -1, upwards: the pixel of each stroke, and its number if it has one.
+// Returns the strokes of a ruler: the pixel of each, and its number or null. The ruler is `pixels` long, and its 0 is
+// at the pixel `zero`. It goes to the right or, if `sign` is -1, upwards.
 function strokes({pixelsPerMm}, zero, sign, pixels) {
   const step = 2 * roundBelow(APART * scaleOfType() / pixelsPerMm);
   const parts = [10, 5, 2, 1].find((n) => step * pixelsPerMm / n >= FINE), apart = sign * step / parts * pixelsPerMm;
@@ -31,7 +31,7 @@ function strokes({pixelsPerMm}, zero, sign, pixels) {
   return all;
 }
 
-// Numbers do not cover the piece, unless it fills the picture.
+// Returns the marks of the two rulers. Their numbers do not cover the piece, unless it fills the picture.
 function rulers(stage) {
   const {size: {width, height}, about: {size_mm: [wide, high]}, camera} = stage, type = scaleOfType();
   const [left, bottom] = stage.toPixels([-wide / 2, -high / 2]), [, top] = stage.toPixels([0, high / 2]);

@@ -4,8 +4,8 @@ import {$, make, pair} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
-// The sides that can be cut away, each with its index in a crop's numbers, X0,Y0,X1,Y1,NEAR,FAR. These are shares of
-// the model's box: from its left, from its bottom, and from its nearest point. A cut of 0 removes nothing.
+// The sides that can be cut away, each with its index in a crop's numbers, X0,Y0,X1,Y1,NEAR,FAR. The numbers are shares
+// of the model's box: from its left, from its bottom, and from its nearest point. A cut of 0 removes nothing.
 const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
 const MOST_CUT = 95; // percent
 
@@ -24,8 +24,8 @@ export function cropText(numbers) {
 const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
   "denoise 0": "Keep the noise"};
 
-// Returns whether a note is also shown beside the picture: if something was removed from the picture, or something
-// other than the figure fills it. Readers of depth images report their background only in the text.
+// Returns whether a note is also shown beside the picture. This is so if something was removed from the picture, or if
+// something other than the figure fills it. Readers of depth images report their background only in the text.
 const isOffered = ({option, text}) => ["crumbs", "plane"].includes(option) || /background taken out/.test(text);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
@@ -121,7 +121,7 @@ export class ScanPanel {
       this.showCut(cut, 100 * (WHOLE[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
   }
 
-  // Shows the given facts; none for null.
+  // Shows the notes on the scan that `facts` has; none for null.
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];
@@ -136,7 +136,7 @@ export class ScanPanel {
     this.show();
   }
 
-  // Adds a note on kept small pieces, which the engine does not report.
+  // Returns the notes to show: the remarks, and a note on kept small pieces, which the engine does not report.
   notesOn({remarks}) {
     const {crumbs} = this.doc.now.options;
     const kept = {text: "Small pieces are kept.", option: "crumbs", value: "drop", label: "Leave them out"};

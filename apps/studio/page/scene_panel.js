@@ -1,4 +1,5 @@
-// The models of a scene: the turn and the size of each. A change makes another scene file, which is opened.
+// Shows the panel of a scene, with the turn and the size of each model. A change makes another scene file, which is
+// opened.
 
 import {$, make, pair, textField} from "./controls.js";
 import {typedNumber} from "./lengths.js";

@@ -1,5 +1,5 @@
-// Rows for options that are shapes with parameters, such as "wave:height=3,length=40,hollow" or the tool "v:60:0.5": a
-// menu of the shapes, and a field for each parameter of the chosen shape.
+// Makes rows for options that are shapes with parameters, such as "wave:height=3,length=40,hollow" or the tool
+// "v:60:0.5": a menu of the shapes, and a field for each parameter of the chosen shape.
 
 import {make, pair, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
@@ -30,17 +30,17 @@ export const SHAPES = {
   tool: {"": shape("None"), ball: shape("Ball end", diameter), flat: shape("Flat end", diameter),
     v: shape("V bit", angle, tip)},
 };
-// The first texts of shapes that need a size.
+// The first texts of the shapes that need a size.
 export const FIRST_TEXTS = {ball: "ball:3", flat: "flat:3", v: "v:60"};
-const IMAGE = "image"; // the shape that the row of the base image chooses
+const IMAGE = "image"; // the shape that is set by choosing a base image in its own row
 // The parameters that each parameter replaces, as they exclude each other.
 const REPLACED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
 
 // Returns the parameters of a shape; none for a shape that this page does not have.
 const parametersOf = (option, name) => SHAPES[option][name]?.parameters ?? new Map();
 
-// Returns the shape of a text, and its values as texts by parameter. A parameter without a value, such as "hollow", has
-// the value "". A comma before a digit is a decimal comma.
+// Returns the shape that a text names, and the values of its parameters as texts. A parameter without a value, such as
+// "hollow", has the value "". A comma before a digit is a decimal comma.
 export function parseShape(option, text) {
   const [name] = text.split(":", 1), rest = text.slice(name.length + 1), names = [...parametersOf(option, name).keys()];
   const entries = option === "tool" ? rest.split(":").map((value, i) => [names[i], value])
@@ -102,8 +102,8 @@ export class ShapeRow {
   }
 }
 
-// Returns a text with the parameter set, or without it if the value is null. A parameter that the shape needs gets its
-// first value instead.
+// Returns the text with another value of a parameter, or without the parameter if the value is null. A parameter that
+// the shape needs then gets its first value instead.
 function withParameter(option, text, parameter, value) {
   const {name, values} = parseShape(option, text);
   const needed = parseShape(option, FIRST_TEXTS[name] ?? name).values.get(parameter);
@@ -118,6 +118,6 @@ function showValue({about, input}, text) {
   else if (!isUnfinished(input)) input.value = text === undefined ? "" : valueText(about, text);
 }
 
-// Returns a value of an option's text as its field shows it: a length in the page's unit.
+// Returns a value in an option's text as its field shows it. Lengths are in the page's unit.
 const valueText = ({unit}, text) =>
   (unit === "mm" ? shortLength(parseLength(text)) : String(parseLength(text, false)));

@@ -1,10 +1,10 @@
-// The view of the shown model, and the wait for another view. When no request is left, the views of the document, the
-// engine and the picture are the same, also after requests of other pages and after cancelled or refused requests.
+// Keeps the view of the shown model, and waits for a requested view. When no request is left, document, engine and
+// picture have the same view, even after requests of other pages, and after cancelled or refused requests.
 
 import {isSameView, viewOf} from "./opening.js";
 
 export class ShownView {
-  // Calls showDocument() when it has changed the document, and failed(error).
+  // Calls showDocument() when it has changed the document, and failed(error) when a request fails.
   constructor({doc, stage, opened, showDocument, failed}) {
     Object.assign(this, {doc, stage, opened, showDocument, failed});
     this.clear();
@@ -12,7 +12,7 @@ export class ShownView {
 
   // Begins another document, which has no model yet.
   clear() {
-    this.view = null; // the last shown view for which no other request was waiting
+    this.view = null; // the view that was shown last while no other was requested
   }
 
   // Requests the document's view.
@@ -23,7 +23,7 @@ export class ShownView {
     });
   }
 
-  // Waits for the view of a state that another page has kept. This is needed even if the model has that view, as
+  // Waits for the view of a state that another page has kept. This is needed even if the model has this view, as
   // another view may have been requested meanwhile.
   adopt() {
     const {view, stage, opened} = this;
@@ -32,7 +32,7 @@ export class ShownView {
     opened.ensureView().catch(this.failed);
   }
 
-  // Takes the status of a model that is shown now. The engine may have sent newer statuses since.
+  // Call this when a model is shown, with the status that announced it. The engine may have sent newer statuses since.
   arrived(status) {
     const newest = this.opened.status;
     if (!status.busy && !status.error) this.view ??= status.shown;
@@ -51,7 +51,7 @@ export class ShownView {
     if (this.stage.isAwaiting) this.stage.await(false);
   }
 
-  // Returns to the view before one that was cancelled or could not be prepared.
+  // Returns to the former view if another one was cancelled or could not be prepared.
   restore() {
     const former = this.view ?? this.opened.status.shown;
     this.stage.await(false);

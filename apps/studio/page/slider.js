@@ -1,4 +1,4 @@
-// Sliders with a number beside them.
+// Makes sliders that have a number field beside them.
 
 import {Pause, clamp, make} from "./controls.js";
 import {finish, isUnfinished} from "./inputs.js";
@@ -12,12 +12,12 @@ export const spread = {
 };
 
 const STEPS = 1000, MOST_DECIMALS = 4;
-export const REST_MS = 400; // pause of keys or the wheel that ends a movement
+export const REST_MS = 400; // a movement by keys or the wheel ends after this pause
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 
-// Returns the next round value in a direction: the next multiple of a tenth of the value's power of ten, but of at
-// least `least`; with `isFine`, the next multiple of a tenth of that.
+// Returns the next round value in a direction, which is the next multiple of a step. The step is a tenth of the value's
+// power of ten, and at least `least`. With `isFine` it is ten times smaller.
 export function nextValue(value, direction, isFine, least) {
   const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // 10 goes down by 0.1
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
@@ -25,13 +25,13 @@ export function nextValue(value, direction, isFine, least) {
   return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
 }
 
-// Returns the number of decimals of a typed value; 0 for one that is computed, which has more than can be typed.
+// Returns the number of decimals of a typed value; 0 for a computed value, which has more decimals than can be typed.
 function decimalsOf(value) {
   return value === Number(value.toFixed(MOST_DECIMALS)) ? `${value}`.split(".")[1]?.length ?? 0 : 0;
 }
 
 // A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
-// spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets it to `otherwise`.
+// spread, help}: the slider spans `hand`, the number is from `min` to `max`, and a double click sets it to `otherwise`.
 // Calls onInput(value, isTyped) while the slider moves, onEnd() when a movement is over, and say(text) if a number is
 // refused.
 export class Slider {
@@ -83,7 +83,7 @@ export class Slider {
     this.range.onkeydown = (event) => this.step(event, FORWARDS);
   }
 
-  // Takes the typed number with all its typed decimals, also more than the slider has.
+  // Takes the typed number with all its decimals, even if the slider has fewer.
   typed() {
     const value = typedNumber(this.number.value, this, this.say);
     if (value === null) this.show(this.value);
@@ -106,7 +106,7 @@ export class Slider {
     this.rest.begin();
   }
 
-  // Arrow keys go to the next round number, in small steps with Shift.
+  // Changes the number by arrow keys to the next round one, with Shift in smaller steps.
   step(event, directions) {
     const direction = directions[event.key];
     if (!direction) return;
@@ -136,7 +136,7 @@ export class Slider {
     return this.isLength ? Number((number * millimetresPerUnit()).toFixed(MOST_DECIMALS)) : number;
   }
 
-  // Returns the number as it is shown: with more than the slider's own decimals if it was typed so.
+  // Returns the number as text. It has the slider's own decimals, or more if more were typed.
   text(value, decimals = Math.max(this.decimals, decimalsOf(value))) {
     return this.isLength ? lengthText(value, decimals) : value.toFixed(decimals);
   }
@@ -151,20 +151,21 @@ export class Slider {
     if (!isUnfinished(this.number)) this.number.value = text;
   }
 
-  // Marks a value on the slider, such as the largest that can be reached, with a title; none for null.
+  // Marks a value on the slider, such as the largest that can be reached, with a title. Removes the mark if the value
+  // is null.
   showMark(value, title = "") {
     this.mark.hidden = value === null || value > this.hand[1];
     this.range.title = value === null ? "" : title; // the mark itself is too thin for a pointer
     if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
   }
 
-  // Marks the number as one that the piece does not have, with the reason as text; "" removes the mark.
+  // Marks the number as one that the piece does not have, with the reason as text; "" removes this mark.
   complain(text) {
     this.number.title = text;
     this.number.setAttribute("aria-invalid", text !== "");
   }
 
-  // Disables the slider for the given reason; enables it again without one.
+  // Disables the slider, with the reason as text; "" enables it again.
   disable(why) {
     this.range.disabled = this.number.disabled = Boolean(why);
     this.element.classList.toggle("disabled", Boolean(why));

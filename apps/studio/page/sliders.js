@@ -1,5 +1,5 @@
-// The sliders of fields.js on the page, with the lock of the height and the method: shows the document's values, and
-// changes them. slider.js has the control itself.
+// The page's sliders, which fields.js lists, with the button that locks the height, and the choice of the method. They
+// show the document's values and change them. slider.js has the control itself.
 
 import {defaultOf, namesOf, optionOf} from "./about.js";
 import {$, make} from "./controls.js";
@@ -8,8 +8,8 @@ import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 import {Slider, lockButton} from "./slider.js";
 
-// The sliders for the shape of the heights, other than sizes. A lithophane, which is made from light and colours, has
-// none of them.
+// The sliders for the shape of the heights, other than sizes. They do not apply to a lithophane, which is made from
+// light and colours.
 const SHAPING = namesOf("shape").filter((name) => FIELDS[name] && optionOf(name).unit !== "MM");
 
 // The largest width on the plate depends on these options.
@@ -35,14 +35,14 @@ export class Sliders {
     $("#method").onchange = (event) => this.changeMethod(event.target.value);
   }
 
-  // The elements by the names of their options.
+  // Returns the sliders' elements by the names of their options.
   get elements() {
     return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
   }
 
   shownWidth = () => Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
 
-  // Marks the largest width that fits into a plate of a given size.
+  // Shows the width, and marks the largest one that fits into a plate of a given size.
   showWidth() {
     const most = this.frame()?.most_width_mm ?? null;
     const {width} = this.all;
@@ -53,7 +53,7 @@ export class Sliders {
   slide(name, value, isTyped = false) {
     if (isTyped && this.entries.pending.length > 0) return this.enter(name, value);
     const most = this.mostWidth() ?? Infinity, {doc} = this;
-    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // null: the largest width that fits
+    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // null: the largest that fits
     if (name === "width" && value > most && isTyped)
       this.say(`The plate leaves ${withUnit(most)} for the longer side: the figure is as large as that.`);
     if (name === "width") this.showWidth();
@@ -67,13 +67,13 @@ export class Sliders {
     return most && PLATE.every((name) => shown[name] === options[name]) ? most : null;
   }
 
-  // Takes a number after the waiting entries.
+  // Takes a typed number when the earlier entries are taken.
   enter(name, value) {
     this.all[name].show(value);
     this.entries.add({name, label: FIELDS[name].label, part: () => partOf(name, value)});
   }
 
-  // Changes the method. A soft rim with the default of the old method gets that of the new one.
+  // Changes the method. A soft outline with the old method's default gets the default of the new method.
   changeMethod(method) {
     const {options} = this.doc.now;
     const isUntouched = options.boundary === defaultOf("boundary", options.method);
@@ -96,7 +96,7 @@ export class Sliders {
     for (const [name, slider] of Object.entries(this.all)) {
       const isWaiting = this.entries.isPending(name);
       slider.element.ariaBusy = isWaiting ? "true" : null;
-      if (!isWaiting && name !== "width") slider.show(options[name]); // which is null for no other slider
+      if (!isWaiting && name !== "width") slider.show(options[name]); // only the width may be null
     }
     this.showWidth();
     $("#method").value = options.method;

@@ -13,7 +13,7 @@ import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes before the fine picture
-const FINISH_MS = 500; // and before the finished piece
+const FINISH_MS = 500; // pause without changes before the finished piece
 const MOST_PIXELS = 7.9e6; // a little less than the engine's limit; a window on a screen of 5,120 x 2,880 has more
 
 export class Stage {
@@ -26,9 +26,10 @@ export class Stage {
     this.overlay = $("#overlay");
     this.camera = {...FRONT};
     this.tool = "light";
-    this.share = 1; // of the pixels of a side, while things move
-    // Each state to be seen has a number: the newest, and the last that was shown or refused, drawn, drawn finely, and
-    // drawn as export makes the piece.
+    this.share = 1; // share of the pixels along a side that are drawn while things move
+    // States to be shown are numbered; `wanted` is the newest. `drawn` is the last that was drawn. `shown`, `fine` and
+    // `finished` are the last that needs no picture, no fine picture and no picture of the finished piece any more,
+    // because that was drawn or has failed.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting` has the callbacks of rest()
     this.pause = new Pause(() => this.pump());
@@ -80,7 +81,8 @@ export class Stage {
     if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
   }
 
-  // Waits for the last picture of the present document, or until it cannot be drawn. Returns whether it is shown.
+  // Waits until the last picture of the document's present state is shown, or cannot be drawn. Returns whether it is
+  // shown.
   async rest() {
     await new Promise((resolve) => {
       this.resting.push(resolve);
@@ -89,7 +91,7 @@ export class Stage {
     return this.drawn === this.wanted;
   }
 
-  // The studio's only queue of pictures: requests one at a time, always of the newest state.
+  // Requests the relief's next picture: one at a time, and always of the newest state.
   async pump() {
     if (this.isBusy || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
@@ -123,8 +125,8 @@ export class Stage {
     this.pump();
   }
 
-  // Returns whether the picture shows the piece as in its file. A plain piece counts too if making it would delay other
-  // pictures.
+  // Returns whether the picture shows the piece as in its file. A picture of a plain piece counts, too, if making the
+  // piece would delay other pictures.
   get isLikeFile() {
     return this.about?.is_finished || (this.about?.is_plain && !this.engine.drawsMeanwhile);
   }
@@ -135,7 +137,7 @@ export class Stage {
     return {width: Math.round(width * scale), height: Math.round(height * scale)};
   }
 
-  // Requests the picture of the newest state. The last picture of a state shows the piece as it will be exported.
+  // Requests a picture of the newest state. The last picture of a state shows the piece as export makes it.
   ask(isFine, isLast) {
     const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
     const frame = this.isTable ? null : this.frame(request, this.unwanted?.signal);
@@ -148,12 +150,12 @@ export class Stage {
     return {image, about: {...about, options}};
   }
 
-  // While things move, the next picture is requested before this one is shown.
+  // Draws the relief. While things move, the next picture is requested before this one is shown.
   async drawRelief(isFine, {model, changedAt, number, frame}) {
     const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view is shown meanwhile
     if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
-      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // its error is reported when it is drawn
+      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // the error is reported when this picture is drawn
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -166,7 +168,7 @@ export class Stage {
     if (this.tool === "measure") this.measure.pictured();
   }
 
-  // Returns whether this picture needs more answers of the engine before the next picture may be requested.
+  // Returns whether this picture needs more answers of the engine, so that the next one may not be requested yet.
   get waitsForPicture() {
     return this.comparing.isShown || ["section", "measure"].includes(this.tool);
   }
@@ -282,7 +284,7 @@ export class Stage {
     if (isStepwise) Object.assign(drag, {x, y});
   }
 
-  // The cursor shows whether a drag would move a line's end or the divider.
+  // Sets the cursor, which shows whether a drag would move a line's end or the divider.
   hover({offsetX: x, offsetY: y}) {
     const line = {section: this.line, measure: this.measure.line}[this.tool];
     this.element.classList.toggle("at-divider", this.comparing.isAt(x));

@@ -1,4 +1,4 @@
-// The start page: samples, and the documents that were changed last, with their pictures.
+// Shows the start page: samples, and the documents that were changed last, with their pictures.
 
 import {about, engine} from "./about.js";
 import {$, fileSize, make, sentence} from "./controls.js";
@@ -18,14 +18,14 @@ export function showSamples(open) {
 
 export const START = "#start"; // at the end of the page's address: opens the start page first
 
-// Shows the picture of a document, or an icon without one. Returns the image.
+// Shows the picture of a document; an icon if it has none. Returns the image.
 function showPicture(image, picture) {
   const source = picture || engine.addressOf("icon.svg");
   if (image.getAttribute("src") !== source) Object.assign(image, {src: source, className: picture ? "" : "none"});
   return image;
 }
 
-// The shelf of kept documents: opens and removes them, and shows how much space they take.
+// The shelf of kept documents: opens them, removes them, and shows how much space they take.
 export class Shelf {
   constructor({engine, opened, keeper, open, failed}) {
     Object.assign(this, {engine, opened, keeper, open, failed});

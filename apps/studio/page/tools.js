@@ -15,8 +15,8 @@ function setLight(stage, azimuth, elevation) {
   stage.doc.change({light}, "light");
 }
 
-// Returns the light for a pointer: over the middle of the picture it comes from the viewer, nearer to the rim it is
-// lower.
+// Sets the light by the position of the pointer. In the middle of the picture the light comes from the viewer, and
+// towards the rim it gets lower.
 function lightFrom(stage, {x, y}) {
   const {width, height} = stage.size, radius = Math.min(width, height) / 2;
   const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
@@ -34,7 +34,7 @@ function place(stage, {dx, dy, event}) {
   stage.drawOverlay();
 }
 
-// Calls set(line) with the line that the user draws or drags by an end.
+// Calls set(line) while the user draws a line or drags one of its ends.
 function drawLine(stage, line, {x, y, dx, dy}, set) {
   if (Math.hypot(dx, dy) > 3) set(stage.measure.dragged(line, stage.drag, stage.toPlace(x, y)));
 }

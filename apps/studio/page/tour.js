@@ -1,4 +1,4 @@
-// The tour: five steps that explain the parts of the page. No step covers the part that it explains.
+// Shows the tour: five steps that explain the parts of the page. No step covers the part that it explains.
 
 import {$, make} from "./controls.js";
 import {offer, toast} from "./messages.js";

@@ -42,15 +42,16 @@ export class Transport {
 
   addressOf = (file) => file;
 
-  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab with
-  // the lock opens the stream and passes on its events. When that tab is closed, another gets the lock.
+  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So only the tab
+  // with the lock opens the stream, and passes its events on to the others. When that tab is closed, another one gets
+  // the lock.
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());
     tabs.onmessage = ({data}) => data !== ASK && take(data);
     tabs.postMessage(ASK);
     navigator.locks.request(location.pathname, () => {
-      const last = new Map(); // statuses by document; the run's name by undefined
+      const last = new Map(); // statuses by document, and the run's name under `undefined`
       const pass = (status) => {
         if (!status || !status.document) last.clear();
         if (status) last.set(status.document, status);

@@ -1,5 +1,5 @@
-// Turns the model on the picture: a drag shows its relief from other sides while the view moves, and the view in which
-// it rests becomes that of the document.
+// Turns the model on the picture. A drag shows the relief from other sides. The view at its end becomes that of the
+// document.
 
 import {SIDES, directionsOf, optionsOf, turnedByHand} from "./directions.js";
 import {cross, dot, upright} from "./vectors.js";
@@ -25,7 +25,7 @@ function snapped({towards, up}) {
 export class Turning {
   constructor(stage) {
     this.stage = stage;
-    this.shown = null; // directions of the view that is shown until it is prepared
+    this.shown = null; // directions of a view that is shown but not prepared yet
   }
 
   show(directions) {
@@ -60,7 +60,8 @@ export class Turning {
     this.end();
   }
 
-  // Sets the document's view to the one in which the turning ends. The same view may have to be prepared again.
+  // Sets the document's view to that at the end of the turning. If the document has this view already, requests it
+  // again while another one is being prepared.
   end() {
     const {stage} = this, {doc} = stage;
     if (!this.shown) return;

@@ -1,4 +1,4 @@
-// Vectors as arrays of three numbers.
+// Computes with vectors, which are arrays of three numbers.
 
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -18,6 +18,6 @@ export const upright = (up, towards) => {
   return cross(towards, unit(right));
 };
 
-// Convert directions to the command line's text, and back.
+// These convert directions to the command line's text, and back.
 export const text = (a) => a.map((x) => Number(x.toFixed(4))).join(",");
 export const triple = (t) => t.split(",").map(Number);

@@ -1,4 +1,4 @@
-// The dialog in which the view is chosen: by turning the model in space, or as one of the six sides.
+// Shows the dialog in which the user chooses the view: by turning the model in space, or as one of the six sides.
 
 import {$, ARROWS, Pause, make, oneAtATime, paint} from "./controls.js";
 import {SIDES, directionsOf, optionsOf, turnedByHand, viewName} from "./directions.js";
@@ -22,8 +22,8 @@ export class ViewDialog {
     this.listen();
   }
 
-  // Shows a picture of the document's view beside its name: the names of sides refer to the file's axes, and a figure
-  // may lie on its back in the file.
+  // Shows a picture of the document's view beside its name. The name alone may mislead: sides refer to the file's axes,
+  // and a figure may lie on its back in the file.
   async tell({options, input}, isThere) {
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");

@@ -1,11 +1,11 @@
-// Packs files of the browser into a ZIP archive, uncompressed: the engine takes a scan as one file.
+// Packs files of the browser into an uncompressed ZIP archive, as the engine takes a scan as one file.
 
 const TABLE = Uint32Array.from({length: 256}, (_, value) => {
   for (let bit = 0; bit < 8; ++bit) value = value & 1 ? (value >>> 1) ^ 0xedb88320 : value >>> 1;
   return value;
 });
 
-// Returns the CRC-32 of bytes, as ZIP and PNG have it.
+// Returns the CRC-32 of bytes, as defined for ZIP and PNG.
 function checksum(bytes) {
   let sum = 0xffffffff;
   for (const byte of bytes) sum = (sum >>> 8) ^ TABLE[(sum ^ byte) & 255];
