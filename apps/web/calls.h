@@ -1,4 +1,4 @@
-// Functions that JavaScript calls by name. They take JSON, and return JSON and bytes.
+// Calls the functions that JavaScript requests by name. They take JSON, and return JSON and bytes.
 #pragma once
 
 #include <nlohmann/json.hpp>

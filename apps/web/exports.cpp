@@ -1,4 +1,4 @@
-// The functions that the WebAssembly module exports.
+// Exports functions of the WebAssembly module.
 #include <array>
 #include <cstddef>
 #include <cstdlib>

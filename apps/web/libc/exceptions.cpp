@@ -4,7 +4,7 @@
 #include <cstring>
 #include <new>
 
-// Imported from the module "relievo".
+// Ends the program in the host, which provides this as a function of the module "relievo".
 __attribute__((import_module("relievo"), import_name("fail"))) extern "C" [[noreturn]] void relievo_host_fail(
     const char* reason, std::size_t size);
 

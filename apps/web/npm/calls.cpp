@@ -19,7 +19,8 @@
 #include "relievo/samples/sample.h"
 #include "relievo/scan/surface.h"
 
-// Imported from the module "relievo". Returns 1 to cancel.
+// Reports progress to the host, which provides this as a function of the module "relievo". Returns 1 to
+// cancel.
 __attribute__((import_module("relievo"), import_name("progress"))) extern "C" int relievo_host_progress(
     const char* stage, std::size_t size, double fraction);
 
@@ -30,7 +31,7 @@ using Json = nlohmann::json;
 using Kept =
     std::variant<std::shared_ptr<FinishedRelief>, std::shared_ptr<PreparedModel>, std::shared_ptr<FrameInMm>>;
 
-// The host hears of this progress, and may cancel it at the beginning of a stage.
+// Reports its progress to the host, which may cancel the work at the beginning of a stage.
 struct HostProgress : Progress {
   HostProgress()
       : Progress([this](std::string_view stage, double fraction) {
@@ -38,7 +39,7 @@ struct HostProgress : Progress {
         }) {}
 };
 
-// Holds by number what calls have made, until it is forgotten.
+// Returns the objects that calls have made, by their numbers. They stay until a call releases them.
 std::map<int, Kept>& kept() {
   static std::map<int, Kept> all;
   return all;
@@ -64,9 +65,9 @@ std::string text(const Json& json, const char* key, std::string otherwise = {}) 
   return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
 }
 
-// Reads {"inputs": [paths], "options": {name: number or text}, "camera": text, "base_image": path, "stream_above_mb":
-// number}; each may be missing. Options have the names of the command line; lengths may be texts with a unit. Errors:
-// kind option, naming the option.
+// Reads {"inputs": [paths], "options": {name: number or text}, "camera": text, "base_image": path,
+// "stream_above_mb": number}; each may be missing. Options have the names of the command line; lengths may be
+// texts with a unit. Errors: kind option, naming the option.
 Result<MakeOrder> order_from(const Json& json) {
   MakeOrder order;
   const Json options = json.contains("options") ? json["options"] : Json::object();
@@ -90,7 +91,7 @@ Result<MakeOrder> order_from(const Json& json) {
   return order;
 }
 
-// Returns what an earlier call has made.
+// Returns the object that an earlier call has made; `key` is the argument that has its number.
 template <typename T>
 Result<std::shared_ptr<T>> find(const Json& json, const char* key) {
   const auto found = kept().find(integer(json, key, 0));

@@ -2,8 +2,8 @@
 
 const PIECE = 4 << 20; // bytes that are read at once
 
-// Returns a file as npm/src/files.js describes it. Throws if the browser cannot read the blob. Only workers can read it
-// synchronously.
+// Returns a file as npm/src/files.js describes it. Works only in workers, which can read blobs synchronously. Throws if
+// the browser cannot read the blob.
 export function fileOf(blob) {
   const reader = new FileReaderSync();
   let start = 0, piece = new Uint8Array();

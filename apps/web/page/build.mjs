@@ -1,5 +1,5 @@
-// Puts the studio's page into one file: build.mjs MODULE FOLDER writes relievo.html, and beside it the files that make
-// it installable from a server.
+// Puts the studio's page into one file: build.mjs MODULE FOLDER writes relievo.html. Beside it, writes the files with
+// which a browser can install the page from a server.
 import crypto from "node:crypto";
 import fs from "node:fs";
 import {createRequire} from "node:module";
@@ -43,7 +43,7 @@ const script = (await bundlePage()).trim(), style = bundle({entryPoints: [path.j
 const worker = bundle({entryPoints: [path.join(here, "worker.js")]}, {format: "iife"}).trim();
 const packed = zlib.gzipSync(fs.readFileSync(module), {level: 9}).toString("base64");
 
-// The browser refuses to load or send anything that is not named here.
+// The browser refuses to load or send anything that this policy does not name.
 const policy = `default-src 'none'; script-src ${hashOf(script)} 'wasm-unsafe-eval'; style-src ${hashOf(style)}; ` +
   "img-src data: blob:; worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'";
 

@@ -17,16 +17,16 @@ export const scanOf = ({path = "", hash = ""}) =>
 // Returns the input of a document's state; null for a value that is no such state.
 export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 
-export const BASE_IMAGE = "base-image"; // the option that is the path of the height map of a base
+export const BASE_IMAGE = "base-image"; // the option with the path of a base's height map
 
-// Returns the digits of the hashes of all files that a state of a document needs.
+// Returns the hash digits of all files that the state of a document needs.
 export const scansOf = (state) => [scanOf(inputOf(state)),
   ...state.steps.map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
 
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // endings of files that accompany a model
 
-// Returns the file to open: the only one, the scene, or the model to which the others belong. For several models,
+// Returns the file to open: the only file, the scene, or the model to which the other files belong. For several models,
 // returns a new scene with the models side by side.
 export function mainOf(files) {
   const scene = files.find((file) => endingOf(file) === "json");
@@ -37,7 +37,7 @@ export function mainOf(files) {
   return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
 }
 
-// Replaces the browser's objects in files, [[path, file], ...], by their bytes.
+// Replaces the browser's blobs in files, [[path, file], ...], by their bytes.
 export function bytesOf(files) {
   return Promise.all(files.map(async ([path, file]) =>
     [path, file instanceof Blob ? new Uint8Array(await file.arrayBuffer()) : file]));

@@ -4,5 +4,5 @@ if (location.protocol.startsWith("http")) {
   link.rel = "manifest";
   link.href = "relievo.webmanifest";
   document.head.append(link);
-  navigator.serviceWorker?.register("relievo-offline.js").catch(() => {}); // the file is missing, or not allowed
+  navigator.serviceWorker?.register("relievo-offline.js").catch(() => {}); // the file is missing or forbidden
 }

@@ -1,4 +1,4 @@
-// The service worker of a page that is served: it keeps the page, so that it opens without a network.
+// The service worker of a page from a server: keeps the page, so that it opens without a network.
 const NAME = "relievo";
 
 addEventListener("install", (event) => event.waitUntil(skipWaiting()));

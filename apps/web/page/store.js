@@ -48,7 +48,7 @@ export class BrowserStore {
     return inMemory ?? (this.#base && done(this.#base.transaction(name).objectStore(name).get(key)));
   }
 
-  // Changes an entry: `next` takes the present value and returns the new one; errors that it throws are passed on.
+  // Changes an entry. next() takes the present value and returns the new one; the errors that it throws are passed on.
   async #change(name, key, next) {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
@@ -75,7 +75,8 @@ export class BrowserStore {
   // Returns {id, state, picture, touched} of a document; nothing if it is not kept.
   document = (id) => this.#get("documents", id);
 
-  // Throws an error of kind "older" if a newer state is kept, "output" if this one cannot be.
+  // Keeps the state of a document. Throws an error of kind "older" if a newer state is kept, "output" if this state
+  // cannot be kept.
   keepDocument(id, state) {
     return this.#change("documents", id, (kept) => {
       if (kept?.state?.changed > state.changed) throw new EngineError({kind: "older", text: "a newer state is kept"});

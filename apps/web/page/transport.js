@@ -1,4 +1,4 @@
-// Sends requests to the WebAssembly engine, which runs in a worker, and to the documents that the browser keeps.
+// Sends requests to the WebAssembly engine, which runs in a worker, and to the store of documents in the browser.
 // Replaces apps/studio/page/transport.js; engine.js there describes transports.
 import {compile} from "../../../npm/src/compile.js";
 import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
@@ -28,13 +28,13 @@ export class Transport {
   #waiting = new Map(); // requests by number of the message
   #last = 0;
   #opened = {document: "", input: null}; // the document that was opened last
-  #isOpen = new Set(); // documents, in this worker
+  #isOpen = new Set(); // documents that are open in this worker
   #statuses = new Map(); // by document, as last reported
   #kept = new Map(); // by document: the time and the tab of its last keeping
   #onStatus = () => {};
   #say = () => {};
   #tabs = null;
-  // Requests that the page itself answers, for which the program uses files and threads.
+  // Requests that the page answers itself. The program `relievo studio` answers them by files and threads.
   #own = {
     about: () => this.#about(), document: ({input}) => this.#find(input), open: (request) => this.#open(request),
     upload: (_, files) => this.#upload(files), project: ({name}, [file]) => this.#readProject(name, file),
@@ -77,12 +77,12 @@ export class Transport {
     for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
   }
 
-  // Ends the worker if it prepares the document that was opened before.
+  // Ends the worker if it is still preparing the document that was opened last.
   #endPreparation() {
     if (this.#worker && this.#status().busy) this.#end(cancelled(), closed());
   }
 
-  // In WebKit the worker of a page opened from disk cannot read files. The page then reads them as a whole.
+  // In WebKit the worker of a page opened from disk cannot read files. The page then reads each file as a whole.
   async #work(call, request, files = []) {
     try {
       return await this.#send(call, request, files);
@@ -101,13 +101,13 @@ export class Transport {
     });
   }
 
-  // Sends a call for a document, which must be open.
+  // Sends a call for a document. Throws if the worker does not have the document open.
   async #ask(call, request) {
     if (!this.#isOpen.has(request.document)) throw closed();
     return this.#work(call, request, await this.#imageOf(request.options));
   }
 
-  // Returns the files that options name: the height map of a base.
+  // Returns the files that the options name, which may be the height map of a base.
   async #imageOf(options) {
     const path = options?.[BASE_IMAGE];
     return path ? this.#filesOf({path}) : [];
@@ -194,7 +194,7 @@ export class Transport {
     return {document, input: found, is_there: Boolean(input.sample || scan), kept};
   }
 
-  // Opens a document, and ends the preparation of another one.
+  // Opens a document. Ends the preparation of another one.
   async #open({document: _, input, ...view}) {
     const document = documentOf(input);
     if (!this.#isOpen.has(document)) this.#endPreparation();

@@ -1,6 +1,6 @@
-// The worker of the page, which runs the engine in WebAssembly. It takes {id, call, request, files} and answers {id,
-// status, type, about, body}, {id, error} or, when it cannot go on, {id, error, isOver}. It also sends {statuses} when
-// a status has changed.
+// The page's worker, which runs the engine in WebAssembly. It takes {id, call, request, files} and answers {id, status,
+// type, about, body}, {id, error} or, when it cannot go on, {id, error, isOver}. It also sends {statuses} when a status
+// has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
 
@@ -9,7 +9,7 @@ const BEGINS_WORK = new Set(["open", "view"]);
 let engine, timer;
 let isDue = false; // work was requested and has not begun
 
-// Prepares the requested view. Waiting messages are handled first, so that it is the newest one.
+// Prepares the view that was requested last. Waiting messages are handled before, as they may request another view.
 function work() {
   isDue = false;
   try {

@@ -1,5 +1,5 @@
-// The calls of the studio's page: the actions that the page sends to the native studio by HTTP, and calls
-// that replace the files and threads of that program.
+// Answers the calls of the studio's page: the actions that the page sends to the native studio by HTTP, and
+// calls that replace the files and threads of that program.
 #include "web/calls.h"
 
 #include "common/files.h"
@@ -8,7 +8,8 @@
 #include "studio/answers.h"
 #include "web/studio/browser_store.h"
 
-// Imported from the module "relievo": takes the statuses of the open documents, as JSON, when one has changed.
+// Passes the statuses of the open documents, as JSON, to the host when one has changed. The host provides
+// this as a function of the module "relievo".
 __attribute__((import_module("relievo"), import_name("statuses"))) extern "C" void relievo_host_statuses(
     const char* json, std::size_t size);
 
@@ -44,7 +45,8 @@ CallAnswer call_answer(const studio::Answer& from, Json about) {
   return {std::move(about), {bytes.begin(), bytes.end()}};
 }
 
-// Takes a project file that the page shows under a path. The bytes of each file in it follow by the call "unpacked".
+// Takes a project file, which the page has added under a path. The call "unpacked" then returns the bytes of
+// each file that is in it.
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
   const studio::BodyReader whole = [&](const auto& take) { return take(text_in(bytes)).has_value(); };

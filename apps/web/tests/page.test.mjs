@@ -1,5 +1,5 @@
-// Tests the page in one file, from a scan to an exported solid, in Debian's browsers, from disk and from a static
-// server.
+// Tests the page in one file in Debian's browsers, from disk and from a static server: from a scan to an exported
+// solid.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";

@@ -1,4 +1,4 @@
-// A static server and helpers for files, for the tests of the page.
+// Has a static server and helpers for files, for the tests of the page.
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
@@ -52,7 +52,7 @@ export function pageWithLittleMemory(t) {
   return pathToFileURL(place).href;
 }
 
-// Returns where the section that describes the memory begins in a module.
+// Returns the offset in a module of the section that describes the memory.
 function memorySection(module) {
   const MEMORY = 5;
   for (let at = 8; at < module.length;) {

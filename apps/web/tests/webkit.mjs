@@ -1,5 +1,5 @@
-// Drives WebKit by WebDriver: Debian's webkit2gtk-driver with its MiniBrowser on a display of Xvfb, as no npm package
-// does.
+// Drives WebKit by WebDriver, as no npm package does: uses Debian's webkit2gtk-driver with its MiniBrowser on a display
+// of Xvfb.
 import {spawn} from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
