@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// The command line of the package: `relievo make` with the flags of the native program.
+// Runs the command line of the package: `relievo make` with the flags of the native program.
 import fs from "node:fs";
 import path from "node:path";
 import { RelievoError } from "../src/engine.js";
@@ -19,7 +19,7 @@ const USAGE = `Usage: relievo make INPUT... -o OUT [--preview P.png] [--heightma
        relievo options
        relievo --version`;
 
-// Returns { inputs, values } of the arguments: flags with "=", or followed by their value.
+// Returns { inputs, values } of the arguments. The value of a flag follows it, after "=" or as the next argument.
 function parse(args) {
   const inputs = [], values = {};
   const known = new Set([...optionTable.map((option) => option.name), ...OTHER_VALUES]);
@@ -57,7 +57,7 @@ function fileOnDisk(name) {
 
 const REFERRING = [".obj", ".gltf", ".json", ".relievo"];
 
-// Gives the engine the inputs and, if these can name other files, all files of their folders.
+// Gives the engine the input files and, if these can refer to other files, all files of their folders.
 function addFiles(engine, inputs) {
   const names = new Map();
   const add = (file) => {

@@ -19,7 +19,8 @@ function writeBeside(name, bytes, made) {
   }
 }
 
-// Writes all files, [[name, bytes], ...], or none: first under temporary names. Removes only files that it has made.
+// Writes all files, [[name, bytes], ...], or none: first writes all of them under temporary names. Removes only files
+// that it has made.
 export function writeAll(files) {
   const made = [];
   try {

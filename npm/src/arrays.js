@@ -10,7 +10,7 @@ function typedArray(name, array, Type) {
   throw new TypeError(`${name}: expected an array of numbers`);
 }
 
-// Returns a PLY file of points (x, y, z in a row), and of normals, colours and faces if they are given.
+// Returns a PLY file of points (x, y, z of each in turn), and of normals, colours and faces if they are given.
 export function cloudFile({ points, normals, colours, faces }) {
   const p = typedArray("points", points, Float64Array), count = Math.floor(p.length / 3);
   expectLength("points", p, 3 * count);

@@ -1,8 +1,8 @@
-// One instance of the engine, with its memory, the files that it can read, and calls with JSON.
+// Runs one instance of the engine, with its memory, the files that it can read, and calls with JSON.
 import { asFile, wasi } from "./files.js";
 
-// An error of the engine. `input` is the input or the option, `place` the place in it, `expected` what was expected
-// there.
+// An error of the engine. `input` is the file or the option, `place` the place in the file, and `expected` what was
+// expected there.
 export class RelievoError extends Error {
   constructor({ kind, input = "", place = "", expected = "", message }) {
     super(message ?? expected);
@@ -39,12 +39,12 @@ export class Engine {
     return engine;
   }
 
-  // Gives the engine a file of that name. "/" separates folders.
+  // Gives the engine a file of that name, in which "/" separates folders.
   addFile(name, source) {
     this.#files.set(name.replace(/^\.?\/+/, ""), asFile(source));
   }
 
-  // Calls a function of the engine. Returns its answer, and a copy of its bytes.
+  // Calls a function of the engine. Returns its answer, with a copy of the answer's bytes.
   call(name, options = {}) {
     if (this.#lastFailure) throw this.#lastFailure;
     const request = new TextEncoder().encode(JSON.stringify({ ...options, call: name }));
@@ -67,7 +67,7 @@ export class Engine {
     return new TextDecoder().decode(new Uint8Array(this.#exports.memory.buffer, at, size));
   }
 
-  // Returns the error for a failure, after which the instance cannot be used any more.
+  // Returns the error for a failure. The instance cannot be used any more after it.
   #failure(reason, cause) {
     const isMemory = reason === "memory" || cause instanceof RangeError;
     this.#lastFailure = new RelievoError({ kind: isMemory ? "memory" : "failure",

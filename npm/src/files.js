@@ -1,4 +1,4 @@
-// The files that the engine can read by the functions of WASI.
+// Provides the files that the engine can read by the functions of WASI.
 
 const BAD_FILE = 8, INVALID = 28, FAILED = 29, NOT_THERE = 44, UNKNOWN = 52;
 const REGULAR_FILE = 4, FOLDER = 3, CHARACTER_DEVICE = 2;

@@ -15,7 +15,7 @@ export interface CloudArrays {
   normals?: ArrayLike<number>;
   /** Red, green and blue of each point, 0 to 255. */
   colours?: ArrayLike<number>;
-  /** The three corners of each triangle. */
+  /** The indices of the three points of each triangle. */
   faces?: ArrayLike<number>;
 }
 
@@ -34,9 +34,9 @@ export interface InputOptions {
   name?: string;
   /** The camera of a depth image, as numbers. */
   camera?: string;
-  /** Larger files are read in blocks where that is possible. Default: 512. */
+  /** Files above this size are read in blocks if their format allows it. Default: 512. */
   streamAboveMb?: number;
-  /** The height map of a base of kind image, PNG or TIFF. */
+  /** The height map of a base of the kind "image": a PNG or TIFF file. */
   baseImage?: Bytes | { name: string; bytes: Bytes };
 }
 

@@ -16,7 +16,8 @@ function call(engine, name, request = {}) {
   }
 }
 
-// Makes a call with progress. Cancels it as soon as the signal is aborted or the callback returns false.
+// Calls the engine and reports the progress. Cancels the call as soon as the signal is aborted or the callback returns
+// false.
 function watchedCall(engine, name, request, { progress, signal } = {}) {
   signal?.throwIfAborted();
   engine.progress = (stage, fraction) => progress?.(stage, fraction) !== false && !signal?.aborted;
@@ -78,12 +79,12 @@ export class Relief {
     return { width: json.width, height: json.height, mmPerPixel: json.mm_per_pixel, heights: new Float32Array(bytes.buffer) };
   }
 
-  // Returns x, y and z of each corner, in millimetres.
+  // Returns x, y and z of each vertex, in millimetres.
   get vertices() {
     return new Float64Array(call(this.#engine, "vertices", { relief: this.#number }).bytes.buffer);
   }
 
-  // Returns the three corners of each triangle.
+  // Returns the indices of the three vertices of each triangle.
   get faces() {
     return new Uint32Array(call(this.#engine, "faces", { relief: this.#number }).bytes.buffer);
   }
@@ -117,7 +118,7 @@ export class Frame {
     return new Float32Array(call(this.#engine, "frame_heights", { frame: this.#number }).bytes.buffer);
   }
 
-  // Returns { width, height, pixels }, four values a pixel, as ImageData takes them.
+  // Returns { width, height, pixels } with four values per pixel, as ImageData takes them.
   picture(session, { width = 800, height = 600, yawDeg = 0, pitchDeg = 0, zoom = 1, material = "plaster", fine = false } = {}) {
     const { json, bytes } = call(this.#engine, "picture", { session, frame: this.#number, width, height, yaw_deg: yawDeg,
       pitch_deg: pitchDeg, zoom, material, is_fine: fine ? 1 : 0 });
@@ -141,7 +142,7 @@ export class Session {
     this.triangleCount = json.triangles;
   }
 
-  // Prepares a scan. Options of the view and of reading must be given here.
+  // Prepares a scan. The options of the view and those of reading must be given here.
   static async open(source, options = {}) {
     const { engine, request } = await engineWith(source, options);
     return new Session(engine, watchedCall(engine, "open", request, options).json);
@@ -160,7 +161,7 @@ export class Session {
     return new Relief(this.#engine, watchedCall(this.#engine, "session_make", request, options).json);
   }
 
-  // Returns the points of the surface, x, y and z each, and its triangles.
+  // These return x, y and z of each point of the surface, and three indices for each triangle.
   get points() {
     return new Float64Array(call(this.#engine, "surface_points", { session: this.#number }).bytes.buffer);
   }

@@ -11,7 +11,7 @@ const OF_THE_CALL = new Set(["progress", "signal", "camera", "baseImage", "strea
 const isBytes = (source) => source instanceof ArrayBuffer || ArrayBuffer.isView(source);
 const isReadable = (source) => typeof source?.read === "function";
 
-// Returns a name for a file, as readers recognise some formats only by the name.
+// Returns a name for a file from its first bytes, as readers recognise some formats only by the name.
 function guessName(bytes) {
   const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(8, bytes.byteLength)));
   const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"],
@@ -20,7 +20,7 @@ function guessName(bytes) {
   return known.find(([mark]) => head.startsWith(mark))?.[1] ?? "scan.stl";
 }
 
-// Returns [[name, source], ...] of bytes, arrays, or an object of names and bytes.
+// Returns [[name, source], ...] for bytes, arrays, or an object of names and bytes.
 export function filesOf(source, name) {
   if (isBytes(source)) return [[name ?? guessName(source), source]];
   if (isReadable(source)) return [[name ?? source.name ?? "scan.ply", source]];
@@ -32,8 +32,8 @@ export function filesOf(source, name) {
   return files;
 }
 
-// Returns the files that are models, without files that others refer to: materials, buffers, textures, models of a
-// scene.
+// Returns the files that are models. Leaves out files that others refer to: materials, buffers, textures, and the
+// models of a scene.
 export function modelsOf(files) {
   const names = files.map(([name]) => name);
   const ending = (name) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
@@ -43,7 +43,7 @@ export function modelsOf(files) {
   return names.filter((name) => !beside.has(ending(name)));
 }
 
-// Returns the request for a user's options. Throws for unknown names.
+// Returns the request for a user's options. Throws for unknown option names.
 export function requestOf(options = {}) {
   const request = { options: {} };
   for (const [keyword, value] of Object.entries(options)) {

@@ -8,14 +8,14 @@ export class WorkerJobs {
   #waiting = new Map();
   #last = 0;
 
-  // `start` takes a function for messages and one for errors, and returns { post, end, rest }; rest() is called when no job
-  // is left.
+  // `start` takes a function for messages and one for errors. It returns { post, end, rest }; rest() is called when no
+  // job is left.
   constructor(start) {
     this.#start = start;
   }
 
-  // Makes a relief. `results` names the results to send back: { solids: ["stl"], heightMap: { size }, preview: { size }
-  // }.
+  // Makes a relief. `results` names the results to send back:
+  // { solids: ["stl"], heightMap: { size }, preview: { size } }.
   make(source, { progress, signal, ...options } = {}, results = {}) {
     return this.#send({ job: "make", source, options, results }, progress, signal);
   }
@@ -24,7 +24,7 @@ export class WorkerJobs {
     return this.#send({ job: "sample", name, options });
   }
 
-  // Ends the worker; its unfinished work is lost.
+  // Ends the worker. All unfinished jobs fail with `reason`.
   terminate(reason = new RelievoError({ kind: "cancelled", expected: "cancelled" })) {
     this.#worker?.end();
     this.#worker = null;

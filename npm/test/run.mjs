@@ -1,4 +1,4 @@
-// Runs a program in WebAssembly: run.mjs PROGRAM. Its output is passed on; it can read no files.
+// Runs a program in WebAssembly: run.mjs PROGRAM. Passes its output on. The program can read no files.
 import fs from "node:fs";
 import { wasi } from "../src/files.js";
 
@@ -15,7 +15,7 @@ system.proc_exit = (code) => { throw new Exit(code); };
 const host = { fail: () => { throw new Error("the program threw an exception, or its memory was not enough"); } };
 const known = { wasi_snapshot_preview1: system, relievo: host };
 const module = await WebAssembly.compile(fs.readFileSync(process.argv[2]));
-for (const { module: from, name } of WebAssembly.Module.imports(module)) known[from][name] ??= () => 52; // not supported
+for (const { module: from, name } of WebAssembly.Module.imports(module)) known[from][name] ??= () => 52; // unsupported
 instance = await WebAssembly.instantiate(module, known);
 try {
   instance.exports._start();
