@@ -35,7 +35,7 @@ struct BatchArguments : MakeOptions {
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::Workshop workshop;
-  std::vector<std::string> skipped = {};  // files of the folder that are no job's scan
+  std::vector<std::string> skipped = {};  // files of the folder that no job reads as its scan
 };
 
 // ------------------------------------------------------------------------------------------------- options
@@ -55,7 +55,7 @@ const std::set<std::string>& shared_options() {
   return names;
 }
 
-// Returns the shared options that were given, as they were typed.
+// Returns the shared options that the user gave, with their values as typed.
 batch::Options given_options(const CLI::App& command) {
   batch::Options options;
   for (const std::string& name : shared_options()) {
@@ -104,7 +104,8 @@ Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
 
 Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& command) {
   if (arguments.input.empty()) return option_error("input", "expected a folder or a table, found none");
-  // Values for all scans are checked at once; a wrong value in a row fails with its scan.
+  // The options for all scans are checked here, before the first job. A wrong option in a row of the table
+  // makes only that row's job fail.
   RELIEVO_CHECK(parse_options(arguments.order.values));
   RELIEVO_CHECK(parse_unit(arguments.units));
   BatchOrder order;
@@ -134,7 +135,7 @@ std::vector<batch::Work> works_of(const std::vector<batch::Job>& jobs, const Bat
   return works;
 }
 
-// Returns an error unless all jobs are made; if they are, prints how many.
+// Returns an error if a job has failed or is not done yet. Otherwise prints the number of reliefs.
 Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::Workshop& workshop, bool is_quiet,
                        const std::string& page) {
   const batch::Summary sum = batch::summary_of(jobs, batch::read_journals(workshop.outputs));
@@ -165,7 +166,7 @@ Result<void> finish_run(const BatchOrder& order, bool is_quiet) {
                    (fs::path(order.workshop.outputs) / "index.html").string());
 }
 
-// Prints a line for each job, which --job can read on another machine.
+// Prints one line per job. With such a line, `--job` does the job on another machine.
 Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   for (const batch::Work& work : works_of(order.jobs, arguments, order.workshop)) {
     nlohmann::json json = to_json(work.job);
@@ -176,8 +177,9 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// Returns the record of a job that was made after the list was printed. A worker may die while its process
-// goes on with the job, or before it reports the finished job; then another worker gets the same job.
+// Returns the job's record if the job was done after list() printed its line; nothing if its first output is
+// missing or it has no record. This happens when a Dask worker (python/relievo/batch.py) dies while its
+// program goes on, or before it reports the finished job: another worker then gets the same job.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::Workshop& workshop) {
   const std::string output = batch::output_name(job, workshop.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(workshop.outputs) / output, ignored)) return std::nullopt;
@@ -186,7 +188,7 @@ std::optional<batch::Record> made_since_listed(const batch::Job& job, const batc
   return found == records.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Does the job of a line that list() has printed, and prints its record.
+// Does the job that a line of list() describes, and prints the job's record.
 Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& workshop,
                              const batch::Journal& journal) {
   const auto json = nlohmann::json::parse(listed, nullptr, false);
@@ -202,8 +204,7 @@ Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& w
   nlohmann::json line = to_json(end.record);
   line["is_kept"] = end.is_kept;
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  // Each line is flushed, so that the program ends after the present job if nobody reads its records any
-  // more.
+  // Each line is flushed. If nobody reads the records any more, the program notices it here and ends.
   if (std::fflush(stdout) != 0)
     return system_error(ErrorKind::output, work.job.name, "expected a reader of records");
   return end.record;

@@ -44,7 +44,7 @@ struct BenchResult {
   std::optional<ViewFigures> views;
 };
 
-// Prepares a model of that mode and measures its frames, first with one thread, then with all.
+// Prepares a model of the given mode and measures its frames, first with one thread, then with all.
 Result<void> measure_mode(const Surface& surface, Mode mode, int frames, BenchResult& result) {
   const std::string name = mode == Mode::exact ? "exact" : "subspace";
   Progress progress;

@@ -28,7 +28,8 @@ std::vector<std::string> words_of(const std::string& command, const std::string&
   return {option->choices.begin(), option->choices.end()};
 }
 
-// A path is named by its ending ("P.png") or by a word for files and folders.
+// Returns whether a flag's placeholder stands for a path: it then has an ending ("P.png") or is a word for a
+// file or a folder.
 bool is_path(const std::string& value) {
   const std::size_t dot = value.find('.');
   return value == "INPUT" || value == "OUT" || value == "DIR" || value == "FX,FY,CX,CY" ||

@@ -11,7 +11,7 @@ namespace relievo::app::cli {
 struct FlagInfo {
   std::string name;                // "--height"; "input" for an argument that stands by itself
   std::string short_name;          // "-o"; may be empty
-  std::string value;               // "MM"; empty if it takes none
+  std::string value;               // "MM"; empty if the flag takes no value
   std::string help;                // includes range and default
   std::vector<std::string> words;  // possible values, or their beginnings; empty if any value is possible
   bool is_argument = false, is_path = false, can_repeat = false, is_required = false;
@@ -22,10 +22,10 @@ struct CommandInfo {
   std::vector<FlagInfo> flags;  // in the order of the help
 };
 
-// Returns the commands that the help names, in its order.
+// Returns the commands that the help names, in the order of the help.
 std::vector<CommandInfo> command_table(const CLI::App& program);
 
-// Returns the man page of the program, and that of a command, in roff.
+// Return the man pages of the program and of one of its commands, in roff.
 std::string program_man_page(const std::vector<CommandInfo>& commands);
 std::string command_man_page(const CommandInfo& command);
 

@@ -1,5 +1,5 @@
-// The subcommands. Each function adds its subcommand, which leaves its outcome in `result` when the user
-// chooses it.
+// Each function adds one subcommand to the program. If the user chooses it, it leaves its outcome in
+// `result`.
 #pragma once
 
 #include <CLI/CLI.hpp>

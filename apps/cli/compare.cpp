@@ -29,8 +29,8 @@ struct CompareArguments {
   bool is_json = false, is_quiet = false;
 };
 
-// The width of the reliefs in pictures and messages; and the longer side of a picture, twice its size on the
-// page, so that it stays sharp when enlarged.
+// Pictures and messages show reliefs of this width. The longer side of a picture has twice as many pixels as
+// on the page, so that the picture stays sharp when it is enlarged.
 constexpr double width_mm = 100;
 constexpr int longer_side_px = 512;
 
@@ -59,8 +59,7 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Draws the model without shadows and dark hollows, as they would cover the ground because of its full
-  // depth.
+  // Draws the model without shadows and dark hollows: at the model's full depth they would cover the ground.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {

@@ -1,4 +1,4 @@
-// The page of `compare`: pictures of a model and of reliefs of it, with their measures.
+// Writes the page of `compare`: pictures of a model and of its reliefs, with the measures of each relief.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct ComparedRelief {
   Method method;
   double height = 0;  // as a fraction of the width
   Measures measures;
-  Image8 picture;  // empty, like the model's picture, unless a page is wanted
+  Image8 picture;  // empty if no page is wanted, as is Comparison::model
 };
 
 struct Comparison {

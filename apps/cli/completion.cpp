@@ -20,7 +20,7 @@ std::string escaped(std::string_view text, std::string_view characters) {
   return out;
 }
 
-// Returns the first clause of a help text, which fits beside the flag.
+// Returns the first clause of a help text, which is short enough to stand beside the flag.
 std::string brief(const std::string& help) {
   return help.substr(0, std::min({help.find("; "), help.find(" ["), help.find(": "), help.find(", ")}));
 }

@@ -1,4 +1,4 @@
-// Command-line flags from the rows of the table of options.
+// Adds flags to a command, from the rows of the table of options.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,8 @@ namespace relievo::app::cli {
 // Returns the help of an option with its range and its default, except for defaults that CLI11 shows itself.
 std::string flag_help(const OptionRow& option);
 
-// Adds one flag for each row that is wanted. Given values go to `values`, which must outlive the command.
+// Adds one flag for each row for which is_wanted() is true. The values that the user gives go to `values`,
+// which must outlive the command.
 void add_flags(CLI::App& command, OptionValues& values,
                const std::function<bool(const OptionRow&)>& is_wanted,
                const std::function<std::string(const OptionRow&)>& help = flag_help);

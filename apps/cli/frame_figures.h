@@ -1,5 +1,5 @@
-// Measured times and memory of frames and of views, which a user waits for who turns a scan, and those that the paper
-// printed.
+// Measures the times and the memory of frames, and of views that a user waits for while turning a scan.
+// Prints them beside the times in the paper.
 #pragma once
 
 #include <array>
@@ -35,15 +35,15 @@ struct FrameRun {
   Style style = Style::layered;
 };
 
-// Makes frames as if a user dragged a slider: that of the detail or, with a locked height, that of the
-// saturation.
+// Makes frames as if a user dragged a slider: the slider of the detail or, with a locked height, the slider
+// of the saturation.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
 // Returns the memory of a model and its frame maker, in bytes per visible point.
 double bytes_per_point(const ReliefModel& model);
 
-// A line of the paper's Table 1: six cores, milliseconds. The paper works on t1 to t3 of three frames at
-// once.
+// A line of the paper's Table 1: times in milliseconds on six cores. In the paper, t1, t2 and t3 of three
+// frames run at the same time.
 struct PaperRow {
   const char* model;
   int visible_points, control_points, t1, t2, t3;
@@ -67,14 +67,14 @@ inline constexpr std::array<PaperRow, 15> paper_table_1{{
     {"buddha", 173336, 7314, 17, 26, 11, 38.35},
 }};
 
-// Print the lines of a table like the paper's: the head, a measured line, and the paper's own lines.
+// Print a table like the paper's: its head, a line of measured times, and the lines that the paper printed.
 void print_frame_head();
 void print_frames(const FrameFigures& figures, std::size_t visible_points);
 void print_paper_rows();
 
 struct ViewRun {
   std::shared_ptr<const Cloud> cloud;
-  View view;  // the first
+  View view;  // the first view
   Mode mode = Mode::automatic;
   int views = 5;
 };
@@ -88,11 +88,12 @@ struct ViewSeries {
 struct ViewFigures {
   double first_ms = 0;         // from points in memory to the first frame of the first view
   double first_turned_ms = 0;  // from the first view to the first frame of a coarse relief
-  ViewSeries turned;           // coarse reliefs with a frame of each
-  ViewSeries prepared;         // other views with their first frames
+  ViewSeries turned;           // coarse reliefs of turned views, with a frame of each
+  ViewSeries prepared;         // other views, each prepared in full, with a frame of each
 };
 
-// Opens the cloud in a session and turns it about the upright axis. Errors: those of preparations.
+// Opens the cloud in a session and turns it about the upright axis. Errors: those of Session::turn() and of
+// the session's preparations.
 Result<ViewFigures> measure_views(const ViewRun& run);
 
 void print_views(const ViewFigures& figures);

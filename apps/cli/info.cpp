@@ -81,7 +81,7 @@ std::string points_text(const CloudFile& file) {
   return text;
 }
 
-// Prints the place of each model of a scene, seen from the front.
+// Prints where each model of a scene is, as seen from the front.
 Result<void> scene_info(const std::vector<std::string>& inputs) {
   RELIEVO_TRY(const Scene scene, read_scene(inputs, {}, {}, nullptr));
   RELIEVO_TRY(const std::vector<PlacedModel> places, place_models(scene, View{}));

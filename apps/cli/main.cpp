@@ -10,7 +10,7 @@
 
 namespace {
 
-// Returns whether all printed text was written; on a full disk it is not.
+// Returns whether all printed text has been written. On a full disk it cannot be.
 bool is_printed() {
   return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }

@@ -1,4 +1,4 @@
-// The options of `make`, which `batch` has, too: for all scans, and as columns of its table.
+// The options of `make`. `batch` has them, too: as flags for all scans, and as columns of its table.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -38,8 +38,8 @@ void end_process() {
   ::_exit(1);
 }
 
-// Not all allocations call the handler of operator new. The others throw, and an exception that leaves a
-// thread gets here through std::terminate().
+// Some allocations do not call the handler of operator new but throw std::bad_alloc. If that exception leaves
+// a thread, std::terminate() calls this function.
 void end_process_or_abort() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);

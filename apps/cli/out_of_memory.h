@@ -3,8 +3,9 @@
 
 namespace relievo::app::cli {
 
-// From now on the process ends in order when an allocation fails, in whatever thread: it removes its temporary files,
-// prints one line that says how much memory was in use, and exits with code 1. Exceptions could not leave threads.
+// From now on, if an allocation fails in any thread, the process removes its temporary files, prints one line
+// that says how much memory was in use, and exits with code 1. An exception would not do, as it cannot leave
+// its thread.
 void exit_when_out_of_memory();
 
 }  // namespace relievo::app::cli

@@ -44,7 +44,8 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   std::string nearest;
   std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
   const auto consider = [&](const std::string& name) {
-    // Users who type "--out" mean --output, though --up has fewer letters that differ.
+    // If the user typed the beginning of a name, its distance counts as 1: "--out" means --output, although
+    // --up has fewer letters that differ.
     const bool is_begun = typed.size() > 3 && name.starts_with(typed);
     if (const std::size_t distance = is_begun ? 1 : edit_distance(typed, name); distance < least)
       least = distance, nearest = name;
@@ -61,7 +62,8 @@ std::string found_name(const CLI::App& app, const std::string& typed) {
   return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));
 }
 
-// Returns the first option that CLI11 does not know, or the first such word if none begins with a dash.
+// Returns the first option that CLI11 does not know. If only words without dashes are unknown, returns the
+// first of these.
 std::string first_unknown(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });

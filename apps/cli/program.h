@@ -1,4 +1,4 @@
-// The whole program as a function of its arguments.
+// Runs the whole program as a function of its arguments.
 #pragma once
 
 #include <string>

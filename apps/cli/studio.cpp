@@ -31,8 +31,9 @@ void show(const std::string& address) {
   }).detach();
 }
 
-// Returns the ssh command that makes the address reachable from the machine from which the user has logged in
-// here; "" without ssh. SSH_CONNECTION has the address and the port of that machine, then those of this one.
+// Returns the ssh command that the user can run on their own machine to reach the address here; "" if the
+// user is not logged in by ssh. SSH_CONNECTION has the address and the port of the user's machine, then those
+// of this machine.
 std::string tunnel_command(const std::string& address) {
   std::istringstream connection(environment_variable("SSH_CONNECTION"));
   std::string word, host, host_port;

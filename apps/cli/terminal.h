@@ -12,8 +12,8 @@ namespace relievo::app::cli {
 // the end.
 Progress::Watcher progress_bar(bool is_quiet);
 
-// Returns the text with '?' for control characters, which names and words from files may contain: it stays on
-// one line and cannot command the terminal. Letters in UTF-8 are kept.
+// Returns the text with '?' in place of control characters, which names and words from files may contain. So
+// the text stays on one line and cannot command the terminal. Letters in UTF-8 are kept.
 std::string on_one_line(std::string_view text);
 
 }  // namespace relievo::app::cli

@@ -1,4 +1,4 @@
-// Times of views as a user turns a scan.
+// Measures the times of views as if a user turned a scan.
 #include <unistd.h>
 
 #include <Eigen/Geometry>
@@ -58,7 +58,7 @@ Result<void> turn(Session& session, const View& view) {
   return {};
 }
 
-// Returns the memory that the process has in use; 0 where it is not known.
+// Returns the memory that the process uses now, in MiB; 0 where the system does not state it.
 double resident_mib() {
   long pages = 0;
   std::ifstream("/proc/self/statm").ignore(std::numeric_limits<std::streamsize>::max(), ' ') >> pages;
