@@ -35,8 +35,8 @@ std::string not_unpacked(const zip_stat_t& file, int code) {
   return cat("expected a whole file, found ", found, "; get the archive anew");
 }
 
-// Returns whether the file is a model. Licences, textures and previews often lie beside models and do not
-// count.
+// Returns whether the file is a model and not a licence, a texture or a preview, which often lie beside
+// models.
 bool is_model(const std::string& name) {
   constexpr std::array beside_models = {"txt", "csv", "png", "tif", "tiff"};
   const std::string ending = ending_of(name);
@@ -82,8 +82,8 @@ Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
   const ArchiveEntry entry(stat.size > most_unpacked ? nullptr : zip_fopen_index(zip_.get(), index, 0));
   if (!entry) return fail(zip_get_error(zip_.get()));
   std::vector<std::byte> bytes;
-  // Reads in blocks, as a damaged archive may state any size. The last read, of no bytes, compares the
-  // checksum.
+  // Reads in blocks, as a damaged archive may state any size. At the end of the file libzip reads no bytes,
+  // but compares the checksum.
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t filled = 0; bytes.size() <= stat.size;) {
     bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));

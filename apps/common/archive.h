@@ -34,12 +34,12 @@ class Archive {
   std::unique_ptr<zip, Discard> zip_;
 };
 
-// Returns whether the bytes begin like those of an archive that contains a file.
+// Returns whether the bytes begin like a ZIP archive with at least one file.
 bool is_archive(std::span<const std::byte> bytes);
 
-// Returns the name of the one model among the files of an archive, called `archive` in errors: the file with
-// an ending that some reader supports, texts and pictures not counted. Errors: kind input if there are none
-// or several.
+// Returns the name of the only model among the files of an archive. A model is a file whose ending some
+// reader supports; texts and pictures do not count. Errors call the archive `archive`: kind input if it has
+// no model or several.
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive);
 
 }  // namespace relievo::app

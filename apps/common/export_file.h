@@ -46,7 +46,7 @@ struct ExportOrder {
   Material material = Material::plaster;  // material of the picture
 };
 
-// Returns the relief as a file of that format, the bytes that `relievo make` writes if the material is plaster.
+// Returns the relief as a file of that format. With plaster these are the bytes that `relievo make` writes.
 ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order);
 
 struct HeightMapOrder {
@@ -55,12 +55,13 @@ struct HeightMapOrder {
   LengthUnit unit = LengthUnit::mm;
 };
 
-// Returns the picture of a relief: a lithophane in front of a lamp unless a material other than plaster is
-// given, a relief on the inside of a wrap unrolled and cut open.
+// Returns the picture of a relief. A lithophane is lit by a lamp behind it unless a material other than
+// plaster is given. If the relief is on the inside of a wrap, the front view shows it unrolled; the oblique
+// view cuts a wrap of more than half a turn open.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
-// Returns the height map as a file, with its scale. A plate that was bent around a wrap is shown flat, for
-// machines that turn the stock.
+// Returns the height map as a file that also states its scale. A plate that was bent around a wrap is shown
+// flat, for machines that turn the stock.
 std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
 }  // namespace relievo::app

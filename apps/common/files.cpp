@@ -39,7 +39,7 @@ std::size_t most_bytes() {
 // Reads to the end of the file. For pipes and for files that grow, `size` is only a first guess.
 Result<std::vector<std::byte>> read_all(const Descriptor& file, std::size_t size, const std::string& path) {
   const std::size_t most = most_bytes();
-  // One byte more than the size, so that the end is found without a larger buffer.
+  // The buffer has one byte more than the file, so that the end is found without a larger buffer.
   std::vector<std::byte> bytes(size > most ? 0 : std::max<std::size_t>(size + 1, 1 << 16));
   for (std::size_t filled = 0; size <= most && filled <= most;) {
     if (filled == bytes.size()) bytes.resize(bytes.size() * 2);

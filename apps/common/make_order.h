@@ -1,4 +1,4 @@
-// Orders for reliefs as the command line, Python and WebAssembly give them, and the reliefs made from them.
+// Makes reliefs from the orders that the command line, Python and WebAssembly give.
 #pragma once
 
 #include <functional>
@@ -31,10 +31,11 @@ struct MakeOrder {
   std::string name = {};
 };
 
-// Returns the options as values, those of a project included. Errors: those of parse_options() and take_base_image().
+// Parses the options of an order and, if there is one, of its project. Errors: those of parse_options() and
+// take_base_image().
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& project);
 
-// An order with its options as values, and with its project if the input is one.
+// An order whose options are parsed, with its project if the input is one.
 struct CheckedOrder : MakeOrder {
   std::optional<StoredProject> project;
   ReliefOptions options;
@@ -67,7 +68,7 @@ InputFacts facts_of(const LoadedOrder& loaded);
 // Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in the scene.
 nlohmann::json models_report(const Scene& scene, const View& view);
 
-// A relief that was made, and all that its files and its report need.
+// A finished relief, with all that its files and its report need.
 struct FinishedRelief {
   MadeRelief made;
   InputFacts inputs;
@@ -80,17 +81,18 @@ struct FinishedRelief {
   // Returns the remarks on the inputs and on the relief.
   std::vector<std::string> remarks() const;
 
-  // Returns the report, which has millimetres, on a relief with files in that unit.
+  // Returns the report, in millimetres. `unit` is the unit of the relief's files.
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 
-// Makes the relief; end() is left to the caller. Errors: those of make_relief(), naming the inputs.
+// Makes the relief; the caller must call end(). Errors: those of make_relief(), which name the inputs.
 Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress);
 
 // Calls check_order(), load() and make() in turn. Errors: those of all.
 Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress);
 
-// Returns how to draw a relief. Errors: kind option for a size not in [1, 5461] and for unknown materials.
+// Returns options for drawing a relief. Errors: kind option for a size not in [1, 5461] and for unknown
+// materials.
 Result<PreviewOptions> preview_options(int longer_side_px, std::string_view material);
 
 }  // namespace relievo::app

@@ -7,7 +7,8 @@
 namespace relievo::app {
 namespace {
 
-// Small enough to be placed among other small allocations, which can use its memory once it is freed.
+// The reserve is small enough to lie among other small allocations, which can use its memory once it is
+// freed.
 constexpr std::size_t reserve_bytes = 64U << 10;
 
 std::atomic<void*> reserve = nullptr;

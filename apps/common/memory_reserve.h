@@ -4,12 +4,11 @@
 
 namespace relievo::app {
 
-// From now on an allocation by operator new that fails is tried again after the reserve was freed, and throws
-// std::bad_alloc if it fails again. Does nothing if the process already has a handler, as a process of Python
-// may.
+// From now on, if operator new finds no memory, it frees the reserve and tries again. If that fails, too, it
+// throws std::bad_alloc. Does nothing if the process already has a handler, as a process of Python may.
 void keep_memory_in_reserve();
 
-// Takes a new reserve if the last one was freed and there is memory for it again. May be called from any thread.
+// Allocates the reserve again if it was freed and there is memory for it. May be called from any thread.
 void refill_memory_reserve();
 
 }  // namespace relievo::app

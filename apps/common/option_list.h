@@ -1,4 +1,4 @@
-// The table of options for the page, the README and the packages.
+// Lists the options of the table for the page, the README and the packages.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,20 +11,21 @@ namespace relievo::app {
 // Returns the default as a text for users: "5", "0.04 with method layered, 0.02 with method paper".
 std::string default_text(const OptionRow& option);
 
-// Returns the help, with the range of a number or the words that may stand there.
+// Returns the help, with the range of a number or the words that the option takes.
 std::string help_text(const OptionRow& option);
 
-// Returns a list of objects with name, unit, help and stage; those of numbers also with min and max, those of
-// enumerations with choices. `default` is present if the option has a default: its value or, where methods
-// differ, an object of method names and values. `default_with` has the defaults that replace it with a form,
-// by the form's name, or with a diameter. `in_studio` and `is_stated` are those of OptionRow. The options of
-// depth images are left out.
+// Returns a list of objects with name, unit, help and stage; numbers also have min and max, and enumerations
+// choices. `default` is there if the option has a default: its value or, where methods differ, an object of
+// method names and values. `default_with` has the defaults that replace it: with a form, under the form's
+// name, and with a diameter, under "diameter". `in_studio` and `is_stated` are those of OptionRow. The
+// options of depth images are left out.
 nlohmann::json option_list();
 
 // Returns the name of an option as an argument of a function, with its unit: "height_mm".
 std::string keyword_of(const OptionRow& option);
 
-// Returns all rows as option_list() does, those of depth images, too, each with its keyword and default_text.
+// Returns all rows as option_list() does, with its keyword and default_text for each. The options of depth
+// images are included.
 nlohmann::json keyword_list();
 
 // Returns the rows of the README's table.

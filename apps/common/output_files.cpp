@@ -15,8 +15,8 @@
 namespace relievo::app {
 namespace {
 
-// Returns the file to which a symbolic link leads, so that the link stays; the path itself if it is not a
-// link.
+// Returns the file to which a symbolic link leads, so that the link itself is not replaced. Returns other
+// paths unchanged.
 std::string without_link(const std::string& path) {
   std::error_code failed;
   if (!std::filesystem::is_symlink(path, failed)) return path;

@@ -11,9 +11,10 @@
 
 namespace relievo::app {
 
-// Checks the path of an output before the work for it begins. Errors: kind option if it has none of the endings,
-// given as ".stl" (any will do if there are none), or leads to one of the files in `taken`; kind output if no file
-// could be written there: folder missing or read-only, or the path is a folder or a device.
+// Checks the path of an output before the work for it begins. Errors: kind option if the path has none of the
+// endings, such as ".stl" (without endings, any will do), or leads to one of the files in `taken`; kind
+// output if no file can be written there: the folder is missing or read-only, or the path is a folder or a
+// device.
 Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
                           std::span<const std::string> taken = {});
 
@@ -23,9 +24,9 @@ struct OutputFile {
   std::vector<std::byte> bytes;
 };
 
-// Writes all files without names, or under temporary ones, and gives them their names when all are complete.
-// Readers see an old file or the whole new one. If one file cannot be written, all stay as they were. Errors:
-// kind output.
+// Writes each file first without a name or, where that is not possible, under a temporary name. When all are
+// complete, each gets its own name. So readers see an old file or the whole new one. If one file cannot be
+// written completely, all stay as they were. Errors: kind output.
 Result<void> write_files(std::span<const OutputFile> files);
 
 }  // namespace relievo::app

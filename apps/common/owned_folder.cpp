@@ -49,7 +49,7 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
   });
 }
 
-// Marks a folder, which may have any files. Returns owned or unusable.
+// Marks a folder, whatever files it has. Returns owned or unusable.
 Ownership mark_folder(const std::string& folder, std::string_view owner) {
   const std::string path = mark_in(folder).string(), text = mark_of(owner);
   TemporaryFile mark(path);

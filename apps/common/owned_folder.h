@@ -13,8 +13,8 @@ enum class Ownership {
   unusable,   // it cannot be read, made or written to; errno has the reason
 };
 
-// Returns who owns the folder. Nothing changes. A folder belongs to the owner, such as "studio", only if it
-// has the mark that own_folder() writes.
+// Returns who owns the folder, and changes nothing. A folder belongs to the owner, such as "studio", only if
+// it has the mark that own_folder() writes.
 Ownership ownership_of(const std::string& folder, std::string_view owner);
 
 // Makes a folder with the permissions of `mode` if it is missing, and marks it if it is free. Returns owned

@@ -1,4 +1,4 @@
-// A model that is prepared once, and its frames and reliefs, for Python and WebAssembly.
+// Prepares a model once and makes many frames and reliefs of it, for Python and WebAssembly.
 #pragma once
 
 #include <memory>

@@ -82,7 +82,8 @@ std::string base_image_path_in(const Json& options) {
 
 namespace {
 
-// Returns the options that are in the table, without the height map of a base, which is not.
+// Returns the options of the object. The height map of a base is left out, as the table of options does not
+// have it.
 Result<OptionValues> values_without_image(Json json, std::string_view name) {
   if (!base_image_path_in(json).empty()) json.erase(base_image_name);
   return values_from_json(json, name);

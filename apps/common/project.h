@@ -1,4 +1,5 @@
-// Project files: a relief as work in progress, in JSON. The studio saves and opens them, `make` makes them.
+// Project files: a relief as work in progress, in JSON. The studio saves and opens them; `make` makes their
+// reliefs.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +32,13 @@ struct Project {
   Result<std::shared_ptr<const Image<float>>> base_image = nullptr;
 };
 
-// Returns a project from the bytes of its file, called `name` in errors. Unknown options are errors, so that
-// none is ignored silently; parse_options() checks the values. Other entries of the file belong to the
+// Returns a project from the bytes of its file, called `name` in errors. An unknown option is an error, so
+// that it is not ignored silently; parse_options() checks the values. Other entries of the file belong to the
 // studio. Errors: kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options of a project, in which those that the user gave replace its own. A given alpha replaces the height,
-// too.
+// Returns a project's own options, with the given ones in place of those of the same name. A given alpha also
+// removes the project's height and method.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
 // Returns the values of all options that have one, given or by default.
@@ -50,20 +51,20 @@ std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 // that are not in the table and values of another type; messages call the object `name`.
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
-// Returns the options of such an object, parsed by parse_options(), with the height map at the path
-// "base-image". Errors: also those of parse_options(), read_base_image() and take_base_image().
+// Returns the parsed options of an object that to_json() made, with the height map at the path "base-image".
+// Errors: those of values_from_json(), parse_options(), read_base_image() and take_base_image().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
 // Returns the path "base-image" of an object with options; empty if it has none.
 std::string base_image_path_in(const nlohmann::json& options);
 
-// Returns whether both name the same sample or file, even if its content has changed.
+// Returns whether both name the same sample or the same file, even if the file's content has changed.
 bool is_same(const ScanSource& a, const ScanSource& b);
 
 nlohmann::json to_json(const ScanSource& input);
 Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
-// Detects changed files by 64 bits of FNV-1a. It does not protect against intent.
+// Detects changed files by 64 bits of FNV-1a. A file can be changed on purpose without changing its hash.
 class FileHash {
  public:
   void append(std::string_view bytes);
@@ -77,14 +78,14 @@ std::string hash_of(std::string_view bytes);
 // Returns the hash of a file's bytes, which are read in blocks. Errors: kind input.
 Result<std::string> hash_of_file(const std::string& path);
 
-// Returns the model of a scan's bytes, or the models of a scene file; the ending of `path` determines the
-// format, its folder the place of files that the scan names. Otherwise like load_input().
+// Returns the model in a scan's bytes, or the models of a scene file. The ending of `path` determines the
+// format. Files that the scan names are looked for in the folder of `path`. Otherwise like load_input().
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
                         const std::function<bool()>& is_unwanted = {});
 
-// Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
-// path starts at `folder`. Errors: kind input, also if the file does not have that hash; kind option for an
-// unknown sample; kind cancelled as soon as `is_unwanted` returns true.
+// Returns the model of the input, or the models of a scene file. Sets the input's hash if it has none. A
+// relative path starts at `folder`. Errors: kind input, also if the file has another hash than the input;
+// kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
 Result<Scene> load_input(ScanSource& input, const std::string& folder,
                          const std::function<bool()>& is_unwanted = {});
 

@@ -1,4 +1,4 @@
-// Project files on disk: JSON alone, or a ZIP archive of the JSON and the scan. Tested by
+// Reads and writes project files: only JSON, or a ZIP archive of the JSON and the scan. Tested by
 // apps/studio/tests/documents.test.mjs and python/tests/test_make.py.
 #pragma once
 
@@ -23,15 +23,15 @@ struct PackedFile {
 
 struct ProjectFile {
   std::string text;                                    // see read_project()
-  std::shared_ptr<const PackedFile> scan, base_image;  // null if the project only names them, or has none
+  std::shared_ptr<const PackedFile> scan, base_image;  // null if the project only names the file, or has none
 };
 
 // Unpacks a project file, called `name` in errors. Errors: kind input, also for an archive without a project,
 // or of more than 4 GiB.
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name);
 
-// Returns a project file with the scan and, unless it is null, the height map of the base, compressed. Errors: kind output
-// if the memory is not enough.
+// Returns the bytes of a compressed project file with the scan and, unless it is null, the height map of the
+// base. Errors: kind output if the memory is not enough.
 Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedFile& scan,
                                             const PackedFile* base_image);
 
@@ -43,14 +43,14 @@ struct StoredProject {
   std::string located;                       // path of the scan that the user gives instead; may be empty
 };
 
-// Returns the project if the inputs are a single project file; nothing otherwise. `located` is that of
-// StoredProject. Errors: those of read_file(), unpack_project() and read_project(); kind option for a located
-// scan without a project.
+// Returns the project if the inputs are a single project file; nothing otherwise. `located` becomes
+// StoredProject::located. Errors: those of read_file(), unpack_project() and read_project(); kind option if
+// `located` is given without a project.
 Result<std::optional<StoredProject>> find_project(const std::vector<std::string>& inputs,
                                                   const std::string& located);
 
-// Returns the height map of a base: that of the path if one is given, otherwise that of the project where the base is an
-// image. Errors: those of read_base_image().
+// Returns the height map in the file at the given path. If no path is given and the base is an image, returns
+// the project's height map. Null if there is none. Errors: those of read_base_image().
 Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& base,
                                                            const std::string& given_path,
                                                            const std::optional<Project>& project);

@@ -26,7 +26,7 @@ std::string remark_on_missing(const std::string& path, std::uint64_t points) {
   return cat(path, ": the file ends early; ", points, " points that its header promises are missing");
 }
 
-// Returns a sentence about the points of a file that were left out.
+// Returns sentences about the points and normals of a file that were left out.
 std::vector<std::string> remarks_on(const CloudFile& file, const std::string& path) {
   std::vector<std::string> lines;
   if (file.missing_points > 0) lines.push_back(remark_on_missing(path, file.missing_points));
@@ -139,8 +139,8 @@ Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths
   return entries;
 }
 
-// Returns the view of the scene in the frame of a model's file. For a mirrored pose its x axis is reversed,
-// which does not change the points that it sees.
+// Returns the view of the scene in the frame of a model's file. For a mirrored pose the view's x axis is
+// reversed, which does not change the set of points that the view shows.
 View seen_by_model(const View& view, const Pose& pose) {
   View own{view.R_view_model * turn_of(pose)};
   if (pose.is_mirrored) own.R_view_model.row(0) = -own.R_view_model.row(0);

@@ -1,4 +1,4 @@
-// Reads the inputs of a relief from disk: clouds, meshes, depth images and scenes of them.
+// Reads the inputs of a relief from disk: clouds, meshes, depth images, and scenes that consist of these.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ struct PointsWanted {
   double points = MeshSampling{}.points;
 };
 
-// Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name. The
+// Reads the bytes of a cloud or mesh as read_cloud() does, and the files beside `path` that it names. The
 // bytes may also be a ZIP archive with one cloud or mesh and the files that it names.
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path);
 
@@ -35,7 +35,7 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
-// Reads the model in the bytes of the file at `path`, the ending of which determines the format.
+// Reads the model in the bytes of the file at `path`. The ending of `path` determines the format.
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);
 
@@ -47,8 +47,8 @@ bool is_scene_file(const std::string& path);
 
 // Reads the files of those paths: one or several models, or one scene file (.json). Depth images and very
 // large files are reduced to the points that are `wanted`. Errors: those of read_file(), read_cloud(),
-// stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file among
-// others.
+// stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file together
+// with other files.
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
 

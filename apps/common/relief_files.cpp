@@ -11,8 +11,8 @@
 namespace relievo::app {
 namespace {
 
-// Returns the solid as a file. In inches its coordinates are rounded again, which tilts needle-shaped
-// triangles.
+// Returns the solid as a file. In inches the coordinates are rounded again, which tilts needle-shaped
+// triangles, so the draft angle is enforced again.
 Result<std::vector<std::byte>> solid_file(const ReliefFiles& files, const Solid& solid,
                                           std::optional<double> draft_deg) {
   const auto write = find_solid_format(ending_of(files.solid))->write_solid;

@@ -1,4 +1,4 @@
-// The files of a finished relief, as `relievo make` and Python's save() write them.
+// Prepares the files of a finished relief, which `relievo make` and Python's save() write.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct ReliefFiles {
   LengthUnit unit = LengthUnit::mm;
 };
 
-// Checks, before the work begins, that the outputs have different paths, each of which can be written to.
+// Checks, before the work begins, that the outputs have different paths and that each path can be written to.
 // Errors: those of check_output(); kind option for a picture of the tool if there is no tool.
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
 

@@ -1,4 +1,4 @@
-// Scene files: several models and their poses, in JSON.
+// Reads scene files: several models and their poses, in JSON.
 #pragma once
 
 #include <string>

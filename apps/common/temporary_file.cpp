@@ -56,7 +56,7 @@ class FileChange {
     ::sigemptyset(&signals);
     for (const int signal : ending_signals) ::sigaddset(&signals, signal);
     ::pthread_sigmask(SIG_BLOCK, &signals,
-                      &former_);  // a handler here would wait for itself
+                      &former_);  // a handler in this thread would wait for ever
     ++threads_with_change;
     if (!is_ending) return;
     --threads_with_change;
@@ -95,8 +95,8 @@ std::string folder_for(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// Returns the names of temporary files for that path, without their numbers. The names are no longer than
-// file systems allow.
+// Returns the beginning of the names of temporary files for that path; a number follows it. The names are no
+// longer than file systems allow.
 std::string stem_for(const std::string& path) {
   constexpr std::size_t most =
       NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // digits of numbers
@@ -114,12 +114,12 @@ Descriptor make_nameless(const std::string& folder, unsigned mode) {
   return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
 }
 
-// An attribute of files with temporary names, and of no others: a name alone does not prove that this program
-// made the file.
+// The attribute that marks files with temporary names: a name alone does not prove that this program made the
+// file.
 constexpr const char* mark = "user.relievo.unfinished";
 
-// Marks a file, and locks it for as long as this process has it open. File systems that support neither work,
-// too.
+// Marks a file, and locks it for as long as this process has it open. File systems that do not support this
+// leave the file unmarked or unlocked.
 void mark_unfinished(const Descriptor& file) {
   ::flock(file.number(), LOCK_EX | LOCK_NB);
   ::fsetxattr(file.number(), mark, "", 0, 0);
@@ -156,14 +156,14 @@ bool link_to(const std::string& own, const char* path) {
   return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Replaces the file at `path`, which only a file with a name can do.
+// Replaces the file at `path`. For that the new file first gets a temporary name.
 bool name_in_place(const Descriptor& file, const std::string& own, const std::string& path) {
   const std::string stem = stem_for(path);
   remove_abandoned(stem);
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
-    const FileChange change;  // no memory is allocated meanwhile: if there is none, the process ends in order
+    const FileChange change;  // nothing is allocated here: a failed allocation would wait for this FileChange
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;
@@ -174,7 +174,7 @@ bool name_in_place(const Descriptor& file, const std::string& own, const std::st
   return false;
 }
 
-// Gives a file without a name that path, replacing an existing file. Returns whether it succeeded.
+// Gives a file that has no name the name `path`, and replaces an existing file. Returns whether it succeeded.
 bool name_file(const Descriptor& file, const std::string& path) {
   const std::string own = own_path(file);
   const auto link = [&] {

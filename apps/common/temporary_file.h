@@ -11,11 +11,12 @@ namespace relievo::app {
 
 struct TemporaryName;
 
-// A file in the folder of `path` that keep() moves to its final path, and that is removed otherwise. It has
-// no name until it is kept, so that nothing is left of it even after a crash. Where the file system has no
-// files without names, and while it replaces another file, it has a unique temporary name, and
-// remove_temporary_files() removes it. If a killed process left such a file, the next one for the same path
-// removes it. An attribute identifies it, never its name alone.
+// A file in the folder of `path`. keep() moves it to its final path; without keep() it is removed. Until then
+// it has no name, so that nothing is left of it even after a crash. It has a unique temporary name while it
+// replaces another file, and from the beginning if the file system has no files without names.
+// remove_temporary_files() leaves no file with such a name. If a killed process left one, the next
+// TemporaryFile for the same path removes it. The program recognises them by an attribute, never by the name
+// alone.
 class TemporaryFile {
  public:
   // The file gets the permissions of `mode` that the process's mask allows.
@@ -24,10 +25,11 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile();
 
-  // Errors of all: kind output.
+  // Errors of append(), finish() and keep(): kind output.
   Result<void> append(std::span<const std::byte> bytes);
 
-  // Waits until the disk has all bytes: without that, the file outlives a crash of the program, but not of the machine.
+  // Waits until the disk has all bytes. Without finish() the file outlives a crash of the program, but not of
+  // the machine.
   Result<void> finish();
 
   // Moves the finished file to that path, replacing an existing file.
@@ -36,11 +38,11 @@ class TemporaryFile {
  private:
   std::string path_;
   Descriptor file_;
-  TemporaryName* name_ = nullptr;  // null while the file has none
+  TemporaryName* name_ = nullptr;  // null while the file has no temporary name
 };
 
-// Removes all temporary files of this process that have names, and from then on lets no thread make or keep
-// one. It may be called in a signal handler, before the process ends.
+// Removes all temporary files of this process that have names. From then on no thread can make or keep a
+// temporary file. It may be called in a signal handler, before the process ends.
 void remove_temporary_files();
 
 // From now on Ctrl-C and other signals that end the program remove its temporary files first.

@@ -18,7 +18,8 @@ struct Remark {
   std::string_view option = {}, value = {}, effect = {};
 };
 
-// Return the facts that a user should know. `outliers` is the number of points that were left out before.
+// Return the facts that a user should know. `outliers` is the number of points left out before the scan was
+// prepared.
 std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers = 0);
 std::vector<std::string> remarks_on(const ReliefReport& report);
 
