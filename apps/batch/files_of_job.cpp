@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Adds the file and the files that it names.
+// Adds the file, and the files that it names.
 void add_file(const std::string& path, std::vector<std::string>& files) {
   files.push_back(path);
   const std::string ending = ending_of(path);

@@ -1,4 +1,4 @@
-// The pages at the end of a run. Tested by tests/cli/batch_test.cpp.
+// Writes the pages and the list of records at the end of a run. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ struct Summary {
   std::size_t made = 0, failed = 0, missing = 0;
 };
 
-// Returns how many of the jobs are made, how many failed, and how many nobody has done yet.
+// Returns how many of the jobs are made, how many have failed, and how many have not been done yet.
 Summary summary_of(const std::vector<Job>& jobs, const Records& records);
 
-// Returns groups of made jobs with the same content and options: the names of each group. Jobs without a
-// double are left out.
+// Returns groups of at least two jobs that are made from the same content with the same options: the names of
+// the jobs in each group.
 std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, const Records& records);
 
 // Writes into the folder of the outputs: scans.jsonl, the last record of each job in the order of the jobs;

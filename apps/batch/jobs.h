@@ -1,4 +1,5 @@
-// The scans of a catalogue, each with the options of its relief. Tested by tests/cli/batch_jobs_test.cpp.
+// Lists the scans of a catalogue, each with the options of its relief. Tested by
+// tests/cli/batch_jobs_test.cpp.
 #pragma once
 
 #include <functional>
@@ -27,22 +28,23 @@ struct Catalogue {
   Options common;       // options for scans without values of their own
 };
 
-// Returns the jobs of a folder and the folders in it, in the order of their paths, or of a table (see
-// table.h), row by row. Pictures beside clouds or meshes are taken for textures and left out. A table has the
-// columns `file`, relative to the table; optionally `name`, the name of the outputs; and the options for
-// which is_option() is true. An empty cell stands for the common value. A job without a name is called like
-// its file; the second job of that name gets -2. Errors: kind input if the path cannot be read or there are
-// no scans, if a row has no file, and for names that are not unique or lead out of the folder; kind option
-// for other columns.
+// Returns the jobs of a folder and of the folders in it, in the order of their paths, or the jobs of a table
+// (see table.h), row by row. Pictures beside clouds or meshes are taken for textures and left out. A table
+// has the columns `file`, relative to the table; optionally `name`, the name of the outputs; and the options
+// for which is_option() is true. An empty cell stands for the common value. A job without a name is called
+// like its file; the second job of that name gets -2. Errors: kind input if the path cannot be read or there
+// are no scans, if a row has no file, and for names that are not unique or lead out of the folder; kind
+// option for other columns.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
-// Returns the files of the catalogue's folder that are no job's scan, in order and relative to the folder;
-// none for a table.
+// If the catalogue is a folder, returns its files that no job reads as its scan, in order and relative to the
+// folder. Hidden files and files in the folder of the outputs are left out. If the catalogue is a table,
+// returns nothing.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
-// Returns the files that the job reads: its own, those that a scene, a project or a glTF names, and those of
-// options. A missing file, or one that cannot be parsed, adds no others.
+// Returns the files that the job reads: its scan, the files that a scene, a project or a glTF file names, and
+// the files that options name. A file that is missing or cannot be parsed adds no others.
 std::vector<std::string> files_of(const Job& job);
 
 // Returns whether the value of the option is the path of a file.

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr double mb = 1 << 20;
 
-// The figures are upper bounds of measurements (docs/batch.md). However small the scan is, the blur of
-// normals may have 2^24 cells of 12 bytes, and the solid about half a million samples; the cost per point of
-// a cloud covers reading, preparing and sampling.
+// The figures are upper bounds of measurements (docs/batch.md). Even for a small scan, the blur of normals
+// may have 2^24 cells of 12 bytes, and the solid about half a million samples. The bytes per point of a cloud
+// cover reading, preparing and sampling.
 constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
                  bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
 

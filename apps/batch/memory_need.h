@@ -6,7 +6,7 @@
 namespace relievo::app::batch {
 
 // Estimates the most memory that the job takes, in megabytes, from its options and the headers of its files.
-// The figures are those of docs/batch.md. Opens each file and reads its first 64 kB.
+// The estimate uses the figures of docs/batch.md. Opens each file and reads its first 64 kB.
 double memory_need_mb(const Job& job);
 
 // Returns the memory that this process may still take, in megabytes: the machine's available memory or, if

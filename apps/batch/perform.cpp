@@ -30,8 +30,8 @@ std::vector<OutputKind> all_kinds() {
   return kinds;
 }
 
-// Returns the hash of the files, the options and the version, on which the outputs depend. Errors: those of
-// read_file() for the job's own file.
+// Returns a hash of all on which the outputs depend: the contents of the files, the options and the version.
+// Errors: those of read_file() for the job's own file.
 Result<std::string> hash_of_work(const Job& job, const std::vector<OutputKind>& kinds) {
   std::string text = cat("relievo ", version);
   for (const std::string& file : files_of(job)) {
@@ -96,7 +96,7 @@ std::string output_name(const Job& job, const OutputKind& kind) {
 }
 
 std::vector<std::string> make_arguments(const Job& job, const Workshop& workshop, int threads) {
-  // Pages show previews small; an option may ask for larger ones.
+  // The pages show previews small. An option may ask for larger ones.
   constexpr std::string_view usual_preview_px = "400";
   std::vector<std::string> arguments{"make", job.file, "--quiet", cat("--threads=", threads)};
   for (const OutputKind& kind : workshop.kinds)

@@ -19,8 +19,8 @@ struct OutputKind {
   std::string flag;    // the flag of `make` that asks for such a file
 };
 
-// Returns the kinds of a list such as "stl,preview,report". The preview is always among them: the pages need it. Errors:
-// kind option for other words, for no solid or two of them, and for two height maps.
+// Returns the kinds of a list such as "stl,preview,report". The preview is always among them, because the
+// pages need it. Errors: kind option for other words, for no solid or two of them, and for two height maps.
 Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 
 // Returns the path of an output, relative to the folder of the outputs.
@@ -47,12 +47,12 @@ struct Work {
 };
 
 struct Performed {
-  bool is_kept = false;  // there was nothing to do: the record of the last run is still true
+  bool is_kept = false;  // whether nothing was done, as the record of the last run is still true
   Record record;
 };
 
-// Makes the outputs of a job unless they are up to date: made by this version from the same file contents and
-// options, and still of the recorded sizes. A job is not repeated either if its recorded error would come
+// Makes the outputs of a job unless they are up to date: this version made them from the same file contents
+// and options, and they still have the recorded sizes. A failed job is not repeated if its error would occur
 // again.
 Performed perform(const Work& work, const Workshop& workshop, int threads);
 

@@ -1,5 +1,5 @@
 // Runs each job in a process of its own, so that a crash, or a kill by the system for lack of memory, ends
-// that job alone. Tested by tests/cli/batch_test.cpp.
+// only that job. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <sys/types.h>
@@ -11,9 +11,9 @@
 
 namespace relievo::app::batch {
 
-// The processes of the jobs that run. They are forks of this process and load no program, so a job costs less
-// than a shell command. They end with this process, also after a crash. This process must not have started a
-// thread, and must have no other children.
+// The processes of the running jobs. They are forks of this process and load no program, so a job costs less
+// than a shell command. They end when this process ends, also if it crashes. This process must not have
+// started a thread, and must have no other children.
 class Processes {
  public:
   explicit Processes(const Workshop& workshop) : workshop_(workshop) {}
@@ -31,7 +31,7 @@ class Processes {
  private:
   struct Running {
     const Work* work;
-    Descriptor result;  // a pipe from which the process' record is read
+    Descriptor result;  // the pipe from which the record of the process is read
     std::chrono::steady_clock::time_point started;
   };
 

@@ -11,10 +11,10 @@
 namespace relievo::app::batch {
 namespace {
 
-// Estimates may be wrong, and the system needs memory for the files it caches.
+// The rest stays free, as estimates may be wrong and the system needs memory to cache files.
 constexpr double share_of_available = .8;
 
-// Returns the number of processors that this process may use; a workload manager may have limited it.
+// Returns the number of processors that this process may use, which a workload manager may have limited.
 int usable_processors() {
   cpu_set_t set;
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
@@ -50,7 +50,8 @@ class Run {
     return {};
   }
 
-  // One process per processor is fastest. Where memory or the number of jobs allows fewer, each gets more threads.
+  // One process per processor is fastest. If there are fewer processes, because of their memory or because
+  // few jobs are left, each gets several threads.
   int threads_for(const Work& work) const {
     const double side_by_side =
         std::min({static_cast<double>(most_processes_), static_cast<double>(works_.size() - next_),

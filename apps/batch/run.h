@@ -1,4 +1,4 @@
-// A run over a catalogue on this machine. Tested by tests/cli/batch_test.cpp.
+// Does the jobs of a catalogue on this machine. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 namespace relievo::app::batch {
 
 struct RunLimits {
-  int processes = 0;     // most at the same time; 0: as many as there are processors
-  double memory_mb = 0;  // for all processes together; 0: most of the available memory
+  int processes = 0;     // the most processes at a time; 0: as many as there are processors
+  double memory_mb = 0;  // memory of all processes together; 0: most of the available memory
 };
 
 // Called after each job, with the number of jobs that are done.

@@ -52,7 +52,7 @@ class TableReader {
     return {};
   }
 
-  // Takes the cells up to the end of the line, and the end of the line.
+  // Reads the cells up to the end of the line, and skips the end of the line.
   Result<TableRow> read_row() {
     TableRow row{line_, {}};
     for (;;) {
@@ -67,7 +67,7 @@ class TableReader {
     }
   }
 
-  // Takes the text up to the next separator or end of line. Blanks around it do not count.
+  // Reads the text up to the next separator or end of line. Blanks around the text are left out.
   Result<std::string> read_cell() {
     const std::string ends = cat(separator_, "\r\n");
     const std::size_t start = text_.find_first_not_of(' ');
