@@ -1,5 +1,4 @@
-"""Writes the stub file, with the types of all options, of the package on the path: write_stub.py FILE, during the
-build."""
+"""Writes the stub file of the package on the path, with the types of all options: write_stub.py FILE. Run by the build."""
 
 import inspect
 import re

@@ -22,10 +22,10 @@ struct NamedArray {
   py::array array;
 };
 
-// Return the rows of an array of real numbers, of integers or floats of any size, in any memory layout. The
-// rows are copied once, straight into the library's memory, as other threads may change the array while the
-// library works. Raise relievo.Error for another shape or kind, naming the row of the first number that is
-// not finite.
+// Return the rows of an array of real numbers: integers or floats of any size, in any memory layout. The rows
+// are copied once, straight into the library's memory, because other threads may change the array while the
+// library works. Raise relievo.Error for another shape or kind, and for a number that is not finite; the
+// error names its row.
 std::vector<Vec3> points_of(const NamedArray& given);
 std::vector<Vec2> plane_points_of(const NamedArray& given);
 

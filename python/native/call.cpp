@@ -73,8 +73,8 @@ struct CountedCall {
 // Ends the library's threads before a fork, which they would not survive, and starts them again afterwards.
 class Fork {
  public:
-  // Waits until no call of the library is running. A fork within a callback would wait for ever, so it does
-  // not wait; its new process may use this module only after exec().
+  // Waits until no call of the library is running. A fork within a callback would wait for its own call for
+  // ever, so it does not wait; the new process may then use this module only after exec().
   void begin() {
     is_prepared_ = calls_of_this_thread == 0;
     if (!is_prepared_) return;
@@ -90,7 +90,7 @@ class Fork {
     working().unlock();
   }
 
-  // A thread of the parent has the lock, so the child makes a new lock. No other thread exists here.
+  // The lock is held by a thread of the parent, so the child makes a new lock. The child has no other thread.
   void end_in_child() {
     if (!std::exchange(is_prepared_, false)) return;
     std::construct_at(&working());

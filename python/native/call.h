@@ -13,10 +13,11 @@
 
 namespace relievo::python {
 
-// Has a shared lock while the library works, and an exclusive one while its threads are ended or started.
+// Returns the mutex that is locked shared while the library works, and exclusively while the library's
+// threads are ended or started.
 std::shared_mutex& working();
 
-// Calls f without Python's lock. Only for short work, as signals are not handled meanwhile.
+// Calls f without Python's lock. This is only for short work, as signals are not handled meanwhile.
 template <typename F>
 auto unlocked(F&& f) {
   const py::gil_scoped_release release;
@@ -24,9 +25,9 @@ auto unlocked(F&& f) {
   return f();
 }
 
-// Calls `work` on a thread of its own and waits for its end. Meanwhile the calling thread calls `callback`,
-// if it is not None, with the name of each stage and the fraction done, and handles signals. An exception of
-// either cancels the work, and is raised when the work has ended.
+// Calls `work` on a thread of its own and waits for its end. Meanwhile the calling thread handles signals
+// and, if `callback` is not None, calls it with the name of each stage and the fraction done. An exception
+// from a signal or from `callback` cancels the work, and is raised when the work has ended.
 void watched(const py::object& callback, const std::function<void(Progress&)>& work);
 
 // Returns the value of the result of `work`, or raises its error.

@@ -1,4 +1,4 @@
-// The library's errors as Python's exceptions.
+// Raises the library's errors as Python's exceptions.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -22,7 +22,8 @@ py::str text_of(std::string_view text);
 // its keyword.
 [[noreturn]] void raise(const Error& error);
 
-// Raises relievo.Error of kind input for the array called `name`, at that place in it.
+// Raises relievo.Error of kind input for the array called `name`; `place` says where in the array the fault
+// is.
 [[noreturn]] void raise_input(std::string name, std::string place, std::string expected);
 
 // Makes all calls from Python raise OutOfMemory for std::bad_alloc, and keeps memory in reserve for that.

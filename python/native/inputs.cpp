@@ -116,7 +116,8 @@ void write_cloud(const ArrayModel& model, const py::str& to, const std::string& 
   value_or_raise(app::write_files({&file, 1}));
 }
 
-// Returns the sources of a list of texts, (bytes, name) tuples and models that array_model() and depth_model() made.
+// Returns the sources of a list of texts, (bytes, name) tuples, and models made by array_model() and
+// depth_model().
 std::vector<Source> sources_of(const py::list& list) {
   std::vector<Source> sources;
   for (const py::handle item : list) {
@@ -136,7 +137,8 @@ std::vector<Source> sources_of(const py::list& list) {
 }  // namespace
 
 void take_sources(const py::list& list, app::MakeOrder& order) {
-  // Shared, because copies would change Python's reference counts in a thread without Python's lock.
+  // The sources are shared, because copies would change Python's reference counts in a thread without
+  // Python's lock.
   const auto sources = std::make_shared<const std::vector<Source>>(sources_of(list));
   std::vector<std::string> names;
   for (const Source& source : *sources) {

@@ -11,12 +11,12 @@
 
 namespace relievo::python {
 
-// Returns the keyword of an option: its name with underscores and, for lengths and angles, the unit: rim_height_mm,
-// draft_deg. Other texts are returned unchanged.
+// Returns the keyword of an option: its name with underscores and, for lengths and angles, with the unit, as
+// in rim_height_mm and draft_deg. Other texts are returned unchanged.
 std::string keyword_of(std::string_view name);
 
-// Returns the values of a dict of keywords and values; None stands for the default. Raises TypeError for a value of another
-// type.
+// Returns the values of a dict of keywords and values. None stands for the default. Raises TypeError for a
+// value of another type.
 OptionValues values_of(const pybind11::dict& given);
 
 // Returns the options for reading depth images, and the size above which files are read in blocks. Raises the

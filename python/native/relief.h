@@ -1,4 +1,4 @@
-// Makes reliefs, as `relievo make` does, and keeps them.
+// Makes reliefs as `relievo make` does, and gives them to Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,7 +15,7 @@ app::MakeOrder order_of(const pybind11::list& sources, const pybind11::dict& key
 
 using SharedRelief = std::shared_ptr<app::FinishedRelief>;
 
-// Add the types and functions of their sources.
+// Add the types and functions of relief.cpp, session.cpp and stages.cpp to the module.
 void add_relief(pybind11::module_& module);
 void add_session(pybind11::module_& module);
 void add_stages(pybind11::module_& module);

@@ -1,4 +1,4 @@
-// One model, prepared once, whose reliefs are made many times.
+// Sessions: a model is prepared once, and many reliefs of it are made.
 #include "common/prepared_model.h"
 #include "native/arrays.h"
 #include "native/call.h"

@@ -1,4 +1,4 @@
-// Stages of the library that can be called with arrays.
+// Lets Python call single stages of the library with arrays.
 #include <header_docs.h>
 
 #include <cmath>
@@ -129,8 +129,8 @@ SharedSystem height_system(const py::array& points, std::optional<double> rho, c
   return value_or_raise(unlocked([&] { return build_system(at, rho, weight); }));
 }
 
-// Returns the slopes without a copy if their layout is the library's. The library only reads their numbers,
-// so other threads may write there meanwhile.
+// Returns the slopes without a copy if their layout is the library's. Other threads may write to the array
+// while the library reads it: the library uses the slopes only as numbers, never as indices.
 std::optional<std::span<const Vec2>> slopes_in_place(const py::array& slopes) {
   const bool is_plain = slopes.dtype().is(py::dtype::of<double>()) && slopes.ndim() == 2 &&
                         slopes.shape(1) == 2 && (slopes.flags() & py::array::c_style) != 0;

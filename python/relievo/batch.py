@@ -6,8 +6,8 @@
 or, on a command line, `python3 -m relievo.batch scans -o reliefs --scheduler tcp://head:8786 --height 4`. Without a
 scheduler it starts workers on this machine. All machines need the program `relievo` and the same file system. The
 program lists the scans, makes each relief and writes the pages (`relievo batch --list`, `--job` and `--pages`), so the
-results are those of `relievo batch`, and either can continue a run of the other. Dask distributes the scans, repeats
-those of a worker that dies on another worker, and shows the run in its dashboard.
+results are those of `relievo batch`, and either can continue a run of the other. Dask distributes the scans, and shows
+the run in its dashboard. If a worker dies, another worker does its scans again.
 """
 
 # Dask's functions have no types, and type checks must also work without Dask.
@@ -29,7 +29,7 @@ from dataclasses import dataclass
 Record = dict[str, typing.Any]  # the record of one scan, as in scans.jsonl
 Watch = typing.Callable[[Record, int, int], None]
 
-# The largest number of tries of a scan, if the system ended its program or a disk was full.
+# The largest number of tries of a scan. It is tried again if the system ended its program or a disk was full.
 TRIES = 3
 # Dask gets up to this many scans as one task, because each task, and each start of the program, costs several
 # milliseconds.
@@ -95,7 +95,7 @@ def _call(command: list[str]) -> str:
 
 
 def _output_flags(flags: typing.Sequence[str]) -> list[str]:
-    """Returns the flags that choose the kinds of output files; the options of a scan are in the line that lists it."""
+    """Returns the flags that choose the kinds of output files. The line that lists a scan has the other options."""
     kept = []
     for flag, value in zip(flags, [*flags[1:], ""]):
         if flag.startswith("--files="):
@@ -147,8 +147,8 @@ def _work(
     """Runs the jobs of all lines, and yields their records as they arrive."""
     from distributed import as_completed
 
-    # If all workers state their memory, a worker only gets jobs that fit into it together. A scan that is too large for
-    # every worker runs alone.
+    # If all workers state their memory, Dask gives each worker only as many jobs at a time as fit into it. A scan that
+    # is too large for every worker runs alone.
     workers = client.scheduler_info()["workers"].values()
     stated = [worker.get("resources", {}).get(RESOURCE) for worker in workers]
     most_mb = min(stated) if stated and all(stated) else None
@@ -169,7 +169,7 @@ def _work(
             job = json.loads(line)
             record = records.get(job["name"])
             tries[line] += 1
-            # The scan is then tried in a task of its own, so that it affects no other scan if it ends its worker.
+            # A scan is tried again in a task of its own, so that it affects no other scan if it ends its worker.
             if tries[line] < TRIES and (record is None or (record.get("may_succeed") and record["hash"])):
                 again = submit([line])
                 tasks[again] = [line]
@@ -193,7 +193,7 @@ def _tasks(lines: list[str], threads: int) -> typing.Iterator[list[str]]:
 
 
 def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
-    """Runs on a worker: does the jobs of those lines in turn, and returns the records of the jobs that were reached."""
+    """Runs on a worker: does the jobs of those lines in turn. Returns the records of the jobs that have ended."""
     jobs = [word for line in lines for word in ("--job", line)]
     ended = subprocess.run([program, "batch", *flags, *jobs], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                            check=False)
@@ -203,7 +203,7 @@ def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
 
 
 def _outcome(future: typing.Any) -> tuple[dict[str, Record], str]:
-    """Returns the records of a task by name of the scan, and the reason why other scans of the task have none."""
+    """Returns the records of a task by name of the scan, and the reason why its other scans have no record."""
     error = future.exception()
     if error is not None:
         return {}, f"{type(error).__name__}: {error}"

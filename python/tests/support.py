@@ -1,4 +1,4 @@
-"""The tests share a scan, the command line, and a folder for files."""
+"""Gives the tests scans, the command line, and a folder for files."""
 
 import os
 import subprocess

@@ -43,7 +43,7 @@ class Calls(unittest.TestCase):
         relievo.make(scan(), height_mm=3, resolution_mm=0.5)  # works as before
 
     def test_end_with_ctrl_c(self):
-        # A shell that starts tests in the background makes them ignore SIGINT.
+        # A shell that starts the tests in the background makes them ignore SIGINT, so the usual handler is set here.
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         large = relievo.sample("shell", points=300_000)
         begun = threading.Event()
@@ -86,7 +86,8 @@ class Calls(unittest.TestCase):
     def test_give_the_same_in_several_threads(self):
         heights = [2, 3, 4, 5]
         alone = [relievo.make(scan(), height_mm=h, resolution_mm=0.5).to_bytes("stl") for h in heights]
-        # Frames without a height to meet, as the search for a height starts from that of the last frame.
+        # The frames have no height to meet. With one, the search would start from the height of the last frame, and
+        # frames would depend on their order.
         session = relievo.Session(scan(), method="paper")
         frames = [session.frame(saturation=h).heights.copy() for h in heights]
         with ThreadPoolExecutor(4) as pool:
