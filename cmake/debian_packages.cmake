@@ -1,6 +1,6 @@
-# Debian packages by CPack: relievo (the program), librelievo0.1 (the shared library), librelievo-dev (headers, static
-# library, CMake and pkg-config files) and, if Python's module is built, python3-relievo.
-# `cpack --config build/release/CPackConfig.cmake -B FOLDER` makes them.
+# Makes Debian packages by CPack: relievo (the program), librelievo0.1 (the shared library), librelievo-dev (headers,
+# static library, CMake and pkg-config files) and, if Python's module is built, python3-relievo. `cpack --config
+# build/release/CPackConfig.cmake -B FOLDER` runs it.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME relievo)
 set(CPACK_PACKAGE_VENDOR Relievo)

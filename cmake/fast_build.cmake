@@ -25,7 +25,7 @@ function(relievo_unite target size)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # These two warnings confuse names in the anonymous namespaces of two sources. Builds without unity have them on.
+  # These two warnings confuse names in the anonymous namespaces of two sources. They are on in builds without unity.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(group 0)
@@ -44,7 +44,7 @@ function(relievo_unite target size)
   endforeach()
 endfunction()
 
-# Applies both to a target. The arguments after the target are those of relievo_precompile().
+# Applies relievo_precompile() and relievo_unite() to a target. The arguments after the target are those of the former.
 function(relievo_fast_build target)
   relievo_precompile(${target} ${ARGN})
   relievo_unite(${target} 8)

@@ -1,8 +1,8 @@
 # Installs the library with its headers, and the program. All installed files find each other by relative paths, so an
 # installed tree may be moved.
 
-# As with Meson, libraries go into Debian's folder for them, which its linker, CMake and pkg-config search under any
-# prefix.
+# As with Meson, libraries are installed into Debian's own folder for libraries. Debian's linker, CMake and pkg-config
+# search this folder under any prefix.
 if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED CMAKE_INSTALL_LIBDIR)
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE} CACHE PATH "Folder of libraries below the prefix")
 endif()
@@ -21,8 +21,8 @@ function(relievo_install_library target kind)
     COMPONENT development)
 endfunction()
 
-# Programs that link the static library must also link the libraries that it calls; those that link the shared one need
-# not.
+# Programs that link the static library must also link the libraries that it calls. Programs that link the shared
+# library need not.
 set(private_libraries "spng libtiff-4 liblzf libzip")
 if(BUILD_SHARED_LIBS)
   relievo_install_library(relievo shared)

@@ -9,13 +9,13 @@ if(NOT RELIEVO_WEB)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
   pkg_check_modules(LIBLZF REQUIRED IMPORTED_TARGET liblzf)
-  pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its CMake file in Debian needs its programs, too
+  pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # libzip's own CMake file in Debian needs its programs, too
   set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF PkgConfig::LIBLZF PkgConfig::LIBZIP Threads::Threads)
   return()
 endif()
 
-# Header-only libraries are those of the system. Their functions for streams are left out, which would be half of a
-# program.
+# Header-only libraries are those of the system. Their functions for C++ streams are left out, which would be half of
+# the program's size.
 function(relievo_headers target folder)
   add_library(${target} INTERFACE IMPORTED)
   target_include_directories(${target} SYSTEM INTERFACE ${folder})

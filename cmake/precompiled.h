@@ -1,4 +1,4 @@
-// These headers are included by nearly every source; they are compiled once for a target instead of for each source.
+// Nearly every source includes these headers. They are compiled once for a target instead of for each source.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,7 +1,8 @@
-# The shared library exports the functions of the public headers alone: those that packaging/symbols.txt lists.
+# The shared library exports only the functions of the public headers, which packaging/symbols.txt lists.
 # scripts/update-symbols writes that list, and a test fails if the library exports anything else.
 
-# Before version 1 every minor version may break linked programs, so it is part of the name: librelievo.so.0.1.
+# Before version 1 every minor version may break linked programs, so the minor version is part of the library's name:
+# librelievo.so.0.1.
 if(PROJECT_VERSION_MAJOR EQUAL 0)
   set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 else()
@@ -16,7 +17,7 @@ string(REGEX REPLACE "([^\n]+)\n" "    \"\\1\";\n" symbols "${symbols}")
 file(CONFIGURE OUTPUT ${RELIEVO_VERSION_SCRIPT}
   CONTENT "LIBRELIEVO_${RELIEVO_SOVERSION} {\n  global: extern \"C++\" {\n${symbols}  };\n  local: *;\n};\n" @ONLY)
 
-# Sets name, exported symbols and version of a shared library.
+# Sets the name, the exported symbols and the version of a shared library.
 function(relievo_shared_library target)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME relievo VERSION ${PROJECT_VERSION} SOVERSION ${RELIEVO_SOVERSION}
     DEFINE_SYMBOL "" LINK_DEPENDS ${RELIEVO_VERSION_SCRIPT})

@@ -1,6 +1,6 @@
-# For the web, only rooms that take most of the computing time are compiled for speed. The others (files, plates and
-# measures) are compiled for size, and so are sources of the first rooms that run only once per scan. The sources
-# compiled for size are a target of their own, and its objects are part of the library.
+# For the web, only the rooms that take most of the computing time are compiled for speed. The other rooms (files,
+# plates and measures) are compiled for size. So are sources of the fast rooms that run only once per scan. The sources
+# compiled for size are a target of their own, whose objects are part of the library.
 set(RELIEVO_PRECOMPILED relievo)
 if(NOT RELIEVO_WEB)
   return()

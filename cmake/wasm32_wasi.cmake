@@ -1,5 +1,6 @@
-# The toolchain of the preset `web`: Debian's clang for WebAssembly, with wasi-libc. Instructions for 128-bit vectors are
-# always on. There are no threads, and no C++ exceptions: code that throws ends the program, see apps/web/libc/exceptions.cpp.
+# The toolchain of the preset `web`: Debian's clang for WebAssembly, with wasi-libc. Instructions for 128-bit vectors
+# are always on. There are no threads. There are no C++ exceptions, either: code that throws ends the program, see
+# apps/web/libc/exceptions.cpp.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_C_COMPILER clang-19)

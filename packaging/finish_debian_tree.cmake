@@ -1,6 +1,6 @@
-# CPack runs this on the folders of the packages before it packs them. It adds what Debian wants of every package,
-# compresses man pages, and gives every file one time and the usual permissions, so that the same version makes the same
-# bytes.
+# CPack runs this on the folders of the packages before it packs them. It adds the files that Debian requires of every
+# package, compresses man pages, and gives all files the same time and the usual permissions, so that the same version
+# always gives the same bytes.
 set(epoch $ENV{SOURCE_DATE_EPOCH})
 if(NOT epoch)
   execute_process(COMMAND git -C ${CPACK_RELIEVO_SOURCE} log -1 --format=%ct OUTPUT_VARIABLE epoch

@@ -1,8 +1,9 @@
-// Stands for libjbig, which libtiff calls for images that fax machines compress. That library is under the GPL, so a
-// program with it inside could not be passed on under our licence; no depth image is compressed so. All calls fail.
+// Replaces libjbig, which libtiff calls for images that are compressed as by fax machines. libjbig is under
+// the GPL, so a program that contains it could not be passed on under our licence. Depth images do not have
+// this compression. All calls fail.
 #include <cstddef>
 
-// The names are those of jbig.h 2.1.
+// The names of the functions are those of jbig.h 2.1.
 extern "C" {
 void jbg_dec_init(void*) {}
 int jbg_dec_in(void*, unsigned char*, std::size_t, std::size_t*) {

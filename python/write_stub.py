@@ -1,4 +1,4 @@
-"""Writes the stub file of the package on the path, with the types of all options: write_stub.py FILE. Run by the build."""
+"""Writes the stub file of the package on the path, with the types of all options: write_stub.py FILE."""
 
 import inspect
 import re

@@ -1,4 +1,5 @@
-// A program that uses the installed library: my_program SCAN RELIEF.stl. Built together with relief_of.cpp.
+// A program that uses the installed library: my_program SCAN RELIEF.stl. It is built together with
+// relief_of.cpp.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-// README's example: makes the bytes of an STL file from the bytes of a scan.
+// The README's example: makes the bytes of an STL file from the bytes of a scan.
 #include "relievo/io/write.h"
 #include "relievo/job.h"
 
