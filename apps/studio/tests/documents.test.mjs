@@ -1,4 +1,4 @@
-// Engine and page keep a document for each scan, through crashes; projects can contain their scans.
+// Tests that engine and page keep a document for each scan, even through crashes, and that projects can contain scans.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, statSync,
@@ -53,7 +53,7 @@ test("neither replaces a document that it cannot read, nor removes a scan then",
   assert.match(String(told.body), /expected a folder of the studio that can be read: /);
   assert.deepEqual([told.status, kept.status], [500, 500]);
   await other.stop();
-  other = await studioIn("unread"); // the new studio looks for scans that no document needs
+  other = await studioIn("unread"); // as it starts, it removes scans that no document needs
   await other.stop();
   assert.ok(existsSync(input.path));
 });
@@ -129,9 +129,9 @@ async function killAtRandom(place, times) {
     const {confirmed} = page;
     await page.engine.stop("SIGKILL");
     await dragging;
-    const kept = JSON.parse(readFileSync(file, "utf8")); // the file is whole, whenever the engine was killed
+    const kept = JSON.parse(readFileSync(file, "utf8")); // the file is whole at whatever moment the engine was killed
     assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
-    while (page.keeper.isSending) await sleep(5); // then the newest change has been sent, or stays in the browser
+    while (page.keeper.isSending) await sleep(5); // then the engine has the newest change, or the browser keeps it
     const copy = JSON.parse(storage.getItem(document) ?? "{}");
     assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // engine and page together lose nothing
   }
@@ -148,8 +148,8 @@ test("loses nothing that it has confirmed when it is killed, at 50 moments, and 
   await Promise.all(places.map((place) => killAtRandom(place, 10)));
 });
 
-// Simulates a drag by a clock that is set by hand, with answers that take `answerMs`. Returns the longest time in ms
-// for which a change was not sent, and how often the page sent changes.
+// Simulates a drag, with a clock that is set by hand and an engine whose answers take `answerMs`. Returns the longest
+// time in ms for which a change was not sent, and how often the page sent changes.
 async function paceOfDrag(durationMs, answerMs) {
   const own = globalThis.setTimeout, storage = new MapStorage(), waiting = [];
   const due = () => waiting.filter(({at}) => at <= clock);
@@ -179,7 +179,7 @@ async function paceOfDrag(durationMs, answerMs) {
   return {longest, times};
 }
 
-// A killed engine has confirmed all changes but those of the last 100 ms, or of its last answer if that took longer.
+// If the engine is killed, it loses at most the changes of the last 100 ms, or of its last answer if that took longer.
 test("sends what a drag changes every 60 ms, so that 100 ms are lost at most", async () => {
   for (const answerMs of [0, 10, 30]) {
     const {longest, times} = await paceOfDrag(3000, answerMs);
@@ -218,7 +218,7 @@ test("packs a scan into a project, from which make and another machine make the 
   assert.deepEqual(unpacked.studio, project.studio);
   const asked = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(asked.is_there, false);
-  project.input.hash = unpacked.input.hash; // by this hash the scan is found among those that were dropped
+  project.input.hash = unpacked.input.hash; // by this hash the engine finds the scan among its unpacked ones
   const found = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(found.input.path, unpacked.input.path);
   for (let cut = 0; cut < saved.body.length; cut += Math.ceil(saved.body.length / 40))
@@ -252,7 +252,7 @@ test("packs the height map of a base, and keeps it with the document", async () 
   const {input, options: {"base-image": unpacked}} = await other.upload("p.relievo", readFileSync(packed), "project");
   assert.ok(readFileSync(unpacked).equals(readFileSync(map)));
   const {document} = await other.json("document", {input});
-  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // the undone step uses the image
+  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // undo leads back to the image
   await keep(other, document, {version: 1, changed: 5, at: 1, steps});
   await other.stop();
   const next = await studioIn("based");
@@ -296,7 +296,7 @@ test("keeps every document with its scan until it is removed, and says how much 
   assert.equal(await remove(ids[3]), 200);
   await other.post("open", {input: inputs[4], tab: "crashed"});
   assert.equal(await remove(ids[4]), 409);
-  // The engine knows only the newest 64 tabs, so it forgets the crashed one.
+  // The engine knows only the newest 64 tabs, so it forgets the crashed tab.
   for (let i = 0; i < 64; ++i) await other.post("open", {input: inputs[5], tab: `${i}`});
   assert.equal(await remove(ids[4]), 200);
   assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);
@@ -319,7 +319,7 @@ test("lists a document while its scan is being opened, before anything of it is 
   await other.stop();
 });
 
-// The library replaces fsync() by a function that waits until the file GO exists.
+// LD_PRELOAD loads a library that replaces fsync() by a function that waits until the file GO exists.
 test("follows the engine while the disk takes its time", async (t) => {
   const source = path.join(folder, "fsync.c"), library = path.join(folder, "fsync.so"), go = path.join(folder, "go");
   writeFileSync(source, `#include <stdlib.h>\n#include <unistd.h>\n#include <sys/syscall.h>

@@ -1,4 +1,4 @@
-// Starts the engine of a suite, and makes requests and files that suites share.
+// Starts the engine of a suite, and has functions for requests and files that several suites need.
 import assert from "node:assert/strict";
 import net from "node:net";
 import path from "node:path";
@@ -22,7 +22,7 @@ export function withEngine(sample, points, begin = () => engine.open({path: scan
   after(() => engine?.stop());
 }
 
-// Starts another studio whose state folder has that name.
+// Starts another studio, whose state folder has the given name.
 export const studioIn = (name, ...args) => new EngineProcess(path.join(folder, name), ...args).ready();
 
 export function connect() {
@@ -31,7 +31,7 @@ export function connect() {
   return socket;
 }
 
-// Returns the first lines of a request.
+// Returns a request's first line and its header Host.
 export const head = (place, method = "POST", {pathname, host} = engine.url) =>
   `${method} ${pathname}${place} HTTP/1.1\r\nHost: ${host}\r\n`;
 

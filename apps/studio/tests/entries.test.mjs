@@ -1,4 +1,5 @@
-// Entries are taken in the order in which they are typed and chosen; exports and projects wait for them.
+// Tests that entries are taken in the order in which they are typed and chosen, and that exports and projects wait for
+// them.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
@@ -62,7 +63,7 @@ for (const [how, press] of Object.entries({
     await press();
     const [{bytes}] = await files();
     assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
-    await type(option("height"), "1.25"); // the number beside a slider
+    await type(option("height"), "1.25"); // types into the number beside a slider
     await press();
     await page.locator("#export-size").getByText(/triangles$/).waitFor();
     await soon.match(() => page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
@@ -108,7 +109,7 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   const plateWidthAndRim = () => Promise.all(["plate", "width", "rim"].map(value));
   await soon.deepEqual(plateWidthAndRim, ["abc", "90.0", "2"]);
   await release();
-  await page.getByText(/^Plate size: expected/).waitFor(); // the rim, typed after it, is taken all the same
+  await page.getByText(/^Plate size: expected/).waitFor(); // the rim width, typed after the refused size, is taken
   await soon.deepEqual(plateWidthAndRim, ["200x150", "90.0", "2"]);
   await undo();
   await soon.equal(() => value("rim"), "");
@@ -131,7 +132,7 @@ test("takes a kind, and what is typed for it, after the entries before", async (
   await soon.ok(() => kind("Coin").isChecked());
   await kind("Plaque").click();
   await soon.equal(() => value("plate"), "140x110");
-  await kind("Lithophane").click(); // a lithophane's plate begins with that size
+  await kind("Lithophane").click(); // a lithophane's plate begins with the plaque's size
   await soon.equal(() => value("plate"), "140x110");
   await free();
 });

@@ -1,10 +1,10 @@
-// Exports show their progress, and a cancelled one leaves no work and no file behind, in Chromium or Firefox.
+// Tests that exports show their progress, and that a cancelled export leaves no work and no file behind.
 import assert from "node:assert/strict";
 import {button, engine, exportDialog as dialog, page, set, soon, test, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 withPage("still_life", 8000, async () => {
-  await button("Light table").click(); // it shows no finished piece: only exports make one
+  await button("Light table").click(); // this material shows no finished piece, so only exports make one
   await enter(page.locator("#resolution"), "0.07"); // such a fine piece takes seconds
   await untilReady(page);
   await page.evaluate(() => {
@@ -29,7 +29,7 @@ async function cancel() {
 
 test("shows how far a piece has come", async () => {
   let seen = [];
-  for (let i = 0; i < 3 && seen.length === 0; ++i) { // a busy browser may miss all values
+  for (let i = 0; i < 3 && seen.length === 0; ++i) { // repeated, as a busy browser may miss all values
     await enter(page.locator("#resolution"), String(0.07 - 0.005 * i));
     await untilReady(page);
     await open();

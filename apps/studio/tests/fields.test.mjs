@@ -1,4 +1,4 @@
-// Numbers, keys and reachable heights on the page, in Chromium or Firefox.
+// Tests numbers, keys and reachable heights on the page, in Chromium or Firefox.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, chooseView, drag, engine, exportDialog, field, folder, found, labelled, middleOf, openExport,
@@ -30,7 +30,8 @@ test("steps by round numbers with arrow keys", async () => {
   await slider("Steepest wall").press("ArrowRight");
 });
 
-// Drags from the middle of an element: Escape takes back the change of a value, and the rest of the drag changes nothing.
+// Drags from the middle of an element and presses Escape. That takes back the change of the value, and the rest of the
+// drag changes nothing.
 async function takesDragBack(locator, value, [dx, dy]) {
   const before = await value(), [x, y] = await middleOf(locator);
   await press([x, y], [x + dx, y + dy]);
@@ -110,7 +111,7 @@ test("keeps the figure's size on another plate, as long as it fits", async () =>
   await undo(2);
   await untilPiece("200.00 × 151.00");
   await enter(shift, "60,0");
-  await enter(plate, "100x80"); // half of it is less than 60 mm
+  await enter(plate, "100x80"); // the shift of 60 mm is more than half of 100 mm
   await page.getByText("The plate has no room for the figure there: it is in the middle again.").waitFor();
   await soon.deepEqual(async () => [await shift.inputValue(), await longer()], ["", 64]);
   await undoAll(page, async () => (await plate.inputValue()) === "");
@@ -215,7 +216,7 @@ test("knows what a draft angle allows, and exports no piece that cannot be made"
   await soon.ok(() => dialog.getByText(`relief ${reached} high,`).isVisible());
   await soon.ok(() => button("Export", dialog).isEnabled());
   await button("Cancel", dialog).click();
-  const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // leans enough for the height that is reached
+  const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // leans by more than the draft angle of 60 degrees
   await enter(option("Rim width"), (bevel + 1).toFixed(2));
   await enter(option("Rim bevel"), bevel.toFixed(2));
   await untilReady(page);
@@ -242,7 +243,7 @@ test("steps numbers of the plate by arrow keys", async () => {
   await soon.equal(() => rim.inputValue(), "3.1");
   await rim.press("Shift+ArrowDown");
   await soon.equal(() => rim.inputValue(), "3.09");
-  await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // one step for all keys, once they rest
+  await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // all keys make one step, after a pause
   await undo();
   await soon.equal(() => rim.inputValue(), "3");
   await undo();
@@ -315,7 +316,7 @@ test("says what was saved of an export that is cancelled", async () => {
   await page.unroute("**/api/export");
 });
 
-// Returns the height that is marked on the slider.
+// Returns the height that the slider marks as reachable or reached.
 const marked = async () => (await page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/)
   .getAttribute("title")).match(/[\d.]+ mm/)[0];
 
@@ -333,7 +334,7 @@ test("tells the same height and thickness everywhere", async () => {
   await set("Height in mm", 3.175);
   await soon.equal(() => text("Height in mm"), "3.175");
   await untilTold(/height 3\.175 mm/);
-  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // the plate alone, below the relief
+  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // only the plate, below the relief
   await soon.deepEqual(() => toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
   await radio("Measure").click();
   await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
@@ -359,7 +360,7 @@ test("marks the height that can be reached, and loosens what limits it", async (
   await soon.equal(() => field("Height in mm").getAttribute("aria-invalid"), "true");
   const reached = (await reach().innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
-  await page.keyboard.press("Control+e"); // the file's height is not the one that was asked for
+  await page.keyboard.press("Control+e"); // the file does not have the height that was asked for
   await exportDialog().getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
   await button("Cancel", exportDialog()).click();
   await button("Allow steeper walls").click();

@@ -1,5 +1,5 @@
-// The first minute with a scan: the kinds of work to choose from, the tour, the findings about the scan, and several
-// files as one scene.
+// Tests the first minute with a scan: the kinds of work to choose from, the tour, the findings about the scan, and
+// several files as one scene.
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
@@ -396,13 +396,14 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await page.getByText("ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
   await soon.equal(() => page.locator("#scene li").count(), 1);
-  await engine.stop(); // the engine keeps a scene's scans as long as the scene
+  await engine.stop(); // the engine keeps a scene's scans as long as it keeps the scene
   await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);
 });
 
-// The page learns from the engine's answer that a document is open; before that the engine refuses to prepare a view.
+// The engine refuses to prepare a view before a document is open. The page learns from the engine's answer that it is
+// open.
 test("takes what is changed while a scan is still opening", async () => {
   const other = await page.context().newPage(), answers = [];
   other.on("response", (response) => answers.push(response.status()));
@@ -491,7 +492,7 @@ function writeBallOnTable(file) {
   writePoints(file, points);
 }
 
-// Writes a ball and beside it a small one with .4 % of its area.
+// Writes a ball, and beside it a small ball with .4 % of its area.
 function writeBallWithCrumb(file) {
   const random = randomNumbers(1), ball = (count, radius, x) => Array.from({length: count}, () => {
     const normal = anyNormal(random), [a, b, c] = normal.map((y) => y * radius);
@@ -502,7 +503,7 @@ function writeBallWithCrumb(file) {
 
 test("leaves out a small piece, and keeps it or not at the press of a button", async () => {
   const file = path.join(folder, "crumb.ply"), crumbs = page.locator("#crumbs");
-  const untilWide = (least, most) => eventually(async () => { // limits for the piece's width over its height
+  const untilWide = (least, most) => eventually(async () => { // waits for a ratio of width to height
     const wide = (await pieceSize()).reduce((x, y) => x / y);
     assert.ok(wide > least && wide < most, `${wide}`);
   });
@@ -512,7 +513,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
-  await untilWide(1.15, 1.25); // width 2.465 and height 2 radii, with margins added
+  await untilWide(1.15, 1.25); // the width is 2.465 radii and the height 2, plus the margins
   await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();

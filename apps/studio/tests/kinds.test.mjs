@@ -1,4 +1,4 @@
-// Kinds of work: numbers on the page are those of the files, and each kind has settings of its own.
+// Tests that the page shows the numbers of the files for each kind of work, and that each kind has settings of its own.
 import assert from "node:assert/strict";
 import {choose, chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, soon,
   test, undo, undoAll, untilTaken, untilText, withPage} from "./page_suite.mjs";
@@ -48,7 +48,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await page.getByRole("heading", {name: "Die of the coin"}).waitFor();
   await untilReady(page);
   const die = await exported();
-  await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // all but the form
+  await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // but for the form
   await soon.equal(async () => (await kept()).form, "die");
   assert.deepEqual([coin.name, die.name], ["scan-coin.stl", "scan-die.stl"]);
   await page.getByText(`The die itself is ${die.told.join(" × ")} mm.`).waitFor();
@@ -68,7 +68,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await soon.ok(() => radio("Plaque").isChecked());
 });
 
-// Returns the options of a document that the engine needs for heights.
+// Returns those options of a document that the engine needs for heights.
 const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness, margin}) =>
   ({view, up, outline, diameter, width, height, rim, shift, thickness, margin, resolution: 0.1});
 
@@ -88,7 +88,7 @@ test("says in its hint what a seal is, and begins one of its own beside the die 
 });
 
 test("uses no tool for a lithophane, and has it again for a coin", async () => {
-  await set({resolution: "1"}); // the reach of a tool takes long to compute
+  await set({resolution: "1"}); // coarse, as the reach of a tool takes long to compute
   await option("tool").selectOption("Ball end");
   await page.getByText(/^The tool reaches/).waitFor();
   await option("finish").selectOption("Reachable");
@@ -132,7 +132,7 @@ test("names the files of each kind", async () => {
 
 test("says why a figure that fills its plate does not move", async () => {
   await set({plate: "90x120"});
-  const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly the largest that fits
+  const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly the longest side that fits
   await set({width: longer});
   await choose("Place");
   const [x, y] = await middleOf(page.locator("#stage"));

@@ -18,7 +18,7 @@ function mostMemory() {
   return kib / 1024;
 }
 
-// Writes up to `size` bytes for as long as the server takes them; returns its answer.
+// Writes up to `size` bytes for as long as the server takes them. Returns the server's answer.
 function pour(head, size) {
   return new Promise((resolve) => {
     const socket = connect(), part = Buffer.alloc(MIB, "x");
@@ -142,7 +142,7 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// Each connection occupies a thread of the server as long as it may, as it buffers less than the 7 MB of an answer.
+// A connection buffers less than the 7 MB of an answer. So it occupies a thread until the server gives it up.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {

@@ -1,4 +1,4 @@
-// Every option of the engine's table has a control on the page, and the values that are set there reach the engine.
+// Tests that every option of the engine's table has a control on the page, and that values set there reach the engine.
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -27,8 +27,8 @@ withBrowser(async () => {
   return first;
 });
 
-// For each option a value that is not its default, and the options or the kind that must be set first so that its
-// control is shown.
+// For each option, `value` is a value that is not its default. If its control is shown only with other options or with
+// one kind of work, `first` or `kind` has these.
 const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
   alpha: {value: 3, first: {saturation: 0.5}},

@@ -1,4 +1,4 @@
-// Texts and lines over and beside the piece, on a desk and a phone: messages, labels of measures, numbers.
+// Tests texts and lines over and beside the piece, on a desk and a phone: messages, labels of measures, numbers.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
   plateLength, press, radio, scan, soon, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
@@ -24,12 +24,12 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await offer();
   await button("Locate it").click();
   await toast().getByText("Located.").waitFor();
-  await page.evaluate(() => window.takeBack()); // no other message disappears with the offer
+  await page.evaluate(() => window.takeBack()); // the offer is gone already, so the message stays
   await soon.ok(() => toast().isVisible());
   await button("Dismiss").click();
 });
 
-// The measured line ends where its label would cover the label of the relief's height or width.
+// Each measured line ends where its label would cover the label of the relief's height or width.
 test("keeps the labels of measures apart", async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
@@ -136,8 +136,8 @@ const edgesOff = () => page.evaluate(async () => {
   });
 });
 
-// Returns how opaque the model's picture is just within the piece on the left, right, above and below, and at the corners
-// of its box, which a round piece does not fill.
+// Returns the opacity of the model's picture just within the left, right, upper and lower side of the piece, and at the
+// corners of the piece's box, which a round piece does not fill.
 const plateOpacity = () => page.evaluate(() => {
   const canvas = document.querySelector("#before"), [wide, high] = window.piece, context = canvas.getContext("2d");
   const near = [[-0.48, 0], [0.48, 0], [0, -0.48], [0, 0.48]], corners = [-0.45, 0.45].flatMap((x) => [[x, -0.45], [x, 0.45]]);
@@ -157,7 +157,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
   const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
   for (const [kind, fields] of Object.entries(kinds)) {
     await page.locator(`[data-kind="${kind}"]`).click();
-    await page.locator("[data-material=plaster]").click(); // the model's material: metal shows other edges
+    await page.locator("[data-material=plaster]").click(); // the model is shown in plaster, and metal has other edges
     for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
     await eventually(async () => {
       await untilReady(page);

@@ -1,4 +1,4 @@
-// Works with the studio as its users do, in Chromium or Firefox: finds elements by role and label.
+// Works with the studio as its users do, in Chromium or Firefox. Finds elements by role and label.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -51,7 +51,7 @@ function difference(a, b) {
   return sum / a.length;
 }
 
-// Waits until the picture is the same as another, or a different one.
+// Waits until the picture equals the other one or, if `isSame` is false, differs from it.
 const becomes = (other, isSame) => eventually(async () => {
   const found = difference(await picture(), other);
   assert.ok(isSame ? found < 0.05 : found > 0.2, `pictures differ by ${found}`);
@@ -253,7 +253,7 @@ test("names what it reads and offers each outline, form and format of the engine
   await added.close();
 });
 
-// Returns the values of the curve that the page draws, as shares from 0 to 1.
+// Returns the values of the curve that the page draws, as fractions from 0 to 1.
 const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAttribute("d")).split(/[ML]/).slice(1)
   .map((place) => 1 - Number(place.split(" ")[1]) / 150);
 
@@ -311,10 +311,10 @@ test("turns, lights, cuts and compares", async () => {
   const ends = async () => overlay.locator("circle.end").evaluateAll((all) =>
     all.map((circle) => ["cx", "cy"].map((name) => Number(circle.getAttribute(name)))));
   const [[x1, y1], [x2, y2]] = await ends();
-  await drag([box.x + x2, box.y + y2], middle); // moves that end, and leaves the other where it is
+  await drag([box.x + x2, box.y + y2], middle); // moves the second end, and not the first
   await eventually(async () => {
     const [[x, y], [x3]] = await ends();
-    assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // pixels round the place
+    assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // the place is rounded to pixels
     assert.ok(Math.abs(x3 - box.width / 2) < 2, `${x3} of ${x2}`);
   });
   await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();
@@ -329,7 +329,7 @@ test("turns, lights, cuts and compares", async () => {
   await page.mouse.move(...middle);
   await overlay.getByText(/^Height [\d.]+ mm$/).waitFor();
   let y = middle[1];
-  await eventually(async () => { // repeated, as the picture may still have its size beside a section
+  await eventually(async () => { // repeated, as the picture may still be small as beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
     const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
     const plate = await plateLength(); // 110 mm in pixels
@@ -423,7 +423,7 @@ test("saves a project, opens it again, and makes the same bytes of it", async ()
   assert.ok(count > 10000);
 });
 
-// Compares a stated size of a file, such as "about 1.2 MB", with the file.
+// Asserts that a file has the size that a text such as "about 1.2 MB" states.
 function hasSizeTold(told, {length}) {
   const [, word, number, unit] = told.match(/^(about|at most)? ?([\d.]+) (kB|MB)$/);
   const share = Number(number) * (unit === "MB" ? 1e6 : 1e3) / length;
@@ -458,7 +458,7 @@ test("can be used by the keyboard alone", async () => {
     .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0 &&
       element.dataset.reached !== "yes").map((element) => element.outerHTML.slice(0, 90)));
   const all = (await missed()).length;
-  // After the last element, Tab would leave the page for the bars of the browser.
+  // After the page's last element, Tab would go to the bars of the browser.
   for (let i = 0; i < all + 30 && (await missed()).length > 0; ++i) {
     await page.evaluate(() => (document.activeElement.dataset.reached = "yes"));
     if ((await missed()).length > 0) await page.keyboard.press("Tab");

@@ -59,8 +59,8 @@ export async function startEngine(...args) {
   return engine;
 }
 
-// Assertions of node:assert on values that a function reads from the page. They are repeated until they hold, as a
-// click or key may have reached the browser, and not yet the page.
+// Has the assertions of node:assert, for values that a function reads from the page. They are repeated until they
+// succeed, as the browser may have received a click or a key that the page has not.
 export const soon = Object.fromEntries(["equal", "notEqual", "ok", "deepEqual", "match", "doesNotMatch"].map((name) =>
   [name, (read, ...wanted) => eventually(async () => assert[name](await read(), ...wanted))]));
 
@@ -123,7 +123,7 @@ export async function middleOf(locator) {
   return [x + width / 2, y + height / 2];
 }
 
-// Drags from a place through others, without releasing the button.
+// Presses the button at a place and moves through others, without releasing the button.
 export async function press(from, ...through) {
   await page.mouse.move(...from);
   await page.mouse.down();

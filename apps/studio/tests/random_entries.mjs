@@ -20,12 +20,12 @@ export function randomNumbers(seed) {
 }
 
 const KINDS = ["Plaque", "Coin", "Carving", "Seal", "Lithophane", "Bent"];
-// Numbers that fit each other, so that the engine takes all of them.
+// All numbers in these ranges fit each other, so the engine takes them.
 const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0.5, 2], diameter: [24, 60], rim: [0.5, 1.5],
   "rim-height": [0.3, 2]};
 const REFUSED = {plate: "abc", diameter: "0", rim: "-1", height: "high", shift: "9", thickness: "-1"};
 const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
-// The fields that an entry may change besides its own.
+// The other fields that an entry may change.
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
 
 export class RandomEntries {
@@ -41,7 +41,7 @@ export class RandomEntries {
     return list[Math.floor(this.random() * list.length)];
   }
 
-  // Makes a random number of entries, then checks that all that was typed is shown and was made.
+  // Makes a random number of entries, then checks that the page shows and exports all that was typed.
   async run() {
     const {page} = this, first = await this.snapshot();
     for (let n = Math.floor(this.between(3, 8)); n > 0; --n) await this.act();
@@ -74,7 +74,7 @@ export class RandomEntries {
     const name = this.oneOf(NUMBERS), text = this.valueFor(name);
     if (!(await this.enter(name, text))) return;
     for (const other of BESIDES[name] ?? []) delete this.typed[other];
-    const isMeant = name !== "shift" || this.typed.plate || this.typed.diameter; // only plates with a size have room
+    const isMeant = name !== "shift" || this.typed.plate || this.typed.diameter; // a shift needs a plate with a size
     if (isMeant) this.typed[name] = text;
   }
 
@@ -165,7 +165,7 @@ export class RandomEntries {
     return {size, height: Number(text.match(/(?:height|relief) ([\d.]+)/)[1])};
   }
 
-  // Compares the numbers in the dialog, the status line and the fields. Returns those of the dialog.
+  // Compares the numbers in the dialog, the status line and the fields. Returns those in the dialog.
   async compare() {
     const dialog = this.numbers(await this.page.locator("#export-size").innerText());
     const status = this.numbers(await this.page.locator("#numbers").innerText());
@@ -201,7 +201,7 @@ export class RandomEntries {
   }
 }
 
-// Shows a small scan: its pieces are made quickly. Returns {page, close}.
+// Shows a small scan, whose pieces are made quickly. Returns {page, close}.
 export async function showSmallScan() {
   const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
   writeSample("green_man", 2000, scan);
@@ -212,7 +212,7 @@ export async function showSmallScan() {
   await enter(page.locator("#resolution"), "1");
   for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
   await untilReady(page);
-  // The steps up to here are no part of a sequence. They are replaced by a single step, which the page shows when it is
+  // The steps up to here do not belong to a sequence. A single step replaces them, which the page shows when it is
   // opened again.
   const begun = await eventually(async () => {
     const step = await engine.newestStep(scan);

@@ -1,4 +1,4 @@
-// Sends requests to the server: those of its page, foreign and broken ones, and too many.
+// Sends requests to the server: requests of its page, foreign requests, broken ones, and too many.
 import assert from "node:assert/strict";
 import {spawn} from "node:child_process";
 import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
@@ -15,7 +15,7 @@ withEngine("shell", 20000);
 const status = async (answer) => (await answer).status;
 const facts = () => engine.json("facts");
 
-// Returns the facts that are sent with a picture's pixels; `part` replaces parts of the usual request.
+// Returns the facts that come with a picture's pixels. `part` replaces parts of the usual request.
 async function frame(part = {}) {
   const answer = await engine.post("frame", {...FRAME, ...part});
   assert.equal(answer.status, 200, String(answer.body));
@@ -253,7 +253,7 @@ test("gives up a fine picture when another is asked for", async () => {
   const fine = engine.post("frame", {...large, light: [1, 0, 1]});
   await sleep(50); // drawing takes several times as long
   assert.equal((await engine.post("frame", FRAME)).status, 200);
-  const {status, body} = await fine; // its status is one of success, as browsers write failures to their console
+  const {status, body} = await fine; // not an error's status, as browsers write errors to their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);
   assert.equal((await engine.post("frame", large)).status, 200);
 });
@@ -307,7 +307,7 @@ test("keeps a document as it is while the opening of another is cancelled", asyn
 function writeUpright(scan, file) {
   const bytes = readFileSync(scan);
   const start = bytes.indexOf("end_header\n") + "end_header\n".length;
-  for (let at = start; at < bytes.length; at += 12) { // places and normals alike: three floats
+  for (let at = start; at < bytes.length; at += 12) { // three floats each: places and normals
     const [y, z] = [bytes.readFloatLE(at + 4), bytes.readFloatLE(at + 8)];
     bytes.writeFloatLE(-z, at + 4);
     bytes.writeFloatLE(y, at + 8);
@@ -487,7 +487,7 @@ function rawStatus(action, headers, body) {
   });
 }
 
-// Sends a request and closes the connection `ms` later.
+// Sends a request whose header states `promised` bytes, and closes the connection `ms` later.
 function cut(action, body, ms, promised = body.length) {
   return new Promise((resolve) => {
     const socket = connect();
@@ -499,14 +499,15 @@ function cut(action, body, ms, promised = body.length) {
   });
 }
 
-// The first turn of a mesh in another view measures points on all its sides, which takes longer than a picture.
+// The first turn of a mesh after a change of the view measures points on all its sides, which takes longer than a
+// picture.
 test("draws while the model is turned, and gives up a turn when another comes", async () => {
   const mesh = path.join(folder, "mesh.ply");
   run("make", scan, "-o", mesh, "--height", 4, "--width", 60, "--quiet");
   const input = {path: mesh}, {document} = await engine.json("open", {input, tab: "turning", points: 20000});
   const untilIdle = () => engine.until(({model, busy}) => model > 0 && !busy, document);
   await untilIdle();
-  await engine.post("view", {document, view: "left", points: 20000}); // its points have not been measured on all sides
+  await engine.post("view", {document, view: "left", points: 20000}); // the first turn must measure points on all sides
   await untilIdle();
   const order = [], ask = async (name, part) => {
     const answer = await engine.post("frame", {...FRAME, document, ...part});

@@ -1,4 +1,4 @@
-// Pictures, the finished piece and its file state the same sizes.
+// Tests that pictures, the finished piece and its file state the same sizes.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {engine, scan, withEngine} from "./engine_suite.mjs";

@@ -1,5 +1,5 @@
-// The states of the studio's page, for tests and pictures. Each state begins and ends at the plain relief, which shows
-// one scan of a file with all panels open.
+// Lists the states of the studio's page, for tests and pictures. Each state begins and ends at the plain relief: one
+// scan from a file, with all panels open.
 import {button, choose, field, undo} from "./page_suite.mjs";
 import {enter, untilReady} from "./support.mjs";
 
@@ -9,7 +9,7 @@ const nothing = () => {};
 
 const tool = (name) => ({enter: (page) => choose(name, page), leave: (page) => choose("Light", page)});
 
-// Takes the changes of a state back.
+// Takes back the changes that a state has made, which are that many steps.
 const undone = (times) => async (page) => {
   await undo(times, page);
   await untilReady(page);
@@ -30,7 +30,7 @@ const exporting = async (page) => {
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
 };
 
-// Each step of the tour is entered from the plain relief.
+// Each step of the tour is entered from the plain relief, not from the step before it.
 const tourStep = (step) => ({
   part: ".tour", leave: escape, enter: async (page) => {
     await button("Help", page).click();

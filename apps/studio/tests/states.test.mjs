@@ -1,4 +1,4 @@
-// Each state of the page fits each screen, has all its controls within reach, and breaks no rule of axe.
+// Tests that each state of the page fits each screen, has all its controls within reach, and breaks no rule of axe.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, soon, startEngine, test,
   withBrowser} from "./page_suite.mjs";
@@ -30,8 +30,8 @@ async function openScan(of) {
   await button("Dismiss", of).click();
 }
 
-// Runs in the page: returns the parts that scroll though they must not. No part may scroll sideways; the parts around
-// the picture, and on a desk dialogs and the start page, may not scroll upwards.
+// Runs in the page: returns the parts that scroll though they must not. No part may scroll sideways. The parts around
+// the picture may not scroll upwards either, nor, on a desk, dialogs and the start page.
 function scrolling() {
   const name = (it) => it.id || it.className || it.localName, all = [...document.querySelectorAll("*")];
   const around = "html, body, main, .studio, .work, #stage, #table, .status";
@@ -71,7 +71,7 @@ function unreached(part) {
     .filter(([what]) => what);
 }
 
-// Runs in the page: returns the texts that are cut. The title of a scan may be cut if it stands beside the buttons.
+// Runs in the page: returns the texts that are cut off. A scan's title may be cut off if it stands beside the buttons.
 function cut() {
   const title = innerWidth < 800 && innerHeight > 560 ? "#title, " : "";
   return [...document.querySelectorAll(`${title}button, legend, h2, #numbers, .labels span, .pair > span`)]
@@ -80,8 +80,8 @@ function cut() {
     .map((it) => it.outerHTML.slice(0, 90));
 }
 
-// Runs in the page: returns the texts of less than 12.5 pixels, or of more if all type is larger. The units of drawings
-// are pixels, once they are drawn anew after a change of their size.
+// Runs in the page: returns the texts that are smaller than 12.5 pixels, or than a larger limit if all type is larger.
+// Texts in drawings are as large as they state only after the drawing has been redrawn at its new size.
 function small() {
   const least = 12.5 / 14.5 * parseFloat(getComputedStyle(document.documentElement).fontSize);
   const hasText = (it) => it.matches("input, select") || [...it.childNodes].some((node) =>
@@ -91,8 +91,8 @@ function small() {
     .filter((it) => !it.matches(".mark") && size(it) < least).map((it) => [size(it), it.outerHTML.slice(0, 90)]);
 }
 
-// Runs in the page: returns the rows of tools if there are more than one on a desk, or more than two on a phone. Low
-// screens show the tools in a column.
+// Runs in the page: returns the rows of tools if there is more than one on a desk, or more than two on a phone. Low
+// screens show the tools in a column, so they pass.
 function wrapped() {
   if (innerHeight <= 560) return [];
   const boxes = [...document.querySelectorAll(".tools button")].map((it) => it.getBoundingClientRect());
@@ -100,7 +100,7 @@ function wrapped() {
   return innerWidth === 820 || middles.size <= (innerWidth < 800 ? 2 : 1) ? [] : [...middles];
 }
 
-// Returns the faults on a screen that has its size already, by kind.
+// Returns, by kind, the faults of the page on a screen. The page must already have the screen's size.
 async function misfits(screen, part) {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   const all = [];
@@ -128,7 +128,7 @@ async function findings() {
     .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
 }
 
-// A test of its own within the state's test: it is reported as skipped if axe is missing, or fails then in CI.
+// Runs as a test within the state's test. If axe is missing, it is reported as skipped; in CI it fails.
 const hasNoFindings = (state) => state.test("has no findings of axe", {skip: !process.env.CI && missing}, async () => {
   assert.ok(!missing, missing);
   for (const {screen = DESK, colorScheme = "light", forcedColors = "none"} of MEDIA) {

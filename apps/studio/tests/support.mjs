@@ -1,4 +1,5 @@
-// Helpers of the studio's tests: the engine as a process, its page in Chromium or Firefox, and temporary files.
+// Helps the studio's tests: runs the engine as a process and its page in Chromium or Firefox, and makes temporary
+// files.
 import assert from "node:assert/strict";
 import {spawn, spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
@@ -12,7 +13,7 @@ const FIREFOX = [process.env.FIREFOX, "/usr/bin/firefox-esr", "/usr/bin/firefox"
 const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
   "--disable-background-networking", "--disable-component-update"];
 
-// The longest time that a test waits for anything, on a machine that is busy with other work.
+// The longest time that a test waits for anything. It is long, as the machine may be busy with other work.
 export const PATIENCE_MS = 240000;
 
 const folders = [];
@@ -25,7 +26,7 @@ export function temporaryFolder() {
   return folders.at(-1);
 }
 
-// Imports a module of the page that imports no other, by its text: Node 18 would take its file for CommonJS.
+// Imports a module of the page that imports no other. Imports its text, as Node 18 would take its file for CommonJS.
 export const pageModule = (name) => {
   const text = readFileSync(new URL(`../page/${name}`, import.meta.url), "utf8");
   return import(`data:text/javascript,${encodeURIComponent(text)}`);
@@ -57,7 +58,7 @@ export class EngineProcess {
     return this;
   }
 
-  // Sends one request; returns {status, headers, body}. `target` is taken as it is, without tidying dots.
+  // Sends one request; returns {status, headers, body}. `target` is sent as it is: dots in its path are not resolved.
   request(target, {method = "GET", headers = {}, body} = {}) {
     const {port} = this.url;
     const options = {host: "127.0.0.1", port, method, path: target, headers: {Connection: "close", ...headers}};
@@ -190,7 +191,7 @@ export const untilTimersRan = (page, ms) =>
   page.evaluate((ms) => new Promise((resolve) => setTimeout(resolve, ms)), ms);
 
 // Runs in the page: from now on, timers of at least that time do nothing, so that a message stays until something else
-// removes it. Infinity ends that.
+// removes it. ignoreTimers(Infinity) ends this.
 export const ignoreTimers = (leastMs) => {
   const all = (window.allTimers ??= window.setTimeout.bind(window));
   window.setTimeout = (act, ms, ...args) => (ms >= leastMs ? 0 : all(act, ms, ...args));
@@ -210,7 +211,7 @@ export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button"
   card.dataset.drawn === "exact");
 
 // Replaces the text of a field key by key, as browsers distinguish typed text from text that a script sets. Waits until
-// the field takes keys: while it is disabled, they would go to the field before.
+// the field takes keys: while it is disabled, keys would go to the field that had them before.
 export async function type(field, text) {
   await field.page().bringToFront(); // Firefox sends keys to no other page
   await eventually(async () => {
@@ -224,8 +225,8 @@ export async function type(field, text) {
   await (text === "" ? keyboard.press("Delete") : keyboard.type(text));
 }
 
-// Clicks twice. Firefox's driver counts clicks only within one chain of actions, so it makes two single clicks; there
-// the event of a double click is sent by hand.
+// Clicks twice. Firefox's driver counts clicks only within one chain of actions, so two single clicks arrive. In
+// Firefox the event of a double click is therefore sent by hand.
 export async function doubleClick(locator) {
   await locator.dblclick();
   if (locator.page().context().browser().browserType().name() === "firefox") await locator.dispatchEvent("dblclick");
@@ -269,7 +270,7 @@ function patient(browser) {
   return browser;
 }
 
-// Returns {launch, skip} of the browser that the environment names, Chromium otherwise; `skip` is false, or says what
+// Returns {launch, skip} of the browser that the environment names, by default Chromium. `skip` is false, or says what
 // is missing. The channel makes Playwright drive Firefox by WebDriver BiDi.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
   const isFirefox = name === "firefox";
@@ -279,7 +280,7 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
   try {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
     const folder = isFirefox ? temporaryFolder() : null; // for downloads
-    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // it would take the focus from the page
+    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // a panel would take the focus
     const settings = {executablePath, timeout: PATIENCE_MS}, start = () => (isFirefox
       ? firefox.launch({...settings, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
       : chromium.launch({...settings, args: CHROMIUM_FLAGS}));
@@ -290,7 +291,7 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
 }
 
 // Returns {name, bytes} of the files that a page saves after `trigger`, sorted by name. Firefox's driver does not
-// report downloads, so they are looked for in their folder.
+// report downloads, so in Firefox the files are looked for in the folder of downloads.
 export async function savedFiles({folder}, page, count, trigger) {
   if (folder) {
     await trigger();

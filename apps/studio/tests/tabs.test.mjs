@@ -1,4 +1,4 @@
-// Several tabs of one browser use one studio.
+// Tests that several tabs of one browser can use one studio.
 import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -36,7 +36,7 @@ async function newTab() {
 test("works in nine tabs at once, whichever has the stream of events", async () => {
   const tabs = [];
   for (let i = 0; i < 9; ++i) tabs.push(await newTab());
-  for (const closed of [0, 4]) await tabs[closed].close(); // the first tab receives the stream of events
+  for (const closed of [0, 4]) await tabs[closed].close(); // the first tab had the stream of events
   const left = tabs.filter((tab) => !tab.isClosed());
   ({document: engine.document} = await engine.json("document", {input: {path: scan}}));
   await engine.prepare({view: "left"});
@@ -62,7 +62,7 @@ const openScan = async (of, sample) => {
   await untilPoints(of, {shell: "6,000", green_man: "5,000"}[sample]);
 };
 
-// Waits until the engine has kept the height that a tab shows, and all tabs have received this.
+// Waits until the engine has kept the height that a tab shows, and all tabs have heard of it.
 const untilTold = (of, tabs) => eventually(async () => {
   const document = new URL(of.url()).hash.slice(1), {recent} = await engine.json("recent");
   const kept = await engine.kept(recent.find((entry) => entry.document === document).input);
@@ -142,7 +142,7 @@ test("is one document in two tabs", async () => {
   const crop = (of) => of.locator("#crop"), crops = async () => [await crop(tab).inputValue(),
     await crop(other).inputValue()];
   await tab.locator("#scan").evaluate((panel) => (panel.open = true));
-  for (const [typed, taken] of [["0,0.3,1,1", "0,0.3,1,1"], ["abc", "0,0.3,1,1"], ["", ""]]) { // the second is refused
+  for (const [typed, taken] of [["0,0.3,1,1", "0,0.3,1,1"], ["abc", "0,0.3,1,1"], ["", ""]]) { // "abc" is refused
     await enter(crop(tab), typed);
     if (typed !== taken) await tab.getByText(/expected left, bottom, right and top as shares/).waitFor();
     await eventually(async () => {
@@ -264,7 +264,7 @@ test("asks for a scan that has moved, takes no other for it unasked, and goes on
   await eventually(async () => assert.equal(await title(tab).innerText(), "shell.ply"));
   await untilReady(tab);
   await soon.deepEqual(() => kept(), before);
-  await locate(fileOf("green_man")); // by mistake
+  await locate(fileOf("green_man")); // locates a wrong file by mistake
   await answerWith("Locate another file", moved);
   await untilPoints(tab, "20,000");
   await soon.equal(() => height(tab).inputValue(), "6.50");
