@@ -65,7 +65,7 @@ batch::Options given_options(const CLI::App& command) {
   return options;
 }
 
-// Part `index` of `count` parts of the jobs, both counted from 1.
+// The jobs are divided into `count` parts; this is part `index`, counted from 1.
 struct Shard {
   std::size_t index = 1, count = 1;
 };

@@ -87,7 +87,7 @@ struct Comparer {
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
 
-  // Appends one relief of that height per method, or none if a method fails.
+  // Appends one relief of that height per method, or no relief if a method fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;

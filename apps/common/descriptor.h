@@ -1,4 +1,5 @@
-// A file descriptor that closes itself, and errors of the system in words. Tested by tests/cli/files_test.cpp.
+// Has a file descriptor that closes itself, and turns errors of the system into words. Tested by
+// tests/cli/files_test.cpp.
 #pragma once
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// The files that can be made of a finished relief, in one table.
+// Lists the kinds of files that can be made of a finished relief, and makes them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -44,7 +44,8 @@ struct CheckedOrder : MakeOrder {
   std::vector<std::string> paths() const;
 };
 
-// Errors: those of find_project() and options_of().
+// Reads the project if the input is one, and parses the options. Errors: those of find_project() and
+// options_of().
 Result<CheckedOrder> check_order(MakeOrder order);
 
 // An order with its inputs read and its view chosen.
@@ -53,7 +54,8 @@ struct LoadedOrder : CheckedOrder {
   std::optional<ViewGuess> side;  // the chosen side, if the order left the choice
 };
 
-// Errors: kind option if there is no input; those of load_project_scan(), read_scene() and `read`.
+// Reads the inputs and chooses the view. Errors: kind option if there is no input; those of
+// load_project_scan(), read_scene() and `read`.
 Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 
 // The facts that a relief's report states about its inputs, without the scans themselves.
@@ -73,7 +75,7 @@ struct FinishedRelief {
   MadeRelief made;
   InputFacts inputs;
   std::optional<double> draft_deg;
-  std::vector<StageTime> times = {};  // none before end()
+  std::vector<StageTime> times = {};  // empty before end()
 
   // Ends the progress, and keeps the times of its stages.
   void end(Progress& progress);

@@ -1,4 +1,4 @@
-// The report on a relief, as JSON.
+// Makes the report on a relief, as JSON.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -62,7 +62,7 @@ Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& p
 // Returns the texts in one line.
 std::string joined(const std::vector<std::string>& texts, std::string_view between = ", ");
 
-// Returns the result; an error that names no input gets this name.
+// Returns the result. If it is an error that names no input, the error gets this name.
 template <typename T>
 Result<T> naming(const std::string& name, Result<T> result) {
   if (!result && result.error().input.empty()) result.error().input = name;

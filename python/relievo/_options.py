@@ -27,8 +27,7 @@ INPUT = [*of_stage("input"), "camera", "base_image", "scan", "stream_above_mb"]
 
 _TEXTS = {row["keyword"] for row in TABLE if "min" not in row}
 
-# A session uses the PREPARED keywords once, when it prepares the scan. The others choose what make() and frames make of
-# it.
+# A session uses the options of PREPARED once, when it prepares the scan. OF_FRAME has the options of its frames.
 PREPARED = {*of_stage("view", "model"), *INPUT} - {"base_image"}
 OF_MAKE = [row["keyword"] for row in TABLE if row["stage"] != "input"] + INPUT
 OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]

@@ -39,7 +39,7 @@ class Frame:
 
     @property
     def u(self) -> float:
-        """The strength of the compression that was found: 0 is flat, 1 the method's own, more is higher."""
+        """The strength of the compression that was found. 0 is a flat relief, 1 the method's own, above 1 it is higher."""
         return self._native.u()
 
     @property
@@ -51,7 +51,7 @@ class Frame:
 class Session:
     """A scan with its visible surface prepared, so that a change of the options takes milliseconds.
 
-    Frames show the relief alone; make() gives the solid. Several threads may use one session: their frames wait for each
+    Frames show only the relief; make() gives the solid. Several threads may use one session: their frames wait for each
     other.
     """
 

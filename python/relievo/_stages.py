@@ -73,7 +73,7 @@ class HeightSystem:
         return self._native.is_boundary()
 
     def solve(self, slopes: Any) -> NDArray[np.float64]:
-        """Returns the height of each point for the slopes (dz/dx, dz/dy), (N, 2). float64 in rows is not copied."""
+        """Returns the height of each point for the slopes (dz/dx, dz/dy), (N, 2). Rows of float64 are not copied."""
         return self._native.solve(numbers("slopes", slopes))
 
 

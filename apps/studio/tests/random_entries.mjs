@@ -115,7 +115,7 @@ export class RandomEntries {
     await this.press("Redo");
   }
 
-  // Pressing a button first takes what was typed, which may enable or disable the button.
+  // First leaves the field, so that the page takes what was typed. This may enable or disable the button.
   async press(name) {
     const pressed = button(name, this.page);
     this.done.push(name);
