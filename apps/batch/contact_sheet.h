@@ -1,4 +1,5 @@
-// Contact sheets: small pictures of many reliefs in one picture. Tested by tests/cli/batch_pages_test.cpp.
+// Makes contact sheets: small pictures of many reliefs in one picture. Tested by
+// tests/cli/batch_pages_test.cpp.
 #pragma once
 
 #include <cstddef>

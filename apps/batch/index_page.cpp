@@ -9,8 +9,9 @@
 namespace relievo::app::batch {
 namespace {
 
-// A card is laid out only when it comes into sight, so that a page of 20,000 cards opens at once. A card shows
-// the front view, which is the left half of the preview, or the oblique view while the pointer is on the card.
+// A card is laid out only when it comes into sight, so that a page of 20,000 cards opens at once. A card
+// shows the front view, which is the left half of the preview, or the oblique view while the pointer is on
+// the card.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --paper: #ececea; --card: #fafaf8; --ink: #26262a; --soft: #6d6d72; --bad: #a3392c; }
 @media (prefers-color-scheme: dark) {

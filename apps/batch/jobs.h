@@ -38,9 +38,9 @@ struct Catalogue {
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
-// If the catalogue is a folder, returns its files that no job reads as its scan, in order and relative to the
-// folder. Hidden files and files in the folder of the outputs are left out. If the catalogue is a table,
-// returns nothing.
+// If the catalogue is a folder, returns the files in it that no job reads as its scan, in order and relative
+// to the folder. Hidden files and files in the folder of the outputs are left out. If the catalogue is a
+// table, returns nothing.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
 // Returns the files that the job reads: its scan, the files that a scene, a project or a glTF file names, and

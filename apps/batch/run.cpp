@@ -50,8 +50,8 @@ class Run {
     return {};
   }
 
-  // One process per processor is fastest. If there are fewer processes, because of their memory or because
-  // few jobs are left, each gets several threads.
+  // One process per processor is fastest. If the memory or the number of jobs left allows only fewer
+  // processes, each gets several threads.
   int threads_for(const Work& work) const {
     const double side_by_side =
         std::min({static_cast<double>(most_processes_), static_cast<double>(works_.size() - next_),

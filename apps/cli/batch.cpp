@@ -31,7 +31,7 @@ struct BatchArguments : MakeOptions {
   batch::RunLimits limits;
 };
 
-// The jobs of a run, and where their outputs go.
+// The jobs of a run, and the folder and the kinds of their outputs.
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::Workshop workshop;
@@ -82,7 +82,8 @@ Result<Shard> parse_shard(const std::string& text) {
   return shard;
 }
 
-// Neighbours in a catalogue are often alike, so jobs go to the shards in turn.
+// Neighbours in a catalogue are often alike, so jobs go to the shards in turn: shards then take about equally
+// long.
 std::vector<batch::Job> jobs_of_shard(const std::vector<batch::Job>& jobs, const Shard& shard) {
   std::vector<batch::Job> part;
   for (std::size_t i = shard.index - 1; i < jobs.size(); i += shard.count) part.push_back(jobs[i]);

@@ -28,8 +28,8 @@ std::vector<std::string> words_of(const std::string& command, const std::string&
   return {option->choices.begin(), option->choices.end()};
 }
 
-// Returns whether a flag's placeholder stands for a path: it then has an ending ("P.png") or is a word for a
-// file or a folder.
+// Returns whether the word that stands for a flag's value in the help means a path. Such a word has an ending
+// ("P.png") or is one of those for files and folders.
 bool is_path(const std::string& value) {
   const std::size_t dot = value.find('.');
   return value == "INPUT" || value == "OUT" || value == "DIR" || value == "FX,FY,CX,CY" ||

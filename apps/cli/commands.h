@@ -1,5 +1,5 @@
-// Each function adds one subcommand to the program. If the user chooses it, it leaves its outcome in
-// `result`.
+// Each function adds one subcommand to the program. The subcommand that the user chooses leaves its outcome
+// in `result`.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -38,8 +38,8 @@ struct SampledView {
   View view;
 };
 
-// Reads the inputs and takes the points seen in their view, as `make` does. Errors: those of parse_input_texts(),
-// parse_options(), read_scene() and sample_for_view().
+// Reads the inputs and takes the points seen in their view, as `make` does. Errors: those of
+// parse_input_texts(), parse_options(), read_scene() and sample_for_view().
 Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress);
 
 }  // namespace relievo::app::cli

@@ -21,7 +21,7 @@ iovec part(const char* text) {
   return {const_cast<char*>(text), std::strlen(text)};
 }
 
-// Nothing here may allocate. If several threads fail at once, only the first one prints the line.
+// This function must not allocate. If several threads fail at once, only the first one prints the line.
 void end_process() {
   static std::atomic_flag is_ending;
   while (is_ending.test_and_set()) ::pause();

@@ -1,4 +1,4 @@
-// Progress, warnings and errors as the command line prints them.
+// Prints progress, warnings and errors as the command line shows them.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace relievo::app::cli {
 
-// A progress bar with stage names on standard error if that is a terminal, else nothing. The bar is erased at
-// the end.
+// Returns a watcher that draws a progress bar with stage names on standard error, and erases it at the end.
+// Returns nothing if `is_quiet` or if standard error is not a terminal.
 Progress::Watcher progress_bar(bool is_quiet);
 
 // Returns the text with '?' in place of control characters, which names and words from files may contain. So

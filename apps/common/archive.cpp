@@ -82,8 +82,8 @@ Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
   const ArchiveEntry entry(stat.size > most_unpacked ? nullptr : zip_fopen_index(zip_.get(), index, 0));
   if (!entry) return fail(zip_get_error(zip_.get()));
   std::vector<std::byte> bytes;
-  // Reads in blocks, as a damaged archive may state any size. At the end of the file libzip reads no bytes,
-  // but compares the checksum.
+  // Reads in blocks, as a damaged archive may state any size. The last read gets no bytes: there libzip
+  // compares the checksum.
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t filled = 0; bytes.size() <= stat.size;) {
     bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));

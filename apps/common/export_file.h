@@ -57,7 +57,7 @@ struct HeightMapOrder {
 
 // Returns the picture of a relief. A lithophane is lit by a lamp behind it unless a material other than
 // plaster is given. If the relief is on the inside of a wrap, the front view shows it unrolled; the oblique
-// view cuts a wrap of more than half a turn open.
+// view cuts open a wrap of more than half a turn.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
 // Returns the height map as a file that also states its scale. A plate that was bent around a wrap is shown

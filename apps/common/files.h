@@ -26,7 +26,7 @@ Result<void> check_file(const std::string& path);
 // Returns the size of a file; nothing if the path is missing, or is that of a folder or a device.
 std::optional<std::uint64_t> file_size(const std::string& path);
 
-// Returns the text as the content of a file.
+// Returns the bytes of the text, as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);
 
 // Returns a view of the bytes as text, which is valid as long as the bytes are.

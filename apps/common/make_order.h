@@ -67,7 +67,8 @@ struct InputFacts {
 
 InputFacts facts_of(const LoadedOrder& loaded);
 
-// Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in the scene.
+// Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in
+// the scene.
 nlohmann::json models_report(const Scene& scene, const View& view);
 
 // A finished relief, with all that its files and its report need.

@@ -1,4 +1,4 @@
-// Folders that the program fills and cleans up. Tested by tests/cli/foreign_files.
+// Marks the folders that the program fills and cleans up. Tested by tests/cli/foreign_files.
 #pragma once
 
 #include <string>

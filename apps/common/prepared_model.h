@@ -32,7 +32,8 @@ class PreparedModel {
   // Errors: those of options_of(); kind option for a method that has no frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
 
-  // Draws a frame of this model in that material. Errors: kind input for a frame of another model, kind option.
+  // Draws a frame of this model in that material. Errors: kind input for a frame of another model, kind
+  // option.
   Result<Picture> picture(const FrameInMm& shown, RenderOptions options, std::string_view material);
 
  private:

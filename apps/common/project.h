@@ -84,7 +84,7 @@ Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, con
                         const std::function<bool()>& is_unwanted = {});
 
 // Returns the model of the input, or the models of a scene file. Sets the input's hash if it has none. A
-// relative path starts at `folder`. Errors: kind input, also if the file has another hash than the input;
+// relative path starts at `folder`. Errors: kind input, also if the file does not have the input's hash;
 // kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
 Result<Scene> load_input(ScanSource& input, const std::string& folder,
                          const std::function<bool()>& is_unwanted = {});

@@ -30,8 +30,8 @@ struct PointsWanted {
 // bytes may also be a ZIP archive with one cloud or mesh and the files that it names.
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path);
 
-// Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera() and
-// depth_cloud().
+// Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera()
+// and depth_cloud().
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
@@ -59,7 +59,7 @@ Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOpti
 // Returns the height map in the file of that path; null for an empty path. Errors: kind input.
 Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& path);
 
-// Returns the texts in one line.
+// Returns the texts as one text, with `between` between them.
 std::string joined(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 // Returns the result. If it is an error that names no input, the error gets this name.

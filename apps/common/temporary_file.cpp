@@ -99,7 +99,7 @@ std::string folder_for(const std::string& path) {
 // longer than file systems allow.
 std::string stem_for(const std::string& path) {
   constexpr std::size_t most =
-      NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // digits of numbers
+      NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // two numbers of ten digits
   const std::filesystem::path whole = path;
   return (whole.parent_path() / (whole.filename().string().substr(0, most) + ".relievo-")).string();
 }

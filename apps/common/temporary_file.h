@@ -15,8 +15,8 @@ struct TemporaryName;
 // it has no name, so that nothing is left of it even after a crash. It has a unique temporary name while it
 // replaces another file, and from the beginning if the file system has no files without names.
 // remove_temporary_files() leaves no file with such a name. If a killed process left one, the next
-// TemporaryFile for the same path removes it. The program recognises them by an attribute, never by the name
-// alone.
+// TemporaryFile for the same path removes it. The program recognises such files by an attribute, never by the
+// name alone.
 class TemporaryFile {
  public:
   // The file gets the permissions of `mode` that the process's mask allows.
