@@ -1,5 +1,4 @@
-// Tests that entries are taken in the order in which they are typed and chosen, and that exports and projects wait for
-// them.
+// Tests that entries are taken in the order in which they are typed and chosen. Exports and projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,

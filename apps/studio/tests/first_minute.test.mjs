@@ -129,7 +129,7 @@ test("offers the tour no longer to whoever begins to work", async () => {
   await other.close();
 });
 
-// The page learns of the exact relief by a request for facts, which is held back here.
+// The page learns by a request for facts that the exact relief is there. This request is held back here.
 test("shows the kinds of work before the exact relief is there", async () => {
   const other = await page.context().newPage(), letGo = await holdRequests(other, "**/api/facts");
   const large = path.join(folder, "large.ply");
@@ -402,8 +402,7 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await untilReady(page);
 });
 
-// The engine refuses to prepare a view before a document is open. The page learns from the engine's answer that it is
-// open.
+// The engine prepares no view before a document is open. The page learns from the engine's answer when it is open.
 test("takes what is changed while a scan is still opening", async () => {
   const other = await page.context().newPage(), answers = [];
   other.on("response", (response) => answers.push(response.status()));
@@ -480,7 +479,7 @@ function writePoints(file, points) {
   writeFileSync(file, `${header}${lines.join("\n")}\n`);
 }
 
-// Writes a ball on a tilted table. The table measures 4 x 4 radii of the ball, and its points scatter.
+// Writes a ball on a tilted table. The table measures 4 x 4 radii of the ball, and its points are noisy.
 function writeBallOnTable(file) {
   const random = randomNumbers(1), n = [0, 0.766, 0.643], points = [];
   for (let i = 0; i < 6000; ++i) {

@@ -499,8 +499,7 @@ function cut(action, body, ms, promised = body.length) {
   });
 }
 
-// The first turn of a mesh after a change of the view measures points on all its sides, which takes longer than a
-// picture.
+// After a change of the view, the first turn of a mesh measures points on all its sides. A picture takes less time.
 test("draws while the model is turned, and gives up a turn when another comes", async () => {
   const mesh = path.join(folder, "mesh.ply");
   run("make", scan, "-o", mesh, "--height", 4, "--width", 60, "--quiet");

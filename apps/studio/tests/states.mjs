@@ -9,7 +9,7 @@ const nothing = () => {};
 
 const tool = (name) => ({enter: (page) => choose(name, page), leave: (page) => choose("Light", page)});
 
-// Takes back the changes that a state has made, which are that many steps.
+// Undoes the changes of a state, which are that many steps.
 const undone = (times) => async (page) => {
   await undo(times, page);
   await untilReady(page);

@@ -31,7 +31,7 @@ async function openScan(of) {
 }
 
 // Runs in the page: returns the parts that scroll though they must not. No part may scroll sideways. The parts around
-// the picture may not scroll upwards either, nor, on a desk, dialogs and the start page.
+// the picture may not scroll upwards; on a desk, dialogs and the start page may not either.
 function scrolling() {
   const name = (it) => it.id || it.className || it.localName, all = [...document.querySelectorAll("*")];
   const around = "html, body, main, .studio, .work, #stage, #table, .status";

@@ -1,5 +1,4 @@
-// Helps the studio's tests: runs the engine as a process and its page in Chromium or Firefox, and makes temporary
-// files.
+// Helps the studio's tests: runs the engine, and its page in Chromium or Firefox, and makes temporary files.
 import assert from "node:assert/strict";
 import {spawn, spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
@@ -175,7 +174,7 @@ export async function untilReady(page) {
 // Waits until the page's program has begun: before that, the page takes no clicks, but scripts could change its fields.
 export const untilListening = (page) => page.locator("body:not([inert])").waitFor();
 
-// Holds the requests of a page to an address back. Returns a function that lets these and all later ones go.
+// Holds back the requests of a page to an address. Returns a function that lets these and all later requests go.
 export async function holdRequests(page, address) {
   let letGo;
   const held = new Promise((resolve) => (letGo = resolve));
@@ -211,7 +210,7 @@ export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button"
   card.dataset.drawn === "exact");
 
 // Replaces the text of a field key by key, as browsers distinguish typed text from text that a script sets. Waits until
-// the field takes keys: while it is disabled, keys would go to the field that had them before.
+// the field takes keys: while it is disabled, keys would go to the field that had the focus.
 export async function type(field, text) {
   await field.page().bringToFront(); // Firefox sends keys to no other page
   await eventually(async () => {
