@@ -29,11 +29,12 @@ struct NamedArray {
 std::vector<Vec3> points_of(const NamedArray& given);
 std::vector<Vec2> plane_points_of(const NamedArray& given);
 
-// Returns the unit vectors of `size` rows. Raises for the same arrays as points_of(), and for rows of zeros.
+// Returns the rows as unit vectors. Raises if there are not `size` of them, for arrays for which points_of()
+// raises, and for rows of zeros.
 std::vector<Vec3f> normals_of(const NamedArray& given, std::size_t size);
 
-// Returns the colours of `size` rows of three values or, with an opacity that is ignored, four. Integers of 8
-// bits are from 0 to 255, floats from 0 to 1.
+// Returns the colours of `size` rows. A row has three values, or four with an opacity, which is ignored.
+// Integers of 8 bits are from 0 to 255, floats from 0 to 1.
 std::vector<Colour> colours_of(const NamedArray& given, std::size_t size);
 
 // Return indices of points, each below `size`; those of triangles come in rows of three. Raise for numbers

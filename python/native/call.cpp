@@ -19,7 +19,8 @@ namespace {
 // The time between two checks for Ctrl-C. People perceive a response within a tenth of a second as immediate.
 constexpr std::chrono::milliseconds signal_interval(50);
 
-// The number of watched calls for which this thread waits: more than one if a callback makes another.
+// The number of watched() calls for which this thread waits. A callback may make another call while the first
+// one runs.
 thread_local int calls_of_this_thread = 0;
 
 struct Event {
@@ -70,7 +71,7 @@ struct CountedCall {
   ~CountedCall() { --calls_of_this_thread; }
 };
 
-// Ends the library's threads before a fork, which they would not survive, and starts them again afterwards.
+// Ends the library's threads before a fork, as the child would not have them. Starts them again afterwards.
 class Fork {
  public:
   // Waits until no call of the library is running. A fork within a callback would wait for its own call for

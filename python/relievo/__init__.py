@@ -54,7 +54,7 @@ def set_threads(number: int) -> None:
     _native.set_threads(number)
 
 
-# A forked process has only the thread that forked.
+# A forked process has only the thread that forked, so the library's threads are ended before a fork.
 _os.register_at_fork(
     before=_native.begin_fork,
     after_in_parent=_native.end_fork_in_parent,
