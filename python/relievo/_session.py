@@ -39,7 +39,7 @@ class Frame:
 
     @property
     def u(self) -> float:
-        """The strength of the compression that was found. 0 is a flat relief, 1 the method's own, above 1 it is higher."""
+        """The strength of the compression that was found. 0 is flat, 1 the method's own, above 1 is higher."""
         return self._native.u()
 
     @property
