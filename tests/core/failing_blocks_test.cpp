@@ -1,5 +1,5 @@
-// Parallel calls whose blocks throw, as they do when memory runs out. Builds without exceptions, such as
-// WebAssembly, leave these tests out.
+// Tests parallel calls whose blocks throw, as they do when memory runs out. Builds without exceptions, such
+// as WebAssembly, leave these tests out.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -45,7 +45,8 @@ TEST_P(FailingBlocks, GiveTheCallerTheirException) {
   EXPECT_THROW(parallel_both([] { throw std::bad_alloc(); }, [] {}), std::bad_alloc);
 }
 
-// The first failing block waits for another one to fail, so that a later one often fails first.
+// The lowest of the failing blocks waits a while for another one to fail. So a higher block often fails
+// before it.
 TEST_P(FailingBlocks, GiveTheExceptionOfTheLowestOne) {
   for (std::size_t first = 0; first < 60; ++first) {
     std::atomic<bool> has_other_failed = false;
@@ -71,7 +72,8 @@ TEST_P(FailingBlocks, LeaveOutThoseThatHaveNotBegun) {
   EXPECT_LE(begun, GetParam());
 }
 
-// Each block waits for the one before it, so those after the failing block would wait for ever.
+// Each block waits for the block before it. Unless a failure ends the waiting, the blocks after the failing
+// one would wait for ever.
 TEST_P(FailingBlocks, EndTheWaitOfOthers) {
   for (std::size_t failing = 0; failing < 50; ++failing) {
     BlockFlags done(50);

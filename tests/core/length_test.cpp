@@ -29,7 +29,8 @@ TEST(Length, MayBeAFraction) {
   EXPECT_DOUBLE_EQ(*parse_length("1.5/3mm"), .5);
 }
 
-// The page's own parse_length() is tested by the same cases: [text, millimetres, or null if it is refused].
+// Each case is a text and its length in millimetres, or null if the text must be refused. The tests of the
+// page's parse_length() use the same file.
 TEST(Length, IsWhatTheSharedCasesSay) {
   std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "lengths.json");
   const auto cases = nlohmann::json::parse(file);

@@ -17,7 +17,8 @@ struct WrittenNumber {
   double value;
 };
 
-// Returns a number of any size, written with that many digits; 17 digits write each double exactly.
+// Returns a random finite double, and its text with `digits` significant digits. A text of 17 digits
+// determines the double exactly.
 WrittenNumber random_number(std::mt19937_64& random, int digits) {
   double value = 0;
   do value = std::bit_cast<double>(random());
@@ -65,8 +66,8 @@ TEST(Number, SaysThatANumberIsOutOfRange) {
 }
 
 #if defined(__cpp_lib_to_chars)
-// The standard library gives the expected values, for texts with few digits, which take the fast path, and
-// with many.
+// The standard library gives the expected values. Texts with few digits take the parser's fast path, texts
+// with many do not.
 TEST(Number, DoesWhatTheStandardLibraryDoes) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 50'000; ++i) {

@@ -23,11 +23,11 @@ TEST(FindRoot, FindsRootsNearAndFar) {
   for (const double root : {0.0, .3, -7.0, 120.0, -640.0, 700.0}) {
     const Search s = search([&](double x) { return x - root; });
     EXPECT_NEAR(s.x, root, 1e-5);
-    EXPECT_EQ(s.last, s.x - root);  // the last call is at the result
+    EXPECT_EQ(s.last, s.x - root);  // the last call was at the result
   }
 }
 
-// The functions are flat far from the root and steep at the root, or the other way round.
+// Each function is much steeper in one part than in another.
 TEST(FindRoot, FindsThemOnCurvesOfManyShapes) {
   const auto expect_root = [](auto f) {
     const Search s = search(f);
