@@ -33,8 +33,8 @@ TEST(Inset, LeavesOutSidesThatVanish) {
   EXPECT_EQ(inset(cut, 30.0 * (2 - std::sqrt(2.0))).size(), 4U);
 }
 
-// The corners become sharp only up to a micrometre: the polygon of an arc lies inside the arc, and so do its
-// inset sides.
+// The result is within a micrometre of the rectangle, not exactly equal: the sides that stand for a round
+// corner lie inside its arc, and so do these sides after the inset.
 TEST(Inset, RoundCornersOfThatRadiusBecomeSharp) {
   const std::vector<Vec2> corners = {{0, 0}, {60, 40}};
   const std::vector<Vec2> rounded = outline_around(corners, {Outline::round, 5, 5});
@@ -53,7 +53,8 @@ TEST(Inset, EveryCornerIsAsFarInsideAsAsked) {
     const std::vector<Vec2> moved = inset(polygon, mm);
     for (const Vec2& p : moved) RC_ASSERT(std::abs(depth_in(polygon, p) - mm) < 2e-4);
     if (mm <= 0) RC_ASSERT(moved.size() == polygon.size());
-    // Nothing is missing: the inset polygon contains every place at that depth.
+    // No part is missing: the points are at least 10 inside the polygon, so at least 10 - mm inside the inset
+    // one.
     for (const Vec2& p : points) RC_ASSERT(depth_in(moved, p) >= 10 - mm - 1e-3);
   }));
 }

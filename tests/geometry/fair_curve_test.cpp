@@ -20,7 +20,8 @@ std::vector<CurveNode> circle_nodes(int count, double radius, double noise) {
   return nodes;
 }
 
-// Returns nodes on the sides of a square of half side `half`, counter-clockwise from its lower left corner.
+// Returns nodes along the sides of a square of side 2 * half, with noise across the sides. They begin at the
+// lower left corner and run counter-clockwise.
 std::vector<CurveNode> square_nodes(int per_side, double half, double noise) {
   test::Random random(9);
   const std::array<Vec2, 4> corners{Vec2(-half, -half), Vec2(half, -half), Vec2(half, half),
@@ -90,7 +91,7 @@ TEST(FairCurve, IsEmptyIfTooShort) {
 }
 
 TEST(FairCurve, StaysNearItsNodesWhateverTheyAre) {
-  // Few nodes with sharp turns leave sections between corners without any node.
+  // The nodes are few and turn sharply, so some sections between two corners contain no node.
   test::Random random(5);
   const Vec2 start(100, 200);
   for (int trial = 0; trial < 2000; ++trial) {

@@ -39,7 +39,7 @@ TEST(HilbertOrder, KeepsEqualPointsByNumber) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-// A far point must not put all others into one cell: it does not change the order of the cluster.
+// A single far point must not put all other points into one cell, so it must not change their order.
 TEST(HilbertOrder, ResolvesClusters) {
   std::vector<Vec2> points;
   for (int i = 0; i < 1024; ++i) points.emplace_back(i * 37 % 32, i / 32);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double cell = .1;
 
-// Points of a square of side 2. Every third point is not counted.
+// Random points of a square of side 2, and a lattice that counts two of every three.
 struct Scattered {
   std::vector<Vec3> points = test::sheet(3000, 1, 0).points;
   std::vector<Index> counted = two_of_three(points.size());
@@ -35,7 +35,7 @@ struct Scattered {
     return tiles;
   }
 
-  // Returns a point's place in units of cells: at() of the nodes' columns and rows.
+  // Returns a point's position in units of cells: at() interpolates the column and row numbers of the nodes.
   Vec2 place(std::size_t point) const { return {lattice.at(point, columns), lattice.at(point, rows)}; }
 
   std::vector<Lattice::Tile> columns = refined([&](std::size_t n) { return n % lattice.width(); });
@@ -48,8 +48,8 @@ std::vector<double> some_values(std::size_t n) {
   return values;
 }
 
-// B-splines are exact for linear functions: places in cells are those in the plane, except for scale and
-// origin.
+// B-splines reproduce linear functions. So a point's position in cells is its position in the plane, scaled
+// and shifted.
 TEST(Lattice, IsLinearBetweenItsNodes) {
   const Scattered s;
   const Vec2 first = s.place(0);
@@ -59,8 +59,8 @@ TEST(Lattice, IsLinearBetweenItsNodes) {
   }
 }
 
-// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() lie on it, or at
-// most 1/64 above it, also across cells.
+// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() are nowhere below
+// this parabola, and at most 1/64 above it.
 TEST(Lattice, IsSmoothBetweenItsNodes) {
   const Scattered s;
   const auto squares = s.refined([&](std::size_t n) {
@@ -74,7 +74,7 @@ TEST(Lattice, IsSmoothBetweenItsNodes) {
   }
 }
 
-// The expected values follow the definition, over all points and nodes.
+// The expected values follow the definition: each node's mean is computed from all counted points.
 TEST(Lattice, GathersMeansBySquaredWeights) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());
@@ -130,7 +130,8 @@ TEST(Lattice, FindsWhatValuesDoBetweenNodes) {
   }
 }
 
-// Each node is a corner of four cells, another corner of each.
+// A node inside the lattice belongs to four cells. It is the first corner of one cell, the second corner of
+// another, and so on.
 TEST(Lattice, KnowsTheCellsAroundANode) {
   const Scattered s;
   const std::size_t w = s.lattice.width(), node = 3 * w + 5;
@@ -156,8 +157,8 @@ TEST(Lattice, FindsTheNodesAroundAPoint) {
   }
 }
 
-// The expected nodes are those whose column and row lie in the triangle, as place() measures its corners in
-// cells.
+// The expected nodes are those inside the triangle. place() gives its corners in units of cells, in which a
+// node's coordinates are its column and row.
 TEST(Lattice, FindsTheNodesInATriangle) {
   const Scattered s;
   for (Index first = 0; first + 2 < 300; first += 3) {
@@ -167,7 +168,7 @@ TEST(Lattice, FindsTheNodesInATriangle) {
     s.lattice.mark_nodes_in(t, found);
     for (std::size_t n = 0; n < found.size(); ++n) {
       const Vec2 p(static_cast<double>(n % s.lattice.width()), static_cast<double>(n / s.lattice.width()));
-      double nearest = 1e9;  // distance to a side, positive inside
+      double nearest = 1e9;  // distance to the nearest side, positive inside
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec2 a = s.place(t[k]), side = s.place(t[(k + 1) % 3]) - a;
         nearest = std::min(nearest, cross(side, p - a) / side.norm());
@@ -178,8 +179,8 @@ TEST(Lattice, FindsTheNodesInATriangle) {
   }
 }
 
-// Cubic B-splines are a partition of unity, and exact for linear functions: spreading keeps the sum of
-// amounts and their centre.
+// Cubic B-splines add up to 1 and reproduce linear functions. So the spread amounts add up to the given
+// amount, and their centre is the given place.
 TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
   const Scattered s;
   for (const Vec2& place : {Vec2(3, 4), Vec2(5.25, 2.9), Vec2(7.999, 8.5)}) {

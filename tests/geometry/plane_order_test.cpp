@@ -18,7 +18,8 @@ TEST(PlaneOrder, ScalesIntoTheUnitSquare) {
   EXPECT_TRUE(in_unit_square({}).empty());
 }
 
-// The order passes the quarters of the square one after the other, and so on within each quarter.
+// The order visits the four quarters of the square one after the other, and in the same way the quarters of
+// each quarter.
 TEST(PlaneOrder, PassesQuartersOneByOne) {
   std::vector<Eigen::Vector2f> points;
   for (int y = 0; y < 8; ++y)

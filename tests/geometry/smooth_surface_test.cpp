@@ -17,7 +17,7 @@ std::vector<Vec2> places_of(const std::vector<Vec3>& points) {
   return places;
 }
 
-// Random points in the unit square with the heights of a function, triangulated.
+// A triangulation of random points in the unit square, with the heights f(p).
 struct Field {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
@@ -58,8 +58,8 @@ TEST(SmoothSurface, ReproducesQuadratics) {
     }
 }
 
-// The points stand in rows, as beside outlines, and the surface bends by 24 degrees between two rows. Along
-// the rows it must stay straight, as otherwise every triangle would show as a bead.
+// The points stand in rows, as beside outlines, and the surface bends by 21 degrees at one row. Along the
+// rows its slope must stay constant, as otherwise every triangle would show as a bead.
 TEST(SmoothSurface, BendsBetweenRowsAsIfThereWereNoTriangles) {
   const double bend = .45;
   std::vector<Vec3> points;
@@ -131,7 +131,8 @@ TEST(SmoothSurface, LeavesOtherTrianglesPlane) {
   }
 }
 
-// A step between two level halves, whose triangles are not smooth: both halves stay exactly level.
+// Two level halves are joined by a step, whose triangles are not marked as smooth. Both halves must stay
+// exactly level.
 TEST(SmoothSurface, DoesNotSwingBesideAWall) {
   const Field field(3000, [](const Vec2& p) { return p.x() < .5 ? 0. : 1.; });
   std::vector<std::uint8_t> smooth = field.all_smooth();

@@ -36,7 +36,7 @@ std::vector<float> values_of(std::span<const Vec2> points, F f) {
   return values;
 }
 
-// Fits the spline to values, and evaluates it.
+// Fits the spline to values at its sites, and returns its values at other places.
 std::vector<float> fitted(const MultilevelSpline& spline, std::span<const float> values,
                           std::span<const Vec2> at) {
   SplineFunction function = spline.make_function();
@@ -55,15 +55,15 @@ double wavy(double x, double y) {
   return std::sin(3 * x) * std::cos(4 * y) + x;
 }
 
-// Computes a B-spline by the recursion of Cox and de Boor for uniform knots 0, 1, 2, ...; the cubic one is
-// positive in (0, 4).
+// Computes a B-spline by the recursion of Cox and de Boor for uniform knots 0, 1, 2, ... The cubic B-spline
+// is positive in (0, 4).
 double b_spline(int degree, double t) {
   if (degree == 0) return t >= 0 && t < 1 ? 1 : 0;
   return t / degree * b_spline(degree - 1, t) + (degree + 1 - t) / degree * b_spline(degree - 1, t - 1);
 }
 
-// A lattice of the textbook: node (i, j) belongs to the B-spline that starts i - 3 and j - 3 cells from the
-// domain's corner.
+// The lattice of one level, as in textbooks. The B-spline of node (i, j) covers 4 x 4 cells. The first cell
+// is in column i - 3 and row j - 3 of the domain.
 struct Lattice {
   std::size_t columns, rows;
   double cell;
@@ -87,7 +87,8 @@ Lattice lattice(int level) {
   return {2 * cells + 3, cells + 3, std::ldexp(1, -level)};
 }
 
-// Computes equations (3) to (5) of the paper for sites with weights, without shortcuts.
+// Computes equations (3) to (5) of Lee, Wolberg and Shin (see spline.h) for sites with weights, without
+// shortcuts.
 Lattice approximated(int level, std::span<const Vec2> sites, std::span<const float> weights,
                      std::span<const double> values) {
   Lattice result = lattice(level);
@@ -187,7 +188,7 @@ TEST(Spline, TakesTheEdgesValueOutsideTheDomain) {
   EXPECT_EQ(out[2], out[3]);
 }
 
-// A site of weight 0 changes nothing, and the coarser levels determine the spline where there is no weight.
+// A site of weight 0 changes nothing. If all weights are 0, the spline is 0.
 TEST(Spline, FollowsTheWeights) {
   std::vector<Vec2> sites = scattered(200);
   std::vector<float> values = values_of(sites, wavy), weights = ones(200);
@@ -228,7 +229,8 @@ TEST(Spline, TellsWhatTheFitLeaves) {
   EXPECT_LT(largest_difference(sum, values), 3e-4);
 }
 
-// Coarse levels alone, refined to the finer lattice, give the same function as on their own lattice.
+// A spline that is fitted on its three coarsest levels only is the same function on a lattice of six levels
+// as on one of three.
 TEST(Spline, IsTheSameOnAFinerLattice) {
   const std::vector<Vec2> sites = scattered(200), places = scattered(300, 2);
   const std::vector<float> values = values_of(sites, wavy);

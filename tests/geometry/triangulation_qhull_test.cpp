@@ -1,5 +1,5 @@
-// Compares triangulations with Qhull, which takes the lower hull of points on a paraboloid, in plain doubles.
-// On points far from degenerate both must find the same triangles.
+// Compares triangulations with those of Qhull, which computes in plain doubles. For points that are far from
+// degenerate both must be the same.
 #ifdef RELIEVO_HAS_QHULL
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// Corners in rising order: Qhull's facets have no common orientation.
+// Triangles with their corners in rising order, because Qhull does not orient its facets alike.
 using Corners = std::set<Triangle>;
 
 Corners corners_of(const Triangulation& triangulation) {

@@ -15,7 +15,7 @@ namespace {
 
 using Points = std::vector<Vec2>;
 
-// Returns the triangles in a sorted order, each from its lowest corner.
+// Returns the triangles in a sorted order, each beginning with its lowest corner.
 std::set<Triangle> sorted_triangles(const Triangulation& triangulation) {
   std::set<Triangle> triangles;
   for (Triangle t : triangulation.triangles) {
@@ -39,8 +39,8 @@ double in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          (c - d).squaredNorm() * twice_area(d, a, b);
 }
 
-// Returns the convex hull with the points on its edges, by the monotone chain, counter-clockwise from the
-// leftmost point, without duplicates.
+// Returns the corners of the convex hull and the points on its edges, counter-clockwise from the leftmost
+// point, without duplicates. The algorithm is the monotone chain.
 Points brute_hull(Points points) {
   const auto less = [](const Vec2& p, const Vec2& q) {
     return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
@@ -78,8 +78,8 @@ Points few_integer_points(int most, int limit) {
   return points;
 }
 
-// delaunay_fault(), by which all other tests check, finds every fault. In general position the triangulation
-// is unique, so any other number anywhere is wrong.
+// All other tests rely on delaunay_fault(), so it must find every fault. Points in general position have only
+// one Delaunay triangulation, so any change of a number in it is a fault.
 TEST(DelaunayCheck, RejectsAnyChangedNumber) {
   const Points points = random_points(60);
   const Triangulation right = delaunay(points);
@@ -117,7 +117,8 @@ TEST(DelaunayCheck, RejectsWhatFailsOneCheckAlone) {
   EXPECT_EQ(delaunay_fault(kite, twin), "points");
   EXPECT_EQ(delaunay_fault(Points{{-5, 0}, {0, 1}, {5, 0}, {0, 9}}, good), "turns") << "a notch at point 1";
 
-  // Five triangles about a centre span 144 degrees each. Their only fault is a border that goes round twice.
+  // Five triangles around a centre span 144 degrees each. Their only fault is that their border goes around
+  // the centre twice.
   Points star = circle_points(5);
   star.emplace_back(0, 0);
   Triangulation t;
@@ -158,7 +159,8 @@ TEST(Delaunay, AgreesWithBruteForceOnSmallIntegers) {
   }
 }
 
-// Three points whose circle has no other point on or in it are a triangle of every Delaunay triangulation.
+// Three points form a triangle of every Delaunay triangulation if no other point lies on or inside their
+// circle.
 TEST(Delaunay, HasAllTrianglesWithAnEmptyClosedCircle) {
   ASSERT_TRUE(rc::check([] {
     Points points = few_integer_points(12, 4);
@@ -233,7 +235,7 @@ TEST(Delaunay, CoversGrids) {
   }
 }
 
-// A grid whose cells are single bits of its coordinates is still a grid.
+// Neighbouring points of this grid differ only by the last bit of a coordinate.
 TEST(Delaunay, CoversAGridOfNeighbouringDoubles) {
   Points points = grid_points(40, 40);
   for (Vec2& p : points) p = Vec2(0.3, 0.4) + p * 0x1p-54;
@@ -287,8 +289,9 @@ TEST(Delaunay, DoesNotDependOnExactMovesAndScales) {
   EXPECT_EQ(triangles_of([](const Vec2& p) { return Vec2(-p.y(), p.x()); }), expected);
 }
 
-// The choice among cocircular points, drawn as the cells' diagonals, must be the same on every machine. (A
-// change of the order of insertion may change the picture.)
+// Of four points on a circle, either pair of opposite ones may be joined. The choice, drawn as the diagonals
+// of a grid's cells, must be the same on every machine. (A change of the order of insertion may change the
+// picture.)
 TEST(Delaunay, ChoosesTheSameDiagonalsEverywhere) {
   const int side = 6;
   const Points points = grid_points(side, side);
