@@ -18,8 +18,9 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Counts every allocation of the test program, except under sanitizers, which have an operator new of their
-// own. It is not inlined, as the compiler would take new and free for a mismatch.
+// Counts every allocation of the test program, except under sanitizers, which replace operator new
+// themselves. The operators are not inlined, because the compiler would then warn that new and free do not
+// match.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RELIEVO_COUNTS_ALLOCATIONS
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
@@ -74,7 +75,7 @@ double relative_error(const Eigen::VectorXd& x, const Eigen::VectorXd& truth) {
   return (x - truth).cwiseAbs().maxCoeff() / std::max(truth.cwiseAbs().maxCoeff(), 1e-300);
 }
 
-// Compares both precisions with a factorisation that shares no code with ours.
+// Compares the solutions in both precisions with those of Eigen.
 void expect_agreement(const Sparse& A, std::span<const Vec2> positions) {
   const Eigen::VectorXd b = random_vector(A.rows());
   const Eigen::SimplicialLDLT<Sparse> oracle(A);
@@ -100,7 +101,7 @@ TEST(Cholesky, AgreesWithSparseEigenOnPlanarGraphs) {
   }
 }
 
-// Positions determine the order of elimination, and nothing else.
+// Positions influence only the order of elimination, so solutions are right for any positions.
 TEST(Cholesky, IsRightWhereverThePositionsAre) {
   const PlanarSystem system = jittered_grid(45, 40);
   std::vector<Vec2> nowhere(system.positions.size(), Vec2(3, 4)), line = nowhere, infinite = nowhere;
@@ -121,7 +122,7 @@ TEST(Cholesky, SolvesGraphsOfManyPieces) {
     for (int j = 0; j < n; ++j)
       for (Sparse::InnerIterator e(piece.A, j); e; ++e)
         entries.emplace_back(static_cast<int>(e.row()) + p * n, j + p * n, e.value());
-    for (const Vec2& at : piece.positions) positions.push_back(at + Vec2(p % 7, p % 5));  // they overlap
+    for (const Vec2& at : piece.positions) positions.push_back(at + Vec2(p % 7, p % 5));  // pieces overlap
   }
   Sparse A(pieces * n, pieces * n);
   A.setFromTriplets(entries.begin(), entries.end());
@@ -157,7 +158,6 @@ TEST(Cholesky, ReadsTheLowerTriangleAlone) {
   EXPECT_EQ(solved(*Cholesky::factor(A), b), solved(*Cholesky::factor(B), b));
 }
 
-// Errors are below 1e-5 of the solution's range in single precision, and due to rounding in double precision.
 TEST(Cholesky, HoldsForAnyGrid) {
   const bool holds = rc::check([] {
     const int width = *rc::gen::inRange(1, 40), height = *rc::gen::inRange(1, 40);
@@ -177,7 +177,7 @@ TEST(Cholesky, DoesNotMindTheUnit) {
   const auto factor = Cholesky::factor(system.A, system.positions);
   const Eigen::VectorXd b = random_vector(900), x = solved(*factor, b);
   for (const double unit : {0x1p-400, 0x1p300})
-    EXPECT_EQ(solved(*factor, unit * b), unit * x);  // a power of two is exact
+    EXPECT_EQ(solved(*factor, unit * b), unit * x);  // multiplying by a power of two is exact
   EXPECT_EQ(solved(*factor, Eigen::VectorXd::Zero(900)), Eigen::VectorXd::Zero(900));
 }
 
@@ -267,7 +267,7 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
   indefinite.insert(1, 1) = -1;
   singular.insert(0, 0) = 1;
   not_finite.insert(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  // The rows add up to 0, so constants are in the kernel. Pivots show this only up to rounding.
+  // Each row adds up to 0, so the matrix is singular. Rounding may keep its last pivot from being exactly 0.
   for (int j = 0; j < 400; ++j) floating.coeffRef(j, j) = 0;
   for (int j = 0; j < 400; ++j)
     for (Sparse::InnerIterator e(floating, j); e; ++e)

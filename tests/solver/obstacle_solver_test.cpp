@@ -19,7 +19,8 @@ bool is_rim(std::size_t n) {
   return x == 0 || y == 0 || x == width - 1 || y == height - 1;
 }
 
-// Returns the same stiffness at all nodes but those of the lattice's rim, which are fixed.
+// Returns a tension of 1, and the same bending stiffness at all nodes except those of the lattice's rim,
+// which are fixed.
 Stiffness even(float bending) {
   Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -27,7 +28,7 @@ Stiffness even(float bending) {
   return all;
 }
 
-// Returns the same with another stiffness in two columns of nodes.
+// Returns the stiffness of even(), with other values in two adjacent columns of nodes.
 Stiffness yielding(float bending, std::size_t column, float hinge, float tension) {
   Stiffness all = even(bending);
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -58,7 +59,8 @@ struct Problem {
   }
 };
 
-// Returns the energy's matrix L' C L + tension + springs. Rows of fixed nodes are those of the identity.
+// Returns the matrix of the energy, L' C L + tension + springs, with the Laplacian L and the bending
+// stiffness C. The rows of fixed nodes are rows of the identity.
 Eigen::MatrixXd matrix(const Stiffness& stiffness, const Springs& springs) {
   const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
@@ -108,7 +110,7 @@ void add_ties(Eigen::MatrixXd& a, std::span<const Tie> ties, const Springs& spri
   }
 }
 
-// Returns ties along a line that slants across the cells, x + slope y = start.
+// Returns ties along the line x + slope y = start, which slants across the cells.
 std::vector<Tie> slanting_ties(double start, double slope) {
   std::vector<Tie> ties;
   for (double y = 3; y < height - 3; ++y) {
@@ -119,8 +121,8 @@ std::vector<Tie> slanting_ties(double start, double slope) {
   return ties;
 }
 
-// Without limits the least energy is that of a linear system. The sweeps reach these shares of it: with three quarters of
-// the sweeps, no case reaches them.
+// Without limits, a linear system gives the least energy, which is negative. The solver must reach the
+// fraction `share` of it. With three quarters of its sweeps it would reach `share` in no case.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;
@@ -157,7 +159,8 @@ TEST(ObstacleSolver, StaysWithinItsLimits) {
     }
 }
 
-// Limits cost energy, but the solution has less energy than the free sheet cut off at the limits.
+// Limits raise the energy. The solution still has less energy than the solution without limits, cut off at
+// the limits.
 TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   constexpr Springs springs{.02F};
   const Stiffness stiffness = even(4);
@@ -172,14 +175,14 @@ TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   EXPECT_LT(held, energy(a, f, cut) - .05 * std::abs(least));
 }
 
-// A node whose limits meet is pushed from both sides and stays there.
+// If both limits of a node are the same, the node takes this value.
 TEST(ObstacleSolver, TakesLimitsThatMeet) {
   Problem problem(even(4), {.02F}, .05F, .05F);
   const std::vector<float>& b = problem.solved();
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
-// The field bends at a hinge: its second difference is greater there than where it is stiff.
+// The field bends at a hinge: its second difference is greater there than four nodes away.
 TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
@@ -191,7 +194,7 @@ TEST(ObstacleSolver, BendsAtAHinge) {
   EXPECT_GT(bend(n), 5 * bend(n + 4));
 }
 
-// A hinge with low tension separates the two sides: a load on one hardly moves the other.
+// A hinge with low tension separates its two sides: under opposite loads, the field makes a step there.
 TEST(ObstacleSolver, KeepsApartWhatYields) {
   const auto step_at_middle = [](float tension) {
     constexpr std::size_t middle = width / 2;
@@ -205,7 +208,7 @@ TEST(ObstacleSolver, KeepsApartWhatYields) {
   EXPECT_LT(step_at_middle(1), .7F);
 }
 
-// Returns the mean and the deviation of the field at ties.
+// Returns the mean and the standard deviation of the field at the ties.
 std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector<Tie>& ties) {
   double sum = 0, squares = 0;
   for (const auto& [cell, at, stiffness] : ties) {
@@ -218,7 +221,7 @@ std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
 }
 
-// A plate that is pushed down rests evenly on its ties, wherever their line crosses the cells.
+// A plate that is pushed down rests evenly on its ties, wherever in the cells they are.
 TEST(ObstacleSolver, RestsEvenlyOnTies) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   const auto resting = [&](std::span<const Tie> held) {
@@ -233,7 +236,7 @@ TEST(ObstacleSolver, RestsEvenlyOnTies) {
   EXPECT_LT(deviation, .05 * std::abs(free));
 }
 
-// A tie without stiffness does nothing while the field is not below the least value.
+// Ties with tie_stiffness 0 have no effect while the field stays above least_at_ties.
 TEST(ObstacleSolver, LeavesTiesUpwards) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   Problem tied(even(4), {.02F, 0, -10}, -far, far, ties), free(even(4), {.02F}, -far, far);

@@ -11,7 +11,8 @@
 namespace relievo::solver {
 namespace {
 
-// Returns any graph at any positions, on which the result of the search must not depend.
+// Returns a random graph with random positions. The size of the smallest separator must not depend on
+// positions.
 SeparatorBand random_band(Index n, std::uint64_t seed) {
   test::Random random(seed);
   std::vector<std::vector<Index>> nearby(n);
