@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// The boundary of a flat cloud whose points are all visible.
+// A flat cloud whose points are all visible, with its triangulation and its boundary.
 struct FlatCase {
   std::vector<Vec2> points;
   double rho;
@@ -38,7 +38,7 @@ TEST(Boundary, OfASquareIsItsRimOnePointThick) {
     ++count;
     EXPECT_GT(square.points[i].cwiseAbs().maxCoeff(), 1 - 4 * rho);
   }
-  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // no more than a few per rho of the rim
+  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // at most 1.5 points per rho; the rim is 8 long
 }
 
 TEST(Boundary, OfARingHasTheInnerHole) {

@@ -15,7 +15,8 @@ struct Statistics {
   double mean = 0, deviation = 0;
 };
 
-// Returns mean and deviation of the estimate minus the truth over the points for which `is_counted` is true.
+// Returns the mean and the deviation of the errors of mean_curvature() at the points for which `is_counted`
+// is true.
 template <typename Truth, typename IsCounted>
 Statistics errors(const Cloud& cloud, Truth truth, IsCounted is_counted, const CurvatureOptions& options) {
   std::vector<Index> queries;

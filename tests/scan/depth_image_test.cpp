@@ -15,7 +15,7 @@ namespace {
 
 constexpr int width = 240, height = 180;
 
-// Returns a depth image of the values of a function of column and row.
+// Returns a depth image with the values value(column, row).
 template <typename F>
 DepthImage image_of(F&& value, double step) {
   DepthImage image{{width, height, 1, {}}, step, "test"};
@@ -24,7 +24,7 @@ DepthImage image_of(F&& value, double step) {
   return image;
 }
 
-// Returns the height of a smooth surface in [0, 1]: hills of different steepness.
+// Returns the height, in [0, 1], of a smooth surface with hills of different steepness.
 double hills(double c, double r) {
   const auto hill = [&](double x, double y, double radius) {
     return std::exp(-((c - x) * (c - x) + (r - y) * (r - y)) / (2 * radius * radius));
@@ -38,7 +38,7 @@ double highest_hill() {
   return high;
 }
 
-// Returns the surface's normal if a height of 1 is `scale` pixels.
+// Returns the normal of the surface hills() if a height of 1 is `scale` pixels.
 Vec3f hills_normal(double c, double r, double scale) {
   const double e = 1e-3, dx = (hills(c + e, r) - hills(c - e, r)) / (2 * e),
                dy = (hills(c, r + e) - hills(c, r - e)) / (2 * e);
@@ -55,10 +55,11 @@ std::size_t pixel_of(const Vec3& p) {
 }
 
 struct Errors {
-  double height = 0, angle_deg = 0;  // root mean square; mean
+  double height = 0, angle_deg = 0;  // root mean square error; mean error
 };
 
-// Returns how far the cloud and its normals are from the hills.
+// Returns the errors of the cloud's heights and normals, compared with hills(). A common offset of all
+// heights is no error.
 Errors errors_of(const Cloud& cloud, double scale) {
   Errors sum;
   double shift = 0;
@@ -93,7 +94,8 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   const double scale = .5 * width / high, step = .5 * width / 255;  // in pixels
   const Errors smooth = errors_of(made.cloud, scale);
 
-  // Without smoothing, the same formula for normals gives those of the steps.
+  // Makes the same cloud without smoothing, in which rounded heights are steps. The formula for normals is
+  // the same.
   Cloud raw = made.cloud;
   const auto value = [&](int c, int r) {
     c = std::clamp(c, 0, width - 1), r = std::clamp(r, 0, height - 1);
@@ -111,7 +113,7 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   RecordProperty("mean_normal_error_deg", std::to_string(smooth.angle_deg));
   RecordProperty("mean_normal_error_of_steps_deg", std::to_string(stepped.angle_deg));
   RecordProperty("height_error_in_steps", std::to_string(smooth.height / step));
-  EXPECT_NEAR(stepped.height / step, 1 / std::sqrt(12), .02);  // the deviation of uniform rounding
+  EXPECT_NEAR(stepped.height / step, 1 / std::sqrt(12), .02);  // standard deviation of rounding errors
   EXPECT_LT(smooth.height, .5 * stepped.height);
   EXPECT_LT(smooth.angle_deg, .2 * stepped.angle_deg);
   EXPECT_LT(smooth.angle_deg, 2);
@@ -135,7 +137,7 @@ TEST(DepthCloud, FloatsWithoutNoiseStayAsTheyAre) {
 
 TEST(DepthCloud, NoiseIsMeasuredAndTakenAway) {
   test::Random random(3);
-  const double sigma = .004;  // a height of about half a pixel
+  const double sigma = .004;  // about half a pixel
   const auto made = depth_cloud(
       image_of([&](int c, int r) { return hills(c, r) + sigma * random.gaussian(); }, 0), as_heights());
   ASSERT_TRUE(made);
@@ -159,15 +161,14 @@ TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
   for (std::size_t k = 0; k < made->cloud.size(); k += 31) {
     const auto i = static_cast<int>(pixel_of(made->cloud.points[k]));
     const Vec3 r = ray(i % width, i / width);
-    // z is minus the focal length times the logarithm of depth, so its slope in pixels is n.x, n.y over n .
-    // ray.
+    // z is -f log(depth), with the focal length f. So the slope of z per pixel is (n.x, n.y) / (n . ray).
     const Vec3f expected = Vec3(-n.x() / n.dot(r), n.y() / n.dot(r), 1).normalized().cast<float>();
     EXPECT_LT(angle_deg(made->cloud.normals[k], expected), .3) << k;
   }
 }
 
 TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
-  // A ball in front of a wall, stored in three ways.
+  // The scene is a ball in front of a wall, stored as depth and as inverse depth.
   const auto depth = [](int c, int r) {
     const double x = (c - 120) / 60.0, y = (r - 90) / 60.0, d = 1 - x * x - y * y;
     return 4 - (d > 0 ? .5 * std::sqrt(d) : 0);
@@ -207,7 +208,7 @@ TEST(DepthCloud, RampsOfABlurredOutlineAreCut) {
       between += share > .15 && share < .85;
     }
     EXPECT_LT(between, 40U) << blur;
-    // The remaining points are flat: the normals show nothing of the ramp.
+    // The normals of the remaining points must not be tilted by the ramp, either.
     std::size_t steep = 0;
     for (const Vec3f& n : made.cloud.normals) steep += n.z() < .7F;
     EXPECT_LT(steep, 60U) << blur;
@@ -222,7 +223,7 @@ TEST(DepthCloud, BackgroundIsTakenOutWhereThereIsOne) {
   EXPECT_NEAR(static_cast<double>(made.background), width * height - disc, .03 * disc);
   EXPECT_NEAR(static_cast<double>(made.cloud.size()), disc, .1 * disc);
   EXPECT_EQ(depth_cloud(image_of(hills, 0), as_heights())->background, 0U);
-  // A slope that fills the picture has no background, however far it goes.
+  // A slope over the whole image is no background, however much its depth changes.
   EXPECT_EQ(depth_cloud(image_of([](int c, int) { return c + 1; }, 1), options)->background, 0U);
 }
 
@@ -261,7 +262,8 @@ TEST(DepthCloud, RefusesWhatItCannotUse) {
   EXPECT_EQ(depth_cloud(image_of(hills, 0), {}, &progress).error().kind, ErrorKind::cancelled);
 }
 
-// All normals of a hollow face the viewer, but from its sides they point inwards: they must not be turned.
+// The normals of a hollow point inwards, like those of a model that is inside out. As they face the viewer,
+// they must not be flipped.
 TEST(DepthCloud, OfAHollowBecomesARelief) {
   const auto hollow = depth_cloud(image_of([](int c, int r) { return 1 - hills(c, r); }, 0), as_heights());
   ASSERT_TRUE(hollow);

@@ -15,7 +15,8 @@
 namespace relievo {
 namespace {
 
-// Returns a level square of side .8 before one of side 2: the depth jumps at |x| or |y| = .4.
+// Returns a level square of side .8 at the distance `apart` before one of side 2. The depth jumps where |x|
+// or |y| is .4.
 Surface sheets(double apart = 3) {
   const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, apart, 9));
   return test::surface_of(cloud);
@@ -38,8 +39,8 @@ TEST(Jumps, AreWhereTheNearerSheetEnds) {
       }
 }
 
-// Weights are a fifth at the jump and rise by equal factors to 1 at .8 % of the side: compared by brute
-// force.
+// The weight is .2 at a jump and grows geometrically to 1 at a distance of .8 % of the surface's longer side,
+// which is 2. The test finds the distance to the nearest jump by brute force.
 TEST(Jumps, CountLessTheNearer) {
   const Surface surface = sheets();
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
@@ -59,7 +60,7 @@ TEST(Jumps, CountLessTheNearer) {
   EXPECT_GT(below, 100);
 }
 
-// Jumps count in full if they are lower than 2 % of the side, which is .04.
+// A jump that is lower than 2 % of the longer side, here .04, leaves all weights at 1.
 TEST(Jumps, ThatAreLowCountInFull) {
   const Surface low = sheets(.036), high = sheets(.044);
   for (const Surface* surface : {&low, &high})
@@ -88,8 +89,8 @@ TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {
   EXPECT_GT(heights({}), 1e-3);
 }
 
-// A membrane that is pulled to the front in the middle, and to the base around it, leaves more of a step if
-// it is weaker at jumps.
+// The correction is pulled up in the middle and down around it. If it is less stiff at the jump between them,
+// it makes a higher step there.
 TEST(Jumps, LetTheMembraneStep) {
   const Surface surface = sheets();
   const auto step = [&](std::span<const float> weights) {

@@ -1,4 +1,4 @@
-// Outlines of meshes agree with their closed forms, and with pictures of the mesh.
+// Compares the outlines of meshes with the closed forms of their shapes.
 #include "scan/outlines/mesh_outlines.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The surface of a mesh's samples, and its centre, which leads back to the mesh's coordinates.
+// The surface of a mesh's samples. Its points are relative to `centre`.
 struct MeshSurface {
   Surface surface;
   Vec3 centre;  // in view coordinates
@@ -30,7 +30,8 @@ struct MeshSurface {
   Vec2 place(Index i) const { return (surface.points[i] + centre).head<2>(); }
   double rho() const { return surface.rho; }
 
-  // Calls f(from, to) for the sides of triangles inside that have no such triangle on their right.
+  // Calls f(from, to) for each side of a triangle inside the outline that is no side of another such
+  // triangle.
   template <typename F>
   void each_boundary_edge(F&& f) const {
     std::vector<std::array<Index, 2>> sides;
@@ -44,7 +45,7 @@ struct MeshSurface {
       if (!std::ranges::binary_search(sides, std::array<Index, 2>{b, a})) f(a, b);
   }
 
-  // Returns the largest offset(place), in rho, of places along the boundary, middles of its edges included.
+  // Returns the largest |offset(place)| of the boundary's points and of the middles of its edges, in rho.
   template <typename Offset>
   double farthest(Offset offset) const {
     double most = 0;
@@ -138,11 +139,11 @@ TEST_P(MeshOutlines, LeaveNotchesOpen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, MeshOutlines, testing::Values(20000, 100000));
-// These take minutes, and run with --gtest_also_run_disabled_tests alone.
+// This takes minutes, so it runs only with --gtest_also_run_disabled_tests.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, MeshOutlines, testing::Values(1000000));
 
 TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
-  // One square covers the left half of another behind it.
+  // A square covers the left half of a rectangle behind it.
   const auto square = [](double left, double z) {
     return Mesh{{{left, -1, z}, {left + 2, -1, z}, {left + 2, 1, z}, {left, 1, z}}, {{0, 1, 2}, {0, 2, 3}}};
   };

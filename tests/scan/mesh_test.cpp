@@ -45,7 +45,7 @@ TEST(SampleMesh, NormalsAreThoseOfTheSmoothShape) {
     worst = std::max(worst, sine);
     ++inner;
   }
-  EXPECT_LT(sum / static_cast<double>(inner), .1);  // the flat triangles are off by 1.5 degrees
+  EXPECT_LT(sum / static_cast<double>(inner), .1);  // the triangles' own normals are off by 1.5 degrees
   EXPECT_LT(worst, std::sin(1 * std::numbers::pi / 180));
 }
 
@@ -60,7 +60,7 @@ TEST(SampleMesh, ThePointsLieOnTheMeshInAnyView) {
 }
 
 TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
-  Mesh nearer = square(1, true);  // the nearer square is seen from behind, and still hides
+  Mesh nearer = square(1, true);  // the nearer square is seen from behind, and still hides the other
   for (Vec3& p : nearer.points) p.head<2>() *= .5;
   const auto cloud = value_of(sample_mesh(test::joined(square(0), nearer), front, {10000}));
   std::size_t near = 0;
@@ -79,8 +79,8 @@ TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
 TEST(SampleMesh, TheOutlineIsFinerThanTheGrid) {
   const auto cloud = value_of(sample_mesh(test::sphere_mesh(1, 400), front, {3000}));
   const double pixel = std::sqrt(std::numbers::pi / 3000);
-  // The largest visible radius in each of 90 directions: on the grid alone it would be up to a pixel too
-  // small.
+  // In each of 90 directions, this is the largest distance of a sample from the centre. Samples only on the
+  // grid would make it up to a pixel too small.
   std::vector<double> reach(90, 0);
   for (const Vec3& p : cloud.points) {
     const double angle = std::atan2(p.y(), p.x()) + std::numbers::pi;
@@ -131,7 +131,7 @@ TEST(Scatter, IsEvenByAreaOnAllSides) {
 }
 
 TEST(SmoothNormals, StopAtCreases) {
-  // Two squares that meet at a right angle, and two that meet at 20 degrees.
+  // Returns two squares with a common edge. The second is turned by `degrees` out of the plane of the first.
   const auto bent = [](double degrees) {
     const double a = degrees * std::numbers::pi / 180;
     return Mesh{{{0, 0, 0},

@@ -20,8 +20,8 @@ struct NoisyCloud {
   std::vector<Vec3f> truth;
 };
 
-// Moves the points along their normals by Gaussian noise in sampling distances, and estimates their normals
-// from the moved points alone.
+// Moves the points along their normals by Gaussian noise, whose deviation `noise` is in sampling distances.
+// The normals are then estimated from the moved points; only their signs are taken from the true normals.
 NoisyCloud with_noise(Cloud cloud, double noise) {
   test::Random random(11);
   const double rho = measure_spacing(cloud).rho;
@@ -61,8 +61,8 @@ TEST(MeasureNoise, IsZeroOnCleanShapes) {
 }
 
 TEST(MeasureNoise, FindsTheDeviationThatWasAdded) {
-  // Noise is in sampling distances of the noisy cloud. They are longer than those of the clean cloud, and
-  // grow with the noise.
+  // measure_noise() measures in sampling distances of the noisy cloud. These are longer than those of the
+  // clean cloud, and grow with the noise.
   for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)})
     for (const double noise : {.15, .3, .5}) {
       const NoisyCloud noisy = with_noise(clean, noise);
@@ -99,7 +99,7 @@ TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {
 }
 
 TEST(RemoveNoise, KeepsTheRadiusOfASphereWithoutNoise) {
-  // Constant fits would move the points inwards by about rho^2 / 2, which is 3e-4 here.
+  // If the filter fitted constants, it would move the points inwards by about rho^2 / 2, which is 3e-4 here.
   Cloud cloud = test::sphere(20000, 1);
   const std::vector<Vec3f> truth = cloud.normals;
   remove_noise(cloud, measure_spacing(cloud), .5);
@@ -116,7 +116,7 @@ TEST(RemoveNoise, KeepsTheCreasesOfACube) {
   for (std::size_t i = 0; i < clean.size(); ++i) {
     Vec3 p = noisy.cloud.points[i].cwiseAbs();
     std::ranges::sort(p);
-    if (p[1] < 1 - 6 * rho || p[1] > 1 - rho) continue;  // the place along the face nearest to another face
+    if (p[1] < 1 - 6 * rho || p[1] > 1 - rho) continue;  // 1 - p[1] is the distance from a crease
     ++beside;
     before += std::acos(std::min(1.F, noisy.cloud.normals[i].dot(noisy.truth[i])));
     after += std::acos(std::min(1.F, clean.normals[i].dot(noisy.truth[i])));

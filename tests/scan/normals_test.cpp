@@ -36,7 +36,7 @@ TEST(TurnToViewer, LeavesNoNormalFacingAway) {
   for (const Vec3f& n : sphere.normals) EXPECT_GE(n.z(), 0);
 }
 
-// Beyond a sphere's silhouette, the estimated normals turn away from the viewer, as the true ones do.
+// The estimated normals of a sphere must have the signs of the true ones, also beyond the silhouette.
 TEST(TurnToViewer, GoesOnRoundAnEdge) {
   const Cloud truth = test::sphere(20000, 1);
   Cloud cloud{truth.points, {}};

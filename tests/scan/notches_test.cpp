@@ -10,9 +10,10 @@
 namespace relievo {
 namespace {
 
-constexpr double half_opening = .1;  // slope of each lip's edge
+constexpr double half_opening = .1;  // slope of each lip's edge against the x axis
 
-// Returns two lips: half cylinders of radius 0.2 along lines that meet at x = 0. The upper one lies behind.
+// Returns two lips: half cylinders of radius 0.2. Their edges cross at x = 0, and between them a notch opens
+// towards +x. The upper lip is farther from the viewer.
 Cloud lips(std::size_t n) {
   test::Random random(5);
   Cloud cloud;
@@ -27,7 +28,7 @@ Cloud lips(std::size_t n) {
   return cloud;
 }
 
-// Returns the largest x of the places on the middle line between the lips that lie in a triangle inside.
+// Returns the largest x at which a triangle inside the outline crosses the middle line between the lips.
 double end_of_notch(const Surface& surface) {
   double end = -1;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {

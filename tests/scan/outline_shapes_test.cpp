@@ -1,4 +1,5 @@
-// Outlines of shapes with sharp corners, with two silhouettes, and with noise; all of them have closed forms.
+// Compares outlines of clouds with their closed forms: shapes with sharp corners, with a hole, and with
+// noise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The boundary of a cloud in the view plane, relative to the model's origin.
+// The points on the boundary of a cloud, in the view plane and relative to the model's origin.
 struct SeenOutline {
   std::vector<Vec2> places;
   double rho = 0;
@@ -28,7 +29,7 @@ SeenOutline outline_of(const Cloud& cloud, const View& view) {
   return outline;
 }
 
-// The distances of places from a curve, in rho.
+// Statistics of the distances of places from a curve, in rho.
 struct Deviation {
   double mean = 0, scatter = 0, farthest = 0;
 };
@@ -48,8 +49,8 @@ Deviation deviation(const SeenOutline& outline, Offset offset) {
   return result;
 }
 
-// A kind of scan: its number of points, and a scanner's noise along the normals in rho. Scans with noise have
-// no normals.
+// The number of points of a scan, and the deviation of its noise along the normals, in rho. Scans with noise
+// have no normals.
 struct ScanKind {
   std::size_t points = 0;
   double noise = 0;
@@ -64,7 +65,8 @@ class OutlinesOfShapes : public testing::TestWithParam<ScanKind> {
 };
 
 TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
-  // A ball that moves along a circle covers a torus, and the circle is seen as an ellipse.
+  // A ball whose centre moves along a circle covers a torus. The circle is seen as an ellipse, so both
+  // outlines of the torus are at the ball's radius from this ellipse.
   const SeenOutline outline =
       outline_of(scan(test::torus(GetParam().points, 2, .5)), *view_towards({0, -1, 1}));
   const auto inner = std::ranges::count_if(
@@ -77,7 +79,7 @@ TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
   EXPECT_LT(off.scatter, is_clean ? .02 : .07);
 }
 
-// The number of teeth of a flat gear, and its two radii.
+// The number of teeth of a flat gear, and the radii of its gaps and of its teeth.
 constexpr int teeth = 12;
 constexpr double root = .8, tip = 1;
 
@@ -94,7 +96,7 @@ Cloud gear(std::size_t n) {
 }
 
 TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
-  // Scattered points leave the outline uncertain by half a sampling distance at each side of a corner.
+  // With scattered points, the outline on each side of a corner is uncertain by half a sampling distance.
   const SeenOutline outline = outline_of(scan(gear(GetParam().points)), View{});
   std::vector<double> off;
   for (int k = 0; k < 2 * teeth; ++k)
@@ -113,12 +115,12 @@ TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
 INSTANTIATE_TEST_SUITE_P(Clean, OutlinesOfShapes, testing::Values(ScanKind{20000}, ScanKind{100000}));
 INSTANTIATE_TEST_SUITE_P(Noisy, OutlinesOfShapes,
                          testing::Values(ScanKind{20000, .15}, ScanKind{100000, .15}));
-// These take minutes, and run with --gtest_also_run_disabled_tests alone.
+// This takes minutes, so it runs only with --gtest_also_run_disabled_tests.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, OutlinesOfShapes,
                          testing::Values(ScanKind{1000000}, ScanKind{1000000, .15}));
 
 TEST(NoisyOutlines, AreTooWideUnlessNoiseIsRemoved) {
-  // The outermost of noisy points lie outside the true silhouette.
+  // The outermost points of a noisy cloud lie outside the true silhouette.
   const Cloud clean = test::button(50000, 1, .15);
   const double rho = measure_spacing(clean).rho;
   const Cloud noisy = test::without_normals(test::noisy(clean, .5 * rho, 0));

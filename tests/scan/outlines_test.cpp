@@ -13,12 +13,12 @@ namespace {
 
 using test::surface_of;
 
-// Returns a button of radius 1.15 with another of half its size before it.
+// Returns a button of radius 1.15, and before it a button of half that size.
 Cloud two_buttons(std::size_t n) {
   return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
-// Returns the radii, about the z axis of the model, of the points of a surface that satisfy a condition.
+// Returns, for the surface points i for which holds(i) is true, their distances from the model's z axis.
 template <typename Condition>
 std::vector<double> radii(const Surface& surface, Condition holds) {
   std::vector<double> found;
@@ -28,7 +28,7 @@ std::vector<double> radii(const Surface& surface, Condition holds) {
 }
 
 struct Spread {
-  double mean = 0, deviation = 0, farthest = 0;  // distances from a radius, in rho
+  double mean = 0, deviation = 0, farthest = 0;  // of differences from a given radius, in rho
 };
 
 Spread spread(const std::vector<double>& radii, double radius, double rho) {
@@ -90,7 +90,7 @@ TEST(Outlines, OfANoisyScanStayNear) {
   EXPECT_LT(s.deviation, .1);
 }
 
-// Returns the longest side of the triangles inside, as seen, in rho.
+// Returns the longest side of the triangles inside the outline, in the view plane and in rho.
 double longest_side(const Surface& surface) {
   double longest = 0;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -134,13 +134,13 @@ TEST(Outlines, OfASphereHaveNoJump) {
 TEST(Outlines, LeaveNoGapInside) {
   const Cloud cloud = test::button(60000, 1, .15);
   const double rho = surface_of(cloud).rho;
-  // The hole is so narrow that it is closed.
+  // The hole is narrow enough to be closed.
   const auto is_beside = [&](const Vec3& p) { return (p.head<2>() - Vec2(.3, .2)).norm() > 4.5 * rho; };
   EXPECT_LT(longest_side(surface_of(test::where(cloud, is_beside))), 3.5);
 }
 
 TEST(Outlines, OfASliverHaveNoGap) {
-  // Another sheet covers the sheet except for a sliver, which shows no more than one row of points.
+  // A second sheet covers the first one except for a sliver, in which there is at most one row of points.
   for (const double width : {.3, .6, 1.}) {
     Cloud cloud = jittered_square(200, 1);
     const double rho = surface_of(cloud).rho;
@@ -155,7 +155,7 @@ TEST(Outlines, OfASliverHaveNoGap) {
 TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
   const Cloud button = test::button(40000, 1, .15);
   const double rho = surface_of(button).rho;
-  const Cloud crumb = test::sphere(200, .03);  // 0.07 % of the button, and 13 rho^2 or more
+  const Cloud crumb = test::sphere(200, .03);  // its area is 0.07 % of the button's, and 13 rho^2 or more
   const Cloud cloud = test::joined(button, test::moved(crumb, {1.6, 0, 0}));
   const auto width = [](const Surface& surface) {
     Box box;

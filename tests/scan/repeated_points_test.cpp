@@ -20,10 +20,11 @@ const Cloud& single() {
   return cloud;
 }
 
-// The points of a cloud up to a height are copied, with jitter, and put into a random order.
+// In the cloud that repeated() returns, each point with y < up_to appears `copies` times, and every other
+// point once. All are moved by Gaussian noise.
 struct Repeats {
   std::size_t copies = 1;
-  double jitter = 0;  // standard deviation, a share of the size
+  double jitter = 0;  // standard deviation of the noise, as a fraction of `size`
   double up_to = 10;
 };
 
@@ -51,8 +52,9 @@ double farthest_from_torus(const Surface& surface) {
   return farthest;
 }
 
-// Returns the largest distance of points and normals of two surfaces, which have the same number of points. It is not 0:
-// neighbours that stand in another order are summed in another order.
+// Returns the largest difference of points or normals of two surfaces; infinity if they have different
+// numbers of points. It is not 0 for points in another order, because sums over neighbours are then rounded
+// differently.
 double farthest_apart(const Surface& a, const Surface& b) {
   if (a.points.size() != b.points.size()) return std::numeric_limits<double>::infinity();
   double farthest = 0;
@@ -132,7 +134,8 @@ TEST(RepeatedPoints, AreNotSeenAmongScatteredOnes) {
   }
 }
 
-// Marching cubes put up to three vertices near each corner of the grid that is near the surface.
+// Marching cubes put up to three vertices near a corner of the grid. Such vertices must not count as repeated
+// points.
 TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   test::Random random(3);
   Cloud mesh;
@@ -146,7 +149,7 @@ TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   EXPECT_EQ(without_repeated_points(mesh).size(), mesh.size());
 }
 
-// The patches of 30 points are too far from each other to be connected.
+// Each patch has 30 points. The patches are too far from each other to be connected.
 TEST(LostFigure, IsRefused) {
   Cloud shreds;
   for (int row = 0; row < 300; ++row)

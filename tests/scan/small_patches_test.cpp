@@ -8,8 +8,8 @@
 namespace relievo {
 namespace {
 
-// Returns a wall of points 0.01 apart with a square window, and a wall at depth z that shows through the
-// window.
+// Returns a wall of points 0.01 apart with a square window, and the part of a wall at depth z that is visible
+// through the window.
 Cloud window(double half_width, double z) {
   test::Random random(3);
   Cloud cloud;
@@ -37,8 +37,8 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall is visible
 }
 
-// A patch lies beside a wall and behind its edge, with a gap of 3.5 spacings. The patch is so steep that it
-// could lead up to the wall, which hides that both are apart.
+// A patch lies behind a wall and beside its edge, across a gap of 3.5 spacings. The patch is so steep that,
+// continued across the gap, it would reach the wall. So the depths do not show the gap.
 TEST(SmallPatches, BeyondAGapAreLeftOut) {
   Cloud cloud = window(0, 0);
   const double edge = .495, step = .01;

@@ -23,7 +23,7 @@ TEST(Spacing, ScalesWithTheCloudAndDoesNotDependOnTheOrder) {
   EXPECT_EQ(measure_spacing(test::reversed(cloud)).rho, rho);
 }
 
-// Searches that read all coincident points would take minutes, longer than a test may run.
+// A search that reads all coincident points would take minutes, longer than a test may run.
 TEST(Spacing, IsFoundAmongManyCoincidentPoints) {
   Cloud cloud = test::sphere(150'000, 1);
   const double rho = measure_spacing(cloud).rho;

@@ -15,9 +15,9 @@
 namespace relievo {
 namespace {
 
-constexpr double noise = .01;  // standard deviation of planes
+constexpr double noise = .01;  // standard deviation of the planes' points
 
-// Adds a square part of the plane through the origin with that normal, 2 * half wide, with noise along the normal.
+// Adds a square of side 2 * half around the origin, perpendicular to `normal`, with noise along the normal.
 void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half) {
   test::Random random(11);
   const Vec3 n = normal.normalized(), side = Vec3::UnitY().cross(n).normalized(), across = n.cross(side);
@@ -27,7 +27,8 @@ void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half
   }
 }
 
-// Returns a sphere of radius 1 that touches the plane through the origin with that normal, and 4 x 4 of the plane.
+// Returns a sphere of radius 1 and a square of side 4 that touch at the origin. The square is perpendicular
+// to `normal`.
 Cloud sphere_before(const Vec3& normal) {
   Cloud cloud = test::moved(test::sphere(20000, 1), normal.normalized());
   add_plane(cloud, 20000, normal, 2);
@@ -45,7 +46,8 @@ Surface surface_of(const Cloud& cloud, bool has_plane = true) {
   return find_surface(cloud, view).value();
 }
 
-// Returns the share of the plane's points among those that are visible, by rays towards the viewer.
+// Returns the fraction of the visible points that lie on the plane. The plane's points are visible unless the
+// sphere hides them.
 double visible_share(const Cloud& cloud, const Vec3& centre) {
   std::size_t plane = 0, sphere = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -99,7 +101,8 @@ TEST(SupportPlane, IsLeftOutUnlessTheViewHasIt) {
   EXPECT_NEAR(box.size().x(), 2, 2 * without.rho);
 }
 
-// A ridge beside the sphere has other normals than the plane, but is too low for a figure.
+// The ridge beside the sphere has other normals than the plane, but is too low for a figure. So it is left
+// out with the plane.
 TEST(SupportPlane, IsLeftOutWithItsRidges) {
   const Vec3 normal = tilted(50), up = normal.cross(Vec3::UnitX());
   Cloud cloud = sphere_before(normal);
@@ -114,8 +117,8 @@ TEST(SupportPlane, IsLeftOutWithItsRidges) {
   for (const Vec3& p : without.points) EXPECT_NEAR((p - centre).norm(), 1, .06);
 }
 
-// A small ball beside the sphere is visible if the table is kept. Without the table it is debris, or a figure
-// if it has enough points.
+// With the table, a small ball beside the sphere is always kept. Without the table, the ball is left out as
+// debris, unless it has enough points compared with the largest piece.
 TEST(SupportPlane, IsLeftOutWithDebris) {
   const Vec3 normal = tilted(50), place = 1.7 * Vec3::UnitX() + .5 * normal;
   for (const std::size_t points : {500, 4000}) {
@@ -157,8 +160,8 @@ TEST(SupportPlane, IsNoFaceOfASolid) {
   EXPECT_FALSE(surface_of(test::torus(20000, 2, .5)).plane);
 }
 
-// The ground of a plaque is no support plane, under letters that rise by a fiftieth of the width or under a
-// relief that rises by a twentieth.
+// The ground of a plaque is no support plane. Letters rise above it by a fiftieth of the plaque's width, a
+// relief by a twentieth.
 TEST(SupportPlane, IsNoPlaquesGround) {
   EXPECT_FALSE(surface_of(test::sheet(20000, 1, 0, 5)).plane);
   for (const double half : {.1, .3, .7})

@@ -46,7 +46,7 @@ TEST(SurfaceBlur, DoesNotReachASheetBehind) {
   for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(values[i].x(), both.points[i].z(), 1e-6);
 }
 
-// A grid of the whole box would have 200 x 200 x 200 cells.
+// A grid over the whole box of the points would have about 200 x 200 x 200 cells.
 TEST(SurfaceBlur, HasCellsAroundThePointsAlone) {
   const std::vector<Vec3> four = {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {1, 1, .5}};
   EXPECT_LE(SurfaceBlur(four, .0045).number_of_cells(), 4U * 4 * 4 * 4);

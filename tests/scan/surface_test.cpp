@@ -37,7 +37,8 @@ TEST(Surface, RefusesNumbersThatAreNone) {
   EXPECT_TRUE(failure(cloud).contains("found 999"));
 }
 
-// The sheet's area of 4 is covered except at its edge, though most points lie in a hundredth of the area.
+// Most points lie in a hundredth of the sheet. Its whole area of 4 must be covered all the same, except at
+// its edge.
 TEST(Surface, CoversSparsePartsToo) {
   const Surface surface =
       test::surface_of(test::joined(test::sheet(50000, .1, 0, 11), test::sheet(3000, 1, 0, 12)));

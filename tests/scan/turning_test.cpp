@@ -20,13 +20,14 @@ TEST(TurnedSurface, LiesOnTheSphere) {
   ASSERT_GT(sphere.surface.points.size(), 3'000U);
   for (std::size_t i = 0; i < sphere.surface.points.size(); ++i) {
     const Vec3& p = sphere.surface.points[i];
-    if (p.head<2>().norm() > .9) continue;  // nearly edge on, where a cell is deep
+    if (p.head<2>().norm() > .9) continue;  // nearly edge on, where depth changes much in a cell
     EXPECT_NEAR(p.norm(), 1, .02);
     EXPECT_GT(sphere.surface.normals[i].cast<double>().dot(p.normalized()), .998);
   }
 }
 
-// The front sheet hides the one behind, and the covered area is that of the larger.
+// The smaller sheet hides the middle of the larger one behind it. So the covered area is that of the larger
+// sheet.
 TEST(FrontCells, ShowsWhatIsInFront) {
   const TurnedSurface sheets =
       turned(test::joined(test::sheet(40'000, 1, 0, 5), test::sheet(20'000, .5, .7, 6)));
@@ -69,7 +70,7 @@ TEST(FrontCells, MarksTheEdgesOfAJump) {
   EXPECT_GT(edges, static_cast<std::size_t>(4 / front.cell));
 }
 
-// Returns random cells at depth 0, half of them covered.
+// Returns random cells at depth 0, about half of them covered.
 FrontCells random_front(unsigned seed) {
   constexpr int width = 50, height = 40;
   FrontCells front;
@@ -81,8 +82,8 @@ FrontCells random_front(unsigned seed) {
   return front;
 }
 
-// Returns the size of each cell's component, by walking from cell to cell. The cells of a component are
-// connected, and all covered or all uncovered.
+// Returns the size of each cell's component, which is found by walking from cell to cell. A component is a
+// connected set of cells that are all covered or all uncovered.
 std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   const Image<Vec3f>& normal = front.normal;
   std::vector<std::size_t> sizes;
@@ -106,7 +107,8 @@ std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   return sizes;
 }
 
-// Expects that exactly the cells for which is_covered() is true are covered, and that they are counted.
+// Expects that the covered cells are those for which is_covered() is true, and that `covered` is their
+// number.
 template <typename F>
 void expect_covered(const FrontCells& front, F&& is_covered) {
   std::size_t covered = 0;

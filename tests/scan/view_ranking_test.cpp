@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A slab with one carved face: that face is the best view.
+// The slab has one carved face, which is its best view.
 TEST(ViewRanking, RanksTheCarvedSideFirst) {
   const Cloud slab = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(9 * x) * std::sin(9 * y); },
@@ -27,7 +27,7 @@ Cloud dome() {
   return test::where(test::sphere(40000, 1), [](const Vec3& p) { return p.z() > .3; });
 }
 
-// Maps every point and normal of a cloud, or drops the normals.
+// Turns a cloud; leaves out its normals unless `has_normals` is true.
 Cloud mapped(const Cloud& cloud, const Mat3& turn, bool has_normals = true) {
   Cloud out = cloud;
   for (Vec3& p : out.points) p = turn * p;
@@ -65,8 +65,8 @@ TEST(ViewRanking, DoesNotMindNormalsThatPointInwards) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(inward_first[i].name, outward_first[i].name);
 }
 
-// Returns a tall turned column, which looks the same from all sides except its top and foot, and is widest at
-// its foot.
+// Returns a tall round column that is widest at its foot. It looks the same from all directions perpendicular
+// to `up`.
 Cloud column(const Vec3& up) {
   test::Random random(7);
   Cloud cloud;

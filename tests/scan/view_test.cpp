@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns the direction in the view of the model's axis `axis`, which is a column of the rotation.
+// Returns the model's direction `axis` in the coordinates of a view.
 Vec3 seen(std::string_view view, const Vec3& axis, std::string_view up = {}) {
   return parse_view(view, up)->R_view_model * axis;
 }
@@ -99,7 +99,7 @@ TEST(Denoise, IsAutoOrANumberUpToOne) {
 
 TEST(Crop, KeepsThePointsInsideInTheirOrder) {
   const Cloud cloud = test::sphere(2000, 1);
-  View view = *parse_view("right");  // looks along -X, -Z to the right
+  View view = *parse_view("right");  // looks along -X, with -Z to the right
   view.crop = *parse_crop("0,.5,1,1,0,.25");
   const Cloud part = cropped(cloud, view);
   std::vector<Vec3> expected;

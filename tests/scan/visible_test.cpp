@@ -14,7 +14,7 @@ std::vector<Index> visible(const Cloud& cloud) {
   return visible_points(cloud, measure_spacing(cloud));
 }
 
-// Returns the share of the points of [first, last) that is visible.
+// Returns the fraction of the points in [first, last) that is in `found`.
 double share(const std::vector<Index>& found, std::size_t first, std::size_t last) {
   const auto begin = std::lower_bound(found.begin(), found.end(), first);
   const auto end = std::lower_bound(found.begin(), found.end(), last);
@@ -44,7 +44,7 @@ TEST(Visible, OfASphereAlmostAllThatFacesTheViewer) {
   EXPECT_EQ(behind_found, 0U);
 }
 
-// A front sheet ten times sparser on its right half still hides what is behind.
+// The right half of the front sheet has a tenth of the density. It still hides the sheet behind it.
 TEST(Visible, UnevenDensityLeavesNoHoles) {
   test::Random random(22);
   const Cloud uneven = test::where(test::sheet(60000, 1, .5, 21),
@@ -86,7 +86,7 @@ TEST(Visible, SpecksAreRemovedAndCounted) {
   EXPECT_GT(share(found.points, 0, n), .999);
 }
 
-// Corners of a mesh may be forty times as far apart in one place as in another.
+// The corners of a mesh may be forty times as far apart in one part as in another, like these points.
 TEST(Visible, OfVeryUnevenDensityAlmostAllToo) {
   const std::size_t dense = 50000, sparse = 3000;
   const Cloud both = test::joined(test::sheet(dense, .1, 0, 11), test::sheet(sparse, 1, 0, 12));
@@ -105,8 +105,8 @@ TEST(Visible, IsTheSameForAnyOrder) {
   EXPECT_EQ(found, reversed);
 }
 
-// A ledge begins at the edge of a depth image, one pixel wide. Its points there have no near neighbours, and
-// would hide much.
+// The ledge is one pixel wide where it begins, at the edge of the depth image. The points there have no near
+// neighbours. Unless the cloud is marked as a height field, such points hide many others.
 TEST(Visible, OfAHeightFieldIsAll) {
   Cloud steps;
   for (int y = 0; y < 60; ++y)
@@ -118,7 +118,8 @@ TEST(Visible, OfAHeightFieldIsAll) {
   EXPECT_FALSE(turned.is_height_field);
 }
 
-// The front of a box has a hole that shows the inside of the box's back, where normals face away.
+// The front of a box has a hole, through which the back is seen from inside. Its normals face away there, but
+// its points must fill the hole.
 TEST(HoleFillPoints, StandInWhereOnlyTheOtherSideWasScanned) {
   const Cloud front =
       test::where(test::sheet(40000, 1, 0), [](const Vec3& p) { return p.head<2>().norm() > .2; });
