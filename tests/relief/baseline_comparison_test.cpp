@@ -43,7 +43,7 @@ Shape shape_for(double u, const MembraneParams& params) {
   return shape;
 }
 
-// The deficit is the same as that of full reliefs with the full metrics.
+// The deficit agrees with that of whole reliefs, measured by ReliefMetrics.
 TEST(BaselineComparison, ReturnsTheDeficit) {
   const Figure figure(shell());
   const ReliefModel model = ReliefModel::prepare(figure.surface).value();
@@ -59,7 +59,7 @@ TEST(BaselineComparison, ReturnsTheDeficit) {
     }
 }
 
-// After compression, these heights are those of the relief.
+// If the comparison's heights are compressed, they are those of the whole relief.
 TEST(BaselineComparison, FindsHeightsBeforeCompression) {
   const Figure figure(shell());
   const ReliefModel model = ReliefModel::prepare(figure.surface).value();

@@ -14,15 +14,15 @@
 namespace relievo {
 namespace {
 
-// Returns a roof of that slope with its ridge along y.
+// Returns a roof whose sides have the given slope and whose ridge runs along y.
 Cloud roof(double slope, std::size_t n = 30000) {
   return test::height_field(
       n, 1, [=](double x, double) { return -slope * std::abs(x); },
       [=](double x, double) { return Vec2(x > 0 ? -slope : slope, 0); });
 }
 
-// Returns the largest difference of heights from f up to a constant, away from the rim and the roof's ends,
-// as a share of the height.
+// Returns how much the difference between the heights and f varies away from the rim, as a fraction of the
+// relief's height.
 template <typename F>
 double misfit(const Surface& surface, const Relief& relief, F f) {
   double low = 1e300, high = -1e300;
@@ -44,7 +44,8 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   }
 }
 
-// All points of a level face, and all of four points, are at the same depth or on the boundary.
+// A level face has only one depth, and of four points all are on the boundary. So no method gives them a
+// height.
 TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
   Cloud four;
   four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
@@ -88,7 +89,8 @@ TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
   EXPECT_EQ(attenuated(Vec2::Zero(), 5), Vec2(Vec2::Zero()));
 }
 
-// Weyrich et al. integrate attenuated gradients and scale the result.
+// The expected heights are made as by Weyrich et al.: attenuated gradients are integrated, and the result is
+// scaled.
 TEST(Gradient, IntegratesAttenuatedGradients) {
   const ReliefModel model = test::prepared(test::sphere(20000, 1));
   const GradientOptions options{.attenuation = 3, .steepest_kept = 50, .band_weights = {1}};
@@ -106,7 +108,8 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
 }
 
-// The normals of points beside the outline are interpolated, so that slopes are even to about four digits.
+// All slopes are equal, so attenuation only scales the relief. Normals beside the outline are interpolated,
+// so their slopes are equal only to about four digits.
 TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
   const ReliefModel model = test::prepared(roof(.5));
   const GradientOptions options{.attenuation = 5, .steepest_kept = 100, .band_weights = {1}};
@@ -153,7 +156,7 @@ TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
   EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);
 }
 
-// The cloud has two gentle slopes with an empty range of depths between them.
+// The cloud has two gentle slopes. Equalisation must shrink the empty range of depths between them.
 TEST(Equalise, ShrinksDepthsThatNothingHas) {
   const Cloud cloud = test::joined(
       test::height_field(
@@ -184,7 +187,8 @@ TEST(BaseAndDetail, WithoutAmplificationIsLinear) {
   EXPECT_LE(test::largest_difference(base.heights, linear.heights), 1e-9);
 }
 
-// The surface is a fine wave on a coarse one. The Gaussian keeps the coarse wave and removes the fine one.
+// The surface is a fine wave on a coarse one. The Gaussian leaves the coarse wave in the base, so only the
+// fine wave is amplified.
 TEST(BaseAndDetail, AmplifiesWhatIsFine) {
   const auto z = [](double x, double) { return .2 * std::cos(3 * x) + .004 * std::cos(60 * x); };
   const auto gradient = [](double x, double) {

@@ -15,8 +15,8 @@
 namespace relievo {
 namespace {
 
-// Points scattered over a ring, denser on the left, with their distances from the boundary points on its two
-// circles.
+// Points in the plane, and their distances from the nearest boundary point. ring() scatters them over a ring,
+// more densely on the left.
 struct Figure {
   std::vector<Vec2> points;
   std::vector<float> distance;
@@ -109,7 +109,7 @@ TEST(ControlPoints, DoNotDependOnTheOrderOfThePoints) {
   EXPECT_EQ(before, places(figure));
 }
 
-// Any points and any distances, clusters and coincident points included.
+// Points and distances are random. Many points are in clusters, and some coincide.
 TEST(ControlPoints, CoverAnything) {
   ASSERT_TRUE(rc::check([] {
     const auto cells = *rc::gen::container<std::vector<std::pair<int, int>>>(

@@ -44,7 +44,7 @@ struct Slope {
   double area;
 };
 
-// Computes the slope by its definition, from the normal of the three corners.
+// Computes the slope and the area of a triangle from its normal.
 Slope slope_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   const Vec3 normal = p.cross(q);
@@ -70,8 +70,8 @@ double steepest(const std::vector<Slope>& slopes) {
   return most;
 }
 
-// Returns the angle of the steepest triangle that faces up, in degrees, as another program would find it in
-// the file.
+// Reads triangles from an STL file as another program would. Returns the angle of the steepest one, in
+// degrees; 90 if one does not face up.
 double steepest_deg_in_stl(const std::vector<std::byte>& file, std::size_t triangles) {
   double most = 0;
   for (std::size_t t = 0; t < triangles; ++t) {
@@ -79,7 +79,7 @@ double steepest_deg_in_stl(const std::vector<std::byte>& file, std::size_t trian
     std::memcpy(v.data(), file.data() + 84 + 50 * t + 12, sizeof v);
     const auto corner = [&](std::size_t i) { return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]); };
     const Slope s = slope_of(corner(0), corner(1), corner(2));
-    if (v[2] == v[5] && v[5] == v[8]) continue;  // level, even where rounding turned a sliver over
+    if (v[2] == v[5] && v[5] == v[8]) continue;  // level, though rounding may have overturned a sliver
     most = std::max(most, s.area > 0 ? std::atan(s.slope.norm()) * 180 / std::numbers::pi : 90.0);
   }
   return most;
@@ -102,7 +102,7 @@ TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
   EXPECT_EQ(limited->heights, free->heights);
 }
 
-// The nearest relief is the steepest cone that is allowed: the given slopes, cut off at the limit.
+// The nearest relief is the cone whose slope is the limit: each given slope is reduced to the limit.
 TEST(Draft, ACone) {
   const ReliefModel model = prepared(test::sheet(20000, 1, 0));
   const auto cone = [](double slope) {
@@ -111,7 +111,7 @@ TEST(Draft, ACone) {
   const Relief wanted = relief_of(model, cone(1));
   const Relief limited = limit_draft(model, relief_of(model, cone(2)), {1}).value();
   EXPECT_LT(test::largest_difference(limited.heights, wanted.heights),
-            .02);  // at the tip: points are .014 apart
+            .02);  // no point is at the tip: they are .014 apart
   EXPECT_LT(limited.height, .8);
 }
 
@@ -125,8 +125,8 @@ TEST(Draft, APyramidOnAllOfTheBase) {
   EXPECT_LT(test::largest_difference(limited.heights, wanted.heights), .02);
 }
 
-// z solves a least-squares problem under convex limits if and only if, for every y that keeps the limits, the sum of
-// area (slope of z - slope given) . (slope of y - slope of z) is not negative.
+// z is the nearest relief under a convex limit if and only if, for every relief y within the limit, the sum
+// of area (slope of z - given slope) . (slope of y - slope of z) is not negative.
 TEST(Draft, NoOtherReliefUnderTheLimitIsNearer) {
   const ReliefModel model = prepared(test::sheet(3000, 1, 0));
   const Relief given = relief_of(model, [](double x, double y) {
@@ -188,7 +188,7 @@ double largest_named(const Result<Relief>& refused) {
 TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   const ReliefModel model = prepared(figure(6000));
   const Shape shape = default_shape(Method::layered);
-  for (const double height : {1.2, 50.0}) {  // within reach without the limit, and out of reach
+  for (const double height : {1.2, 50.0}) {  // without the limit, only the first is within reach
     const auto made = make_with_draft(model, {Method::layered, shape, height, 10}, {.4});
     expect_error(made, ErrorKind::geometry);
     const double largest = largest_named(made) / 10;
@@ -197,7 +197,7 @@ TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   }
 }
 
-// For every height that is asked for, the largest height that the message names can be reached.
+// The message of a refusal names the largest height, which can be reached whatever height was asked for.
 TEST(Draft, TheLargestHeightOfEveryMethodCanBeReached) {
   const ReliefModel model = prepared(figure(3000));
   for (const MethodInfo& info : methods)
@@ -260,7 +260,7 @@ TEST(Draft, CanBeCancelled) {
             ErrorKind::cancelled);
 }
 
-// Checks the draft angle after all the steps that a front takes on its way to a file.
+// Measures the draft angle in files, after all the steps that may change a front.
 TEST(Draft, IsKeptInFiles) {
   const ReliefModel model = prepared(figure());
   ReliefOptions options;
@@ -327,8 +327,7 @@ TEST(SteepestSlope, OfARampAndOfAWall) {
   EXPECT_TRUE(std::isinf(steepest_slope(solid)));
 }
 
-// The points are dense and far from the origin, so that rounding to single precision alone makes needles
-// steeper.
+// The points are so dense and so far from the origin that rounding to single precision makes needles steeper.
 TEST(HoldDraft, TakesWhatRoundingAdds) {
   ASSERT_TRUE(rc::check([] {
     test::Random random(*rc::gen::arbitrary<std::uint64_t>());
@@ -362,7 +361,7 @@ TEST(HoldDraft, RefusesAFrontThatIsTooSteep) {
 }
 
 TEST(HoldDraft, RefusesWhatRoundingDoesBetweenPointsThatStay) {
-  Solid solid;  // walls stand under all of the front
+  Solid solid;  // all of its points are above walls, so they must stay
   solid.points = {{20.0011017003, 20.0058829037, 3.00011886031},
                   {20.0012021058, 20.0057975004, 3},
                   {20.0012861059, 20.0059675612, 3.00011886031}};

@@ -1,4 +1,4 @@
-// Frames of the generated samples, and of real scans where these are at hand.
+// Tests frames of the generated samples, and of real scans where these are at hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const std::string scan_names[] = {"armadillo",     "bimba",
                                   "nefertiti",     "scene_menagerie_front",
                                   "squirrel"};
 
-// Has a test for each sample and each scan; those of missing scans are skipped.
+// Makes the cloud of a sample or reads a scan. If the scan is missing, the test is skipped.
 class FrameOfModel : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -40,7 +40,7 @@ class FrameOfModel : public testing::TestWithParam<std::string> {
   Cloud cloud_;
 };
 
-// Compares single precision with double precision.
+// Frames are made in single precision, exact reliefs in double precision.
 TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);
@@ -54,8 +54,7 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   }
 }
 
-// Combines heights, as shares of L_d, with saturations, as sliders do. Frames report heights that are out of
-// reach.
+// The locked heights are fractions of L_d. A frame that is lower must report that its height is out of reach.
 TEST_P(FrameOfModel, KeepsALockedHeight) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);

@@ -47,7 +47,7 @@ TEST(Frame, AgreesWithTheExactRelief) {
       }
 }
 
-// Compares the stencil with the cross products of the triangles.
+// The expected normals are sums of the cross products of the triangles around a point.
 TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
   const Frame frame = frame_of({});
   const Surface& surface = model().surface();
@@ -83,7 +83,7 @@ TEST(Frame, AreCompressedAsTheirShapeSays) {
   }
 }
 
-// Expects that frames have heights of those shares of the diagonal while the other sliders move.
+// Expects that a locked height stays while other options change. The heights are `shares` of the diagonal.
 void expect_locked_heights(const ReliefModel& m, Style style, std::span<const double> shares) {
   FrameMaker maker(m);
   Frame frame;
@@ -155,7 +155,7 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
   EXPECT_LT(frame.height, highest);
 }
 
-// The tilt of the rim is taken away; the inside sinks with it, but keeps its slopes.
+// A wider boundary makes the rim less steep. The inside becomes lower with the rim, but keeps its slopes.
 TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
   FrameOptions options;
   const Frame narrow = frame_of(options);

@@ -16,14 +16,14 @@ namespace {
 
 using test::surface_of;
 
-// Returns a level strip that is longer in y, so that far from its ends only x matters.
+// Returns a level strip along y, so long that far from its ends only x matters.
 Surface strip(double half_width) {
   Cloud cloud = test::sheet(60000, 1, 0);
   for (Vec3& p : cloud.points) p.x() *= half_width;
   return surface_of(cloud);
 }
 
-// Returns the height of bumps on a square of side 2, 0 at its rim, up to .3 high.
+// Returns the height of bumps on a square of side 2: 0 at the rim, .3 at most.
 double bump(double x, double y) {
   return (1 - x * x) * (1 - y * y) * (.15 + .15 * std::sin(9 * x) * std::sin(7 * y));
 }
@@ -53,9 +53,11 @@ std::vector<Real> corrected(const Surface& surface, std::vector<Real> heights, d
   return heights;
 }
 
-// On a level surface all ranks are 0: nothing but the rim keeps heights away from the base. With limits far
-// off, u = z + b solves l^2 u'''' - u'' + u / R^2 = 0 between the rims, and its even solutions are
-// a cosh(k x) + c cosh(m x). The rim sets a and c, which are fitted here: the profile must be one of these.
+// On a level surface the ranks of all depths are 0, so the correction b pulls heights to 0. Only its tie to 0
+// at the rim keeps the heights z + b up. Far from the limits 0 and h, u = z + b is a solution of
+//   l^2 u'''' - u'' + u / R^2 = 0,
+// with the bending length l and the pull length R. The even solutions are a cosh(k x) + c cosh(m x). The rim
+// determines a and c, which are fitted here.
 TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
   constexpr double side = 2, z = .1, R = pull_length * side, l = HeightCorrection::bending_length * side;
   const double root = std::sqrt(1 - 4 * l * l / (R * R));
@@ -80,13 +82,13 @@ TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
     worst = std::max(worst, std::abs(u[i] - fit.dot(basis(i))));
   }
   EXPECT_GT(most, 3 * least);
-  // The sweeps leave 6.9 %, and ten times as many would leave 2.1 %. Wrong k and m, by a quarter, would leave
-  // 14.5 %.
+  // The solver's sweeps leave a misfit of 6.9 %, and ten times as many would leave 2.1 %. With k and m wrong
+  // by a quarter, the misfit would be 14.5 %.
   EXPECT_LT(worst, .08 * most);
 }
 
-// If a correction is lifted inside, the less stiff its ties on the silhouette are, the farther it is from 0
-// there.
+// The correction is lifted inside. The less stiff its ties on the silhouette are, the more it is lifted
+// there, too.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
   const HeightCorrection correction(surface, jump_weights(surface));
@@ -103,8 +105,8 @@ TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   }
 }
 
-// Seen from its axis a dome is the same in all directions, and so must be its correction, though its silhouette crosses
-// the lattice at all angles.
+// A dome seen from its axis is the same in all directions. So must be its correction, although the silhouette
+// crosses the lattice at all angles.
 TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
   const HeightCorrection correction(surface, jump_weights(surface));
@@ -153,7 +155,8 @@ TEST(HeightCorrection, KeepsHeightsBetweenTheBaseAndTheirHeight) {
   }
 }
 
-// Few points make cells wider, and cells without a point nearby are bridged.
+// With fewer points, the lattice's cells are wider, and cells without a point nearby are bridged. The heights
+// must stay about the same.
 TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   const auto mean = [](std::size_t points) {
     const Surface surface = bumpy(points);
@@ -167,7 +170,7 @@ TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   EXPECT_NEAR(mean(2500) / whole, 1, .06);
 }
 
-// The problem has no scale of its own in z.
+// If the heights and the limit are doubled, the corrected heights must double, too.
 TEST(HeightCorrection, IsProportionalToHeights) {
   const Surface surface = bumpy();
   std::vector<double> z = depths(surface), twice = z;
@@ -176,7 +179,7 @@ TEST(HeightCorrection, IsProportionalToHeights) {
   for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(twice[i], 2 * z[i], 1e-6);
 }
 
-// Ripples finer than the cells do not change the correction.
+// Ripples that are finer than the lattice's cells do not change the correction, so they stay in the heights.
 TEST(HeightCorrection, KeepsFineDetail) {
   const Surface surface = bumpy();
   const std::vector<double> plain = depths(surface);
@@ -191,7 +194,8 @@ TEST(HeightCorrection, KeepsFineDetail) {
   EXPECT_NEAR(product / square, 1, .03);
 }
 
-// The shorter the pull length, the nearer heights come to their ranks: .1 in front, 0 behind.
+// The ranks of depths pull heights to .1 in front and to 0 behind. The shorter the pull length, the nearer
+// the heights come to these values.
 TEST(HeightCorrection, PullsHarderWithAShorterLength) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const HeightCorrection correction(sheets, jump_weights(sheets));
@@ -213,7 +217,8 @@ TEST(HeightCorrection, PullsHarderWithAShorterLength) {
   EXPECT_LT(last, .02);
 }
 
-// The nearer sheet ends at a jump. A pull on the sheet bends the membrane there, and hardly anywhere else.
+// The correction lifts the nearer sheet. It bends at the jump where this sheet ends, and hardly anywhere
+// else.
 TEST(HeightCorrection, IsHingedAtJumps) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
@@ -231,7 +236,7 @@ TEST(HeightCorrection, IsHingedAtJumps) {
           most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
     return most;
   };
-  // The ratio is 3.6 with rows of points beside the jump, and was above 4 with scattered points alone.
+  // The ratio is 3.6 with rows of points beside the jump. With scattered points only, it was above 4.
   EXPECT_GT(bend(18, 21), 3 * bend(5, 15));
   EXPECT_GT(bend(18, 21), 3 * bend(24, 34));
 }
@@ -243,7 +248,7 @@ TEST(HeightCorrection, IsTheSameInSinglePrecision) {
   EXPECT_LE(test::largest_difference(single, exact), 2e-6);
 }
 
-// The rim follows w_b, and the height is exactly the one asked for.
+// The boundary stays at 0, and the height is exactly the one asked for.
 TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const Surface surface = bumpy();
   const HeightCorrection correction(surface, jump_weights(surface));

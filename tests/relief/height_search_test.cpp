@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-// Returns a height that grows with u as those of reliefs do, 5 (1 - exp(-u)), and counts its calls.
+// Returns the height 5 (1 - exp(-u)), which grows with u like the height of a relief, and counts the calls.
 struct Growth {
   double last = 0;  // height of the last call
   int calls = 0;
@@ -39,7 +39,8 @@ TEST(HeightSearch, EndsWithTheHighestWhereTheHeightIsOutOfReach) {
   EXPECT_EQ(climbed.last, Growth()(4.5));
 }
 
-// Heights jump at u = infinity if level points have their whole slope only there.
+// The height jumps at u = infinity if level points get their whole slope only there. A search for a height
+// within this jump ends above it.
 TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   double last = 0;
   const auto leaping = [&](double log_u) {
@@ -55,7 +56,8 @@ TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   EXPECT_FALSE(HeightSearch(6, 1e-5).bracket(leaping));
 }
 
-// Slopes that are kept whole may give more than the height asked for, even without steps.
+// If some slopes are kept whole, all heights may be greater than the height asked for. The search then ends
+// at the lowest of them.
 TEST(HeightSearch, EndsAboveAHeightThatIsBelowAll) {
   double last = 0;
   const auto high = [&](double x) { return last = 4.1 + 1 / (1 + std::exp(-x)); };
@@ -100,7 +102,7 @@ TEST(HeightSearch, TracksAcrossFarJumps) {
 
 TEST(HeightSearch, ClimbsToWhatIsNotTooLow) {
   for (const double height : {.5, 2.0, 4.0, 4.9}) {
-    const double below = std::log(-std::log1p(-.8 * height / 5));  // four fifths of the height
+    const double below = std::log(-std::log1p(-.8 * height / 5));  // log u at 4/5 of the height
     Growth growth;
     EXPECT_TRUE(HeightSearch(height, .003).climb(below, 4.5, growth));
     EXPECT_GE(growth.last, height);
@@ -109,7 +111,8 @@ TEST(HeightSearch, ClimbsToWhatIsNotTooLow) {
   }
 }
 
-// A caller whose relief failed returns the height asked for, to end the search.
+// A caller whose relief failed ends the search by returning the height asked for. No further call must
+// follow.
 TEST(HeightSearch, EndsEarlyWhenItIsGivenTheHeight) {
   for (const int failing : {1, 2, 3}) {
     int calls = 0;

@@ -16,7 +16,7 @@
 namespace relievo {
 namespace {
 
-// Points in a disc of radius 1. The first `rim` points lie on its circle and are the boundary.
+// Random points in a disc of radius 1. The first `rim` points lie on its circle and are the boundary.
 struct DiscCase {
   std::vector<Vec2> points;
   Triangulation mesh;
@@ -41,7 +41,7 @@ struct DiscCase {
   HeightSystem system(const std::vector<float>& weights = {}) const {
     return HeightSystem::build(points, mesh, boundary, weights).value();
   }
-  // Returns weights from .1 to 1.
+  // Returns random weights from .1 to 1, one per point.
   std::vector<float> uneven() const {
     test::Random random(7);
     std::vector<float> weights;
@@ -63,8 +63,8 @@ std::vector<double> heights_of(const HeightSystem& system, const std::vector<Vec
   return z;
 }
 
-// The mean of two slopes is exact along an edge for a quadratic: the paraboloid comes back up to rounding,
-// whatever the weights of the edges.
+// Along an edge, a quadratic function rises exactly by the mean of the slopes at both ends. So the heights
+// are those of the paraboloid, up to rounding and for any weights of edges.
 TEST(Heights, OfAParaboloidAreExact) {
   const DiscCase disc(5000);
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
@@ -103,8 +103,8 @@ void expect_least_squares(const std::vector<float>& weights) {
     for (int corner = 0; corner < 3; ++corner) {
       const Index apex = t[corner], p = t[(corner + 1) % 3], q = t[(corner + 2) % 3];
       const Vec2 u = disc.points[p] - disc.points[apex], v = disc.points[q] - disc.points[apex];
-      // The weight is half the cotangent from this side; those of both sides of an edge add up. It may be
-      // negative, so the normal equations A are formed directly.
+      // The weight of an edge is half the sum of the cotangents opposite to it, one from each of its
+      // triangles. As a weight may be negative, the normal equations A are formed directly.
       const double weight = .5 * weight_of(p, q) * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n + 1);
       row[p] = 1, row[q] = -1, row[n] = weight;
@@ -133,7 +133,7 @@ TEST(Heights, MinimiseEquationNine) {
   expect_least_squares(DiscCase(40, 20).uneven());
 }
 
-// Two discs side by side: their triangulation without the triangles between them.
+// Two discs side by side. The triangles that join both discs are marked as outside.
 struct TwoDiscs {
   std::vector<Vec2> points;
   Triangulation mesh;
@@ -182,8 +182,8 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
 }
 
-// A pattern counts as memory only of the matrix that made it, which shows whether another matrix shares it.
-// Points on the boundary, which have no unknown, come before their neighbours, and after them.
+// The memory of a matrix does not include a pattern that it shares with another matrix. So less memory shows
+// that the pattern is shared. Boundary points, which have no unknown, stand first, then last.
 TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
   for (const bool is_boundary_last : {false, true}) {
     DiscCase disc(500);

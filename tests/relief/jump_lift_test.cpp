@@ -19,8 +19,9 @@ namespace {
 
 constexpr double half_width = .5;  // half the width of the flap
 
-// Returns a tilted square before a level one. Slopes do not show the depth between them, so (9) puts the
-// middle of the tilted square at the height of the level one, and its lower half below.
+// Returns a tilted square before a level one. Slopes do not contain the depth between the squares, so (9)
+// puts the middle of the tilted square at the height of the level one, and the lower half of the tilted
+// square below it.
 Cloud flap(std::size_t points = 8000) {
   const double tilt = 25 * std::numbers::pi / 180;
   Cloud square = test::sheet(points, half_width / std::cos(tilt), 0);
@@ -33,7 +34,7 @@ Cloud flap(std::size_t points = 8000) {
 struct Prepared {
   explicit Prepared(const Cloud& cloud) : surface(find_surface(cloud, {}).value()) {}
 
-  // Returns the heights that (9) gives the default layered shape.
+  // Returns the heights that (9) gives for the shape.
   std::vector<double> heights(const Shape& shape) const {
     const std::vector<float> boundary_weight =
         boundary_weights(surface.boundary.distance, boundary_rho(surface, shape.boundary_width));
@@ -60,7 +61,8 @@ Shape shape_at(double u, double gamma = layered_shape().gamma) {
   return shape;
 }
 
-// Returns the mean of how far the front side of the wall is below its back side.
+// Returns how far the front side of the wall is below its back side, on average over the wall's edges. An
+// edge whose front side is higher counts as 0.
 double mean_inversion(const Surface& surface, std::span<const double> z) {
   double sum = 0, edges = 0;
   for (const Triangle& t : surface.triangulation.triangles)
@@ -73,7 +75,7 @@ double mean_inversion(const Surface& surface, std::span<const double> z) {
   return sum / edges;
 }
 
-// Returns the share of the inversion that the lift leaves for that shape.
+// Returns the fraction of the inversion that remains after the lift for that shape.
 double inversion_left(const Prepared& prepared, const Shape& shape) {
   std::vector<double> z = prepared.heights(shape);
   const double before = mean_inversion(prepared.surface, z);
@@ -88,7 +90,7 @@ TEST(JumpLift, LevelsInvertedJumpsAtEveryHeight) {
     EXPECT_LT(inversion_left(flap_before_sheet, shape_at(u)), .12) << u;
 }
 
-// The fields are computed for the default detail only.
+// The lift is computed for the default gamma. For other values of gamma it must still lessen inversions.
 TEST(JumpLift, LessensInversionsAtOtherDetails) {
   const Prepared flap_before_sheet(flap());
   for (const double gamma : {0.0, .02, .06})
@@ -119,7 +121,7 @@ TEST(JumpLift, MovesNothingFarFromJumpsNorOnTheSilhouette) {
   EXPECT_GT(moved, 1000U);
 }
 
-// Returns by how much a field at a point differs from a quadratic fit of the values around it.
+// Returns the difference between a field's value at point i and a quadratic fit of the values around it.
 double roughness(const Surface& surface, std::span<const double> y, std::size_t i) {
   std::vector<std::size_t> around;
   for (std::size_t j = 0; j < y.size(); ++j)

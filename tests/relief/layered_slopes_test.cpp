@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Points of all kinds: steep, level and beyond the steepest slope, in a number that eight does not divide.
+// Points of all kinds: level ones, steep ones, and ones beyond the steepest slope that is allowed.
 struct Points {
   std::vector<Vec3f> normals;
   std::vector<float> k, boundary_weight;
@@ -32,7 +32,8 @@ struct Points {
   }
 };
 
-// Compares the slopes of both sets of instructions with slopes that are computed point by point.
+// Compares slopes that are computed eight at a time, with and without AVX2, with slopes computed one by one.
+// The number of points is no multiple of eight.
 void expect_slopes_of_single_points(const Shape& shape) {
   const Points points(10003);
   const LayeredStyle style(shape);

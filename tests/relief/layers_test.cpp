@@ -76,8 +76,8 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
   EXPECT_LT(kept(2), 2 * rounding);
 }
 
-// A share of 1 / (1 + (slope / 12)^8) remains of a normal's x and y, in the direction in which the surface
-// rises.
+// -(n_x, n_y) points in the direction in which the surface rises. faded_xy() returns this vector times
+// 1 / (1 + (slope / 12)^8).
 TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
   for (const double slope : {0.0, .5, 3.0, 12.0, 24.0}) {
     const Vec3 normal = Vec3(-.6 * slope, .8 * slope, 1).normalized();
@@ -88,7 +88,7 @@ TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
   EXPECT_LT(faded_xy(Vec3f(.8F, 0, -.6F)).norm(), 1e-9F);
 }
 
-// The numbers and weights are chosen so that any exchange of them changes the sum.
+// The numbers and weights are chosen so that exchanging any of them would change the sum.
 TEST(WeightedSum, WeighsEachLayer) {
   const PointLayers layers{Vec2f(.5F, .25F), Vec2f(-.25F, .125F), Vec2f(1, -.5F), Vec2f(-.125F, 1.5F)};
   const LayerWeights w{.1F, .35F, .7F, .9F, .5F};
@@ -144,12 +144,13 @@ TEST(LayerWeights, OfAShapeAreThoseOfItsMembrane) {
   EXPECT_FLOAT_EQ(weights.coarse, of_layer(20.5));
   EXPECT_FLOAT_EQ(weights.broad, of_layer(55));
   EXPECT_FLOAT_EQ(weights.height_share, .6F);
-  shape.membrane.reset();  // a height share of 1 then
+  shape.membrane.reset();  // the height share is 1 then
   EXPECT_FLOAT_EQ(layer_weights(shape).fine, static_cast<float>(1 - std::exp(-1.5)));
   EXPECT_EQ(layer_weights(shape).height_share, 1);
 }
 
-// With weights of 1, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
+// With weights of 1, the slope is that of the surface. With other weights, it is the slope of the normal
+// whose x and y are weighted.
 TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   PointLayers layers;
   layers.fine = Vec2f(.3F, 0);
@@ -163,7 +164,8 @@ TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   EXPECT_EQ(flat.norm(), 0);
 }
 
-// At a height share of 0 the slope is (x, y) itself; in between it anticipates the tilt that is left.
+// With a height share t, the slope is (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where (x, y) is the weighted sum.
+// This anticipates the tilt that remains after compression.
 TEST(LayeredSlope, AnticipatesTheMembrane) {
   PointLayers layers;
   layers.coarse = Vec2f(.6F, -.2F);

@@ -45,12 +45,13 @@ void expect_to_keep_what_compression_keeps(const ReliefModel& m) {
   }
 }
 
-// This is the purpose of the tuning, measured by the full metrics.
+// The tuning uses estimates of detail and order. By the full metrics, too, both must be kept.
 TEST(MembraneTuning, KeepsDetailAndOrderOfGradientDomainCompression) {
   expect_to_keep_what_compression_keeps(model());
 }
 
-// The green man needs weak compression and a strong pull to keep its order; the shell does not.
+// To keep the order of its depths, the green man needs weak compression and a strong pull; the shell does
+// not.
 TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
   const ReliefModel mask = test::prepared(make_sample("green_man", {60000}).value());
   EXPECT_GT(mask.membrane_at(.25).height_share, 1.1 * model().membrane_at(.25).height_share);
@@ -63,7 +64,8 @@ TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
             metrics.measure(gradient_relief(mask, height).heights).order);
 }
 
-// A height share that is a fifth less loses detail or order.
+// With a height share that is a fifth smaller, detail or order would be no better than with gradient-domain
+// compression, up to a small margin.
 TEST(MembraneTuning, CompressesAsStronglyAsPossible) {
   const ReliefMetrics metrics(model().surface());
   for (const double share : {.0125, .025}) {
@@ -138,7 +140,8 @@ TEST(MembraneTuning, IsTheSameInTheSubspace) {
   for (const double u : {.3, 1.0, 3.0}) EXPECT_EQ(subspace.membrane_at(u), model().membrane_at(u)) << u;
 }
 
-// On a dome nothing that attenuates broad forms keeps the order.
+// On a dome, no parameters that attenuate broad forms keep the order of depths. The tuning must find those
+// that come nearest.
 TEST(MembraneTuning, ComesNearestWhereItCannotKeepAll) {
   const auto dome = [](double x, double y) {
     return .8 - .4 * (x * x + y * y) + .06 * std::sin(14 * x) * std::sin(11 * y);
@@ -177,7 +180,8 @@ TEST(MembraneTuning, CanBeCancelled) {
   }
 }
 
-// A strip that is too narrow, and a sheet with too few points or nothing to compress, are no errors.
+// Nothing can be measured on a strip that is too narrow, on a sheet with too few points, or on a level sheet.
+// The tuning then keeps its default without an error.
 TEST(MembraneTuning, HasItsDefaultWhereNothingCanBeMeasured) {
   Cloud strip = test::sheet(3000, 1, 0);
   for (Vec3& p : strip.points) p.x() *= .005;

@@ -27,11 +27,13 @@ TEST(Relief, OfATiltedPlaneIsFlatWhereNothingIsKept) {
       3000, 1, [](double x, double) { return .5 * x; }, [](double, double) { return Vec2(.5, 0); });
   const ReliefModel model = prepared(tilted);
   EXPECT_NEAR(model.make({{0, 0}, 0}).height, 0, 1e-12);
-  // If slopes are kept in full, the least squares spread this slope, which is impossible with both ends at 0.
+  // Even with slopes kept in full, the relief stays low: a slope between two ends at 0 is impossible, and the
+  // least squares spread the error.
   EXPECT_LT(model.make({keep_all, 0}).height, .2);
 }
 
-// The heights are equal up to a constant, as the boundary weight lowers the steep rim, two rho wide.
+// The boundary weight lowers the steep rim, which is two rho wide. So heights and depths differ by a
+// constant.
 TEST(Relief, OfAHemisphereKeptInFullIsTheHemisphere) {
   const ReliefModel model = prepared(test::sphere(120000, 1));
   const Relief relief = model.make({keep_all, 0, 100});
@@ -91,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(LayeredGrid, ReliefAtHeight,
                                           testing::Values(0, .01, 1)),
                          name_of);
 
-// A sphere has no depth jumps, whose steps would add the missing height.
+// A sphere has no depth jumps, so no steps can add the missing height.
 TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   const ReliefModel model = prepared(test::sphere(30000, 1));
   const double most = model.make({keep_all, .04}).height;
@@ -99,7 +101,8 @@ TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   expect_error(model.make_at_height(1.01 * most, {{}, .04}, 10), ErrorKind::geometry, "at most");
 }
 
-// At a high saturation most of the height comes at a u that double cannot represent.
+// At a high saturation, most of the height comes only at values of u beyond those of double. These heights
+// must be reached, too.
 TEST(Relief, HasEveryHeightUpToTheLargest) {
   const ReliefModel model = prepared(bumps_behind_a_ring());
   for (const double beta : {0.0, 10.0, 100.0}) {
@@ -112,7 +115,7 @@ TEST(Relief, HasEveryHeightUpToTheLargest) {
   }
 }
 
-// A few points that float before and beside the figure must not make its system singular.
+// A few points that float before and beside the figure must not make the system of equations singular.
 TEST(Relief, OfAFigureWithFloatingFragmentsExists) {
   Cloud cloud = bumps_behind_a_ring();
   test::Random random(3);
@@ -165,7 +168,8 @@ TEST(Relief, DoesNotChangeWithTheOrderOfThePoints) {
   EXPECT_EQ(model.make(shape).heights, reversed.make(shape).heights);
 }
 
-// The step is an exact binary fraction, so that rounding cannot change which points are visible.
+// All coordinates are multiples of 2^-20. So the move is exact, and rounding cannot change which points are
+// visible.
 TEST(Relief, DoesNotChangeWithTheOrigin) {
   Cloud cloud = bumps_behind_a_ring();
   for (Vec3& p : cloud.points) p = (p * 0x1p20).array().round() * 0x1p-20;

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Points with 0 to 9 links each to any others, and a slope and a height each.
+// Random points. Each has 0 to 9 links to any points, a slope and a height.
 struct Linked {
   Groups<MatrixEntry> links;
   std::vector<Vec2f> slopes;

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// The depths of three squares on one another, seen from above, each half as wide as the one below. The depths
-// are no multiples of one another.
+// The depths of three square terraces, seen from above. Each terrace is half as wide as the one below it, and
+// the two steps have different heights.
 constexpr std::array<double, 3> depths = {0, .3, .7};
 
 std::size_t terrace_of(const Vec3& p) {
@@ -37,8 +37,8 @@ Shape plain(double steps = 0) {
   return shape;
 }
 
-// Returns the largest error of the heights, without points nearer than 2.5 sampling distances to the edges of the
-// terraces: the points do not locate these edges any better.
+// Returns the largest error of the heights, except within 2.5 sampling distances of the terraces' edges,
+// which the points do not locate any better.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -50,7 +50,7 @@ double largest_error(const ReliefModel& model, std::span<const double> heights, 
   return worst;
 }
 
-// The wanted differences are those of the terraces' depths, so the least squares leave no residual.
+// The least squares ask for the differences of the terraces' depths, which heights can meet exactly.
 TEST(StepHeights, OfTerracesAreTheirDepths) {
   const ReliefModel model = test::prepared(terraces(20000));
   const StepHeights& steps = model.steps();
@@ -89,7 +89,8 @@ TEST(Steps, TakeNothingWhereSlopesReachTheHeight) {
   EXPECT_NEAR(relief.heights[0], model.make(relief.shape).heights[0], 1e-6);
 }
 
-// With a share S of the height h, heights are those of the slopes plus the terraces' depths times S h / span.
+// If steps take the fraction S of the height h, the heights are those of the slopes plus the step heights
+// times S h / span.
 TEST(Steps, TakeTheShareAskedFor) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   const double height = .1, share = .4;
@@ -136,7 +137,8 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
 }
 
-// The height correction is made with a share of steps, too, and keeps the order.
+// If steps take a part of the height, the height correction is still made. The terraces must keep their
+// order.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();

@@ -46,7 +46,7 @@ TEST(LayeredStyle, RaisesHeightsToTheirShare) {
   EXPECT_EQ(z, (std::vector<double>{0, 4, 10}));
 }
 
-// Both precisions use the same formulas, so that frames show the exact relief.
+// Both precisions use the same formulas, so the slopes of frames are those of the exact relief.
 TEST(Styles, GiveTheSameSlopesInSinglePrecision) {
   std::vector<PointLayers> layers(3);
   for (std::size_t i = 0; i < 3; ++i) layers[i].fine = Vec2f(-normals[i].head<2>());

@@ -44,8 +44,8 @@ float span_of(const std::vector<float>& heights) {
   return *high - *low;
 }
 
-// Returns the largest root mean square error over reliefs from high to very low, even and uneven, as a share
-// of the height.
+// Returns the largest root mean square error of several reliefs, as a fraction of their heights. The reliefs
+// are high to very low, and compressed evenly or unevenly.
 double worst_error(const Surface& surface, const SubspaceModel& subspace) {
   const ReliefModel exact = ReliefModel::prepare(surface).value();
   double worst = 0;
@@ -95,8 +95,8 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// The first error is 1.02 % with rows of points beside outlines, and was below 1 % with scattered points
-// alone.
+// The first error is 1.02 % with rows of points beside the outlines. With scattered points only, it was below
+// 1 %.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
   const Surface surface = surface_of(bumps_behind_a_ring());
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .012);
@@ -108,7 +108,8 @@ TEST(Subspace, IsCloseToTheExactReliefOfASphere) {
   EXPECT_LT(worst_error(surface, subspace_of(surface, 1000)), .01);
 }
 
-// If every point is a control point and slopes are not averaged, only the offset's spline approximates.
+// If every point is a control point and slopes are not averaged, the only approximation is the spline of the
+// offset (see SubspaceModel).
 TEST(Subspace, IsTheExactReliefWhereAllPointsAreControlPoints) {
   const Surface surface = surface_of(test::sphere(10000, 1));
   SubspaceOptions options;
@@ -174,14 +175,14 @@ TEST(Subspace, CanBeCancelled) {
                ErrorKind::cancelled);
 }
 
-// Returns a mesh of that many control points over a torus.
+// Returns about `count` control points of a surface, and the mesh over them.
 std::pair<ControlPoints, ControlMesh> control_mesh(const Surface& surface, std::size_t count) {
   const ControlPoints control =
       grow_control_points(in_plane(surface.points), surface.boundary.distance, {count});
   return {control, mesh_control_points(surface, control)};
 }
 
-// The hole of a torus stays outside, and the triangles inside cover the rest.
+// The hole of the torus is left outside, and the triangles inside cover the rest.
 TEST(ControlMesh, LeavesHolesOut) {
   const Surface surface = surface_of(test::torus(60000, 1.5, .5));
   const auto [control, mesh] = control_mesh(surface, 1000);
@@ -200,17 +201,17 @@ TEST(ControlMesh, HoldsItsPointsOnTheSurfacesBoundary) {
   for (std::size_t c = 0; c < control.boundary_points; ++c) ASSERT_TRUE(mesh.boundary.is_boundary[c]);
 }
 
-// The mean over the samples is the mean over the area of the plane, however points crowd.
+// The samples are spread evenly over the area, although three of four points are in the left half.
 TEST(RegionSamples, StandForEqualAreas) {
   test::Random random(5);
-  Cloud crowded;  // three of four points in the left half
+  Cloud crowded;
   while (crowded.size() < 40000) {
     const double x = random.uniform(-1, 1);
     if (x > 0 && random.uniform() < 2 / 3.0) continue;
     test::add(crowded, {x, random.uniform(-1, 1), 0}, {0, 0, 1});
   }
   const Surface surface = surface_of(crowded);
-  // There is one control point, whose region is everything.
+  // There is only one control point, so all points belong to its region.
   const ControlPoints control{{0}, 0, 10};
   const std::vector<Index> samples = sample_regions(surface, control, 1000);
   ASSERT_EQ(samples.size(), 1000U);

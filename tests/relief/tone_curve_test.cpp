@@ -65,7 +65,8 @@ TEST(ToneCurve, WrongTextsAreNamed) {
   EXPECT_TRUE(complaint(many).contains("1 to 16 points"));
 }
 
-// The paper's weight is one of the curves: a curve with its values at u = 1 gives (6) at every u.
+// A tone curve with the values of (6) at u = 1 gives (6) at every u, so the paper's weight is one of the
+// curves.
 TEST(ToneCurve, HoldsThePapersFormula) {
   const double delta = .25, beta = .5, share = curvature_weight(.36, delta, {1, beta});
   const auto through = std::make_shared<const ToneCurve>(*ToneCurve::through({{.6, share}}));
