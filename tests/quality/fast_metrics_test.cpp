@@ -22,7 +22,7 @@ Surface figure() {
   return find_surface(test::joined(hills, test::torus(60000, .6, .2)), {}).value();
 }
 
-// Returns copies of the depths, each distorted in its own way.
+// Returns four reliefs: the depths, scaled or distorted in different ways.
 std::vector<std::vector<double>> reliefs(const Surface& surface) {
   std::vector<std::vector<double>> all(4);
   for (const Vec3& p : surface.points) {
@@ -67,7 +67,8 @@ TEST(FastMetrics, DrawsSmoothHeightsAlike) {
   const Image<float> a = fast.draw(heights),
                      b = fast.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
   ASSERT_EQ(a.size(), b.size());
-  // Differences are in pixels. They may be larger at silhouettes, where some of the four pixels lie outside.
+  // Heights are in pixels. They may differ more at silhouettes, where some of the four pixels that each pixel
+  // is made of lie outside.
   std::size_t unlike = 0, inside = 0;
   for (std::size_t i = 0; i < a.size(); ++i) unlike += std::abs(a[i] - b[i]) > .02F, inside += a[i] != 0;
   EXPECT_LT(unlike, inside / 50);

@@ -34,7 +34,7 @@ TEST(PixelMask, ListsItsPixels) {
   for (const Index i : where.pixels) ASSERT_TRUE(where.mask[i]);
 }
 
-// Rows run downwards, so y falls from row to row.
+// Rows run downwards, so y decreases from row to row. The divergence is .3 + .2.
 TEST(Divergence, IsThatOfALinearField) {
   const PixelMask where = measured(1, true);
   const Image<float> sum = divergence(image([](int x, int y) { return .3 * x + 7 * y; }),
@@ -42,7 +42,7 @@ TEST(Divergence, IsThatOfALinearField) {
   for (Index i = 0; i < sum.size(); ++i) ASSERT_NEAR(sum[i], where.mask[i] ? .5 : 0, 1e-4) << i;
 }
 
-// Values in the hole and at the rim do not count.
+// Pixels in the hole and at the rim are 0, but they do not count.
 TEST(MaskedGaussian, KeepsAConstant) {
   const PixelMask where = measured(2, true);
   Image<float> values = image([&](int x, int y) { return where.mask.at(x, y); });
@@ -93,7 +93,7 @@ TEST(OrderKept, CountsPairs) {
   EXPECT_EQ(order_kept({}, {}, {}, 100), 0);
 }
 
-// Pairs less than 1 % of the range apart do not count.
+// Pairs of pixels whose depths differ by less than 1 % of the range do not count.
 TEST(OrderKept, ForgivesWhatIsHardlyApart) {
   const PixelMask where = measured(1);
   const Image<float> depth = image([](int x, int y) { return 1000 * (x > 15) + .5 * y; });

@@ -49,10 +49,11 @@ TEST(Measures, OfTheModelItselfAreTheBest) {
   EXPECT_LT(m.jump_step, 1e-12);
 }
 
-// The expected angle is the mean over the points, which are uniform in x and y.
+// The expected angle is the mean tilt of the points. They are uniform in x and y, so this is also the mean
+// over the picture.
 TEST(Measures, AngleOfALevelReliefIsTheMeanTilt) {
   std::vector<double> level(bumpy().points.size(), 0.0);
-  level[0] = 1e-6;  // a relief of some height
+  level[0] = 1e-6;  // so that the relief has a height
   double sum = 0;
   for (const Vec3f& n : bumpy().normals) sum += std::acos(static_cast<double>(n.z()));
   const double mean_deg = sum / static_cast<double>(level.size()) * 180 / std::numbers::pi;
@@ -114,8 +115,8 @@ TEST(Measures, JumpStepIsWhatIsLeftOfAJump) {
   EXPECT_LT(judge.measure(ramp).jump_step, .05);
 }
 
-// All points but the boundary have one height: there is a step at the silhouette and none within, even where
-// the sheet in front ends beyond the one behind.
+// All points except those of the boundary have the same height. So there is a step at the silhouette and no
+// step inside, even where the front sheet extends beyond the other one.
 TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   Cloud front = test::sheet(10000, .5, 3, 9);
   for (Vec3& p : front.points) p.x() += 1;
@@ -128,7 +129,8 @@ TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   EXPECT_EQ(m.jump_step, 0);
 }
 
-// The grid of points is finer than the safe distance, so no triangle of the step reaches measured pixels.
+// Pixels within the safe distance of the silhouette are not measured. The points are so dense that no
+// triangle of the step reaches beyond this distance.
 TEST(Measures, AStepAtTheSilhouetteIsNoDetail) {
   Cloud grid;
   test::Random random(8);

@@ -14,7 +14,7 @@ using test::surface_of;
 
 constexpr double pi = std::numbers::pi;
 
-// Returns a disc of radius 1, whose rim is a circle.
+// Returns a button of radius 1.
 const Surface& disc() {
   static const Surface surface = surface_of(test::button(40000, .85, .15));
   return surface;
@@ -37,8 +37,8 @@ TEST(SurfaceMeasures, AConeHasNoFray) {
   EXPECT_EQ(measures.fray(rising(disc(), [](double) { return .5; })).jump_deg, 0);
 }
 
-// The tilt is a sine along the rim, and a triangle is a tenth of a wave long. The moving mean of the tilt
-// over 25 triangles is a sine, too, with 1 / (25 sin(pi / 10)) times the amplitude.
+// The tilt is a sine along the rim, and a triangle is a tenth of a wave long. Fray is measured from the
+// moving mean of the tilt over 25 triangles, which is a sine with 1 / (25 sin(pi / 10)) times the amplitude.
 TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   const double rims = 2 * pi / (.75 * disc().rho), amplitude = .1;
   const int waves = static_cast<int>(rims / 10);
@@ -71,7 +71,8 @@ TEST(SurfaceMeasures, FrayAtAJumpGrowsWithNoise) {
   EXPECT_GT(measures.fray(noisy).jump_deg, 3);
 }
 
-// The normals of a ball of radius R turn by the distance of the centres of neighbouring triangles over R.
+// Between neighbouring triangles on a ball, the normal turns by the distance of their centres divided by the
+// ball's radius.
 TEST(SurfaceMeasures, FacetAngleIsThatOfTheTriangles) {
   const Surface cap = surface_of(test::sheet(40000, .5, 0));
   const SurfaceMeasures measures(cap);
@@ -82,7 +83,7 @@ TEST(SurfaceMeasures, FacetAngleIsThatOfTheTriangles) {
   }
   EXPECT_LT(measures.facet_angle_deg(plane), 1e-3);
   const double of_rho = measures.facet_angle_deg(ball) * pi / 180 * 2 / cap.rho;
-  EXPECT_GT(of_rho, .8);  // two thirds of an equilateral triangle's height are .58
+  EXPECT_GT(of_rho, .8);  // it would be .58 for equilateral triangles with sides of rho
   EXPECT_LT(of_rho, 2.5);
 }
 
