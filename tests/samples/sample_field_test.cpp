@@ -68,7 +68,7 @@ TEST(Scatter, IsUniformOverTheTorus) {
     ++round_tube[slot(tube / (2 * pi) + 0.5, slots)];
     ++round_axis[slot(std::atan2(q.y(), q.x()) / (2 * pi) + 0.5, slots)];
   }
-  for (int i = 0; i < slots; ++i) {  // the area between two angles of the tube, as a share of all
+  for (int i = 0; i < slots; ++i) {  // `share` is the part of the area that is between two angles of the tube
     const double from = 2 * pi * i / slots - pi, to = from + 2 * pi / slots;
     const double share = 1.0 / slots + small / big * (std::sin(to) - std::sin(from)) / (2 * pi);
     tube_area[static_cast<std::size_t>(i)] = 200000 * share;

@@ -89,7 +89,7 @@ TEST_P(Sample, HasAFieldThatIsAtMostTheDistance) {
   EXPECT_LT(too_high, 500);
 }
 
-// The cells of the view plane over the box.
+// A grid of side x side cells over the box, in the view plane.
 struct Plane {
   Box box;
   int side = 0;
@@ -100,7 +100,8 @@ struct Plane {
   }
 };
 
-// Returns how often a ray along Z enters or leaves the solid, by steps too small to miss much.
+// Returns how often a ray along Z enters or leaves the solid. The steps are so small that few crossings are
+// missed.
 int crossings(const field::Solid& solid, Vec3 p) {
   const double step = 0.002;
   int count = 0;
@@ -115,7 +116,7 @@ int crossings(const field::Solid& solid, Vec3 p) {
   return count;
 }
 
-// Returns the share of all crossings that falls into each cell, by brute force.
+// Casts rays through the solid and returns, per cell, its fraction of all crossings.
 std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane) {
   const std::size_t side = 120;
   std::vector<int> counts(side * side);
@@ -132,8 +133,8 @@ std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane
   return shares;
 }
 
-// Returns the same shares from a cloud: all points have equal areas, and a point's area in the view plane is
-// |nz| of it.
+// Returns the same fractions from a cloud. Each point stands for the same area of surface; in the view plane
+// this area is smaller by the factor |nz|.
 std::vector<double> shares_by_points(const Cloud& cloud, const Plane& plane) {
   std::vector<double> shares(plane.cells(), 0);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
