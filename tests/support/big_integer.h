@@ -1,4 +1,5 @@
-// An integer wide enough for every exact determinant in these tests, to check floating-point expansions.
+// Implements integers that are wide enough for every exact determinant in the tests of floating-point
+// expansions.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ class BigInteger {
  public:
   BigInteger() = default;
 
-  // Returns x * 2^252, an integer if x is 0 or its magnitude is at least 1e-60. Exact below 1e70.
+  // Returns x * 2^252, exactly if x is 0 or its magnitude is at least 1e-60 and below 1e70.
   static BigInteger scaled(double x) {
     int exponent = 0;
     const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));

@@ -1,4 +1,5 @@
-// Writes E57 files, independently of the reader: tests choose the columns and damage the contents.
+// Writes E57 files independently of the library's reader, so that tests can choose the columns and damage the
+// contents.
 #pragma once
 
 #include <bit>
@@ -11,7 +12,7 @@
 
 namespace relievo {
 
-// A column of a scan: its element in the prototype, and its numbers as they are packed.
+// A column of a scan: its element in the prototype, and its numbers, of which `bits` bits each are stored.
 struct E57Column {
   std::string name, attributes;
   unsigned bits = 64;
@@ -50,8 +51,8 @@ inline std::string packed_bits(const E57Column& column) {
   return bytes;
 }
 
-// Returns the packets of a section, each with at most `most` bytes of every column. Before them are an index
-// packet and an empty one, which readers skip.
+// Returns the packets of a section, each with at most `most` bytes of every column. Readers skip the first
+// two packets: an index packet and an empty one.
 inline std::string e57_packets(const std::vector<E57Column>& columns, std::size_t most) {
   std::string all =
       std::string("\x00\x00\x0F\x00", 4) + std::string(12, '\0') + std::string("\x02\x00\x03\x00", 4);
@@ -79,8 +80,7 @@ inline std::uint32_t bitwise_crc32c(std::string_view bytes) {
   return ~crc;
 }
 
-// Cuts the contents into pages of 1,024 bytes with their checksums, and corrects the file's length in the
-// header.
+// Cuts the contents into pages of 1,024 bytes with their checksums, and writes the new length to the header.
 inline std::string e57_pages(std::string contents) {
   contents.resize((contents.size() + 1019) / 1020 * 1020, ' ');
   contents = patched(contents, 16, static_cast<std::uint64_t>(contents.size() / 1020 * 1024));

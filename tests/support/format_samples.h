@@ -1,4 +1,5 @@
-// Makes small valid files of every format, independently of the readers; tests change and damage them.
+// Makes small valid files of every format, independently of the library's readers. Tests change and damage
+// these files.
 #pragma once
 
 #include <cstdint>
@@ -75,8 +76,8 @@ inline std::string gltf_buffer() {
   return buffer;
 }
 
-// Returns the JSON of a glTF file with gltf_buffer(); `uri` is empty, or the buffer's member uri with a
-// comma.
+// Returns the JSON of a glTF file with gltf_buffer(). `uri` is empty, or the member "uri" of the buffer,
+// followed by a comma.
 inline std::string gltf_json(const std::string& uri = "") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
          R"("nodes":[{"translation":[10,0,0],"children":[1]},{"mesh":0,"scale":[2,2,2]}],)"
@@ -148,7 +149,7 @@ inline std::string binary_pcd() {
   return file;
 }
 
-// Compresses by LZF, with literal runs alone.
+// Compresses by LZF, with literal runs only.
 inline std::string pack_lzf(const std::string& bytes) {
   std::string out;
   for (std::size_t at = 0; at < bytes.size(); at += 32) {
@@ -167,8 +168,8 @@ inline std::string compressed_pcd() {
   return pcd_header("binary_compressed") + size(packed.size()) + size(fields.size()) + packed;
 }
 
-// Returns two points, (1000000, 2000000, 100) and (1000000.5, 2000000.25, 99), of point format 2 (red, blue),
-// or of format 7 in LAS 1.4.
+// Returns a LAS file with the points (1000000, 2000000, 100) in red and (1000000.5, 2000000.25, 99) in blue.
+// The point format is 2, or 7 in LAS 1.4.
 inline std::string las(int minor = 2) {
   const bool is_new = minor == 4;
   const std::size_t header = is_new ? 375 : 227, record = is_new ? 36 : 26, colours = is_new ? 30 : 20;

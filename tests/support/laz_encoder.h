@@ -1,4 +1,4 @@
-// Writes LAZ files of point formats 0 and 6, independently of the reader's decoder.
+// Writes LAZ files of point formats 0 and 6, independently of the library's decoder.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// The frequencies of symbols, which are adapted as in LASzip.
+// The frequencies of symbols. They adapt to the symbols that were written, as in LASzip.
 class LazTestModel {
  public:
   explicit LazTestModel(std::uint32_t symbols) : counts_(symbols, 1), starts_(symbols), cycle_(symbols) {
@@ -97,7 +97,7 @@ class LazTestEncoder {
   std::uint64_t base_ = 0, length_ = 0xFFFFFFFF;
 };
 
-// Writes differences; the caller chooses the prediction and the context.
+// Encodes differences from predictions. The caller predicts and chooses the context.
 class LazTestIntegers {
  public:
   explicit LazTestIntegers(std::size_t contexts) : sizes_(contexts, LazTestModel(33)) {
@@ -125,8 +125,9 @@ class LazTestIntegers {
 
 using LazTestPoint = std::array<std::int32_t, 3>;
 
-// Returns a chunk of points of one return. Steps in x and y are 0 or more, and every other step is 0, so that
-// their medians, which are the predictions, stay 0. Each z is predicted by the z before it.
+// Returns a chunk of points with one return each. Steps in x and y are predicted by medians of earlier steps.
+// The medians stay 0, because every step must be 0 or more, and every other step 0. Each z is predicted by
+// the z before it.
 inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered) {
   std::string first;
   for (const std::int32_t value : points[0]) first += raw(value);
@@ -168,7 +169,8 @@ inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
   return points;
 }
 
-// Returns a file of chunks of any size, of format 0, or layered of format 6. Coordinates are whole numbers.
+// Returns a LAZ file with chunks of any sizes. The point format is 0, or 6 if the chunks are layered.
+// Coordinates are whole numbers.
 inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, bool is_layered) {
   std::string file(375, '\0'), data;
   LazTestEncoder table;

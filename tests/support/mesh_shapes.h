@@ -1,4 +1,4 @@
-// Triangle meshes of shapes that have closed forms.
+// Makes triangle meshes of shapes that have closed forms.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace relievo::test {
 
-// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter the surface is closed, or
-// ends in a point. `u_count` and `v_count` are the numbers of sides along the parameters.
+// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter the surface is closed or
+// ends in a point. `u_count` and `v_count` are the numbers of mesh sides along the parameters.
 inline Mesh parametric_mesh(const std::function<Vec3(double, double)>& at, int u_count, int v_count) {
   Mesh mesh;
   for (int v = 0; v <= v_count; ++v)
@@ -25,7 +25,7 @@ inline Mesh parametric_mesh(const std::function<Vec3(double, double)>& at, int u
   return mesh;
 }
 
-// Returns a sphere around the origin, its poles on the y axis.
+// Returns a sphere around the origin with its poles on the y axis.
 inline Mesh sphere_mesh(double radius, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {
@@ -46,7 +46,8 @@ inline Mesh torus_mesh(double R, double r, int sides) {
       sides, sides / 2);
 }
 
-// Returns a button about the z axis: a flat face of that radius at height z + edge, and a quarter round down to z.
+// Returns a button about the z axis: a flat face of radius `face` at height z + edge, and a quarter circle
+// around it down to height z.
 inline Mesh button_mesh(double face, double edge, double z, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {
@@ -57,7 +58,7 @@ inline Mesh button_mesh(double face, double edge, double z, int sides) {
       sides, sides / 2);
 }
 
-// Returns several meshes as one.
+// Returns two meshes as one.
 inline Mesh joined(Mesh mesh, const Mesh& other) {
   const auto first = static_cast<Index>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
@@ -65,7 +66,8 @@ inline Mesh joined(Mesh mesh, const Mesh& other) {
   return mesh;
 }
 
-// Returns a flat gear in the plane z = 0 with that many teeth between two radii, its flanks radial.
+// Returns a flat gear in the plane z = 0. Its teeth reach from the radius `root` to the radius `tip`, and
+// their flanks are radial.
 inline Mesh gear_mesh(double root, double tip, int teeth) {
   Mesh mesh;
   const int steps = 40;  // number of steps of a tooth's arc

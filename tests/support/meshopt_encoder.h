@@ -1,4 +1,4 @@
-// Compresses attributes as EXT_meshopt_compression does: an encoder that is independent of the decoder.
+// Compresses attributes as EXT_meshopt_compression does, independently of the library's decoder.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "nothing";
 }
 
-// The number of bits of a difference, for each code of a group.
+// The number of bits per difference, for each of the four codes that a group can have.
 using Widths = std::array<int, 4>;
 inline constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
@@ -73,7 +73,8 @@ inline std::string packed_column(const std::string& differences, const Widths& w
   return codes + bytes;
 }
 
-// Returns the differences of one byte of the elements from `first` to `end`.
+// Returns, for the elements from `first` up to, not including, `end`, the difference of byte number `byte`
+// from that byte of the element before.
 inline std::string differences_of(const std::string& elements, std::size_t stride, std::size_t byte,
                                   std::size_t first, std::size_t end) {
   std::string stored;

@@ -10,14 +10,15 @@ namespace relievo::test {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// The lower triangle of a positive definite matrix, and the place of each of its unknowns.
+// The lower triangle of a positive definite matrix, and the positions of its unknowns.
 struct PlanarSystem {
   Sparse A;
   std::vector<Vec2> positions;
 };
 
-// Returns the Laplacian of a grid of unit squares, each cut by one of its diagonals. Points are moved at random, edges have
-// random weights, and the points of the rim are tied to the ground, which makes the matrix definite.
+// Returns the Laplacian of a grid of unit squares, each cut by one of its diagonals. Points are moved at
+// random, and edges have random weights. At the points of the rim, 1 is added to the diagonal, which makes
+// the matrix definite.
 inline PlanarSystem jittered_grid(int width, int height, std::uint64_t seed = 7) {
   Random random(seed);
   PlanarSystem system;
@@ -62,7 +63,7 @@ inline solver::Graph graph_of(const Sparse& A) {
   return graph;
 }
 
-// Returns the same points in random order.
+// Returns the positions in random order.
 inline std::vector<Vec2> shuffled(std::vector<Vec2> positions, std::uint64_t seed = 8) {
   Random random(seed);
   for (std::size_t i = positions.size(); i > 1; --i)

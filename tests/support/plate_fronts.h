@@ -14,8 +14,8 @@
 
 namespace relievo::test {
 
-// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. grid_front() takes the
-// heights of its inner points from a function `z(x, y)`; its rim is at 0.
+// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. grid_front()
+// gives its inner points the heights z(x, y), and its rim the height 0.
 struct Grid {
   double width = 1, height = 1;
   int cells_x = 1, cells_y = 1;
@@ -52,8 +52,8 @@ inline HeightFieldMesh flat_front(const Grid& grid) {
   return grid_front(grid, [](double, double) { return 0.0; });
 }
 
-// Cuts a convex polygon, counter-clockwise, into a fan of triangles at the height `ground_mm`; pyramid_front() raises an
-// apex over its centre instead.
+// Cuts a convex polygon, whose corners are counter-clockwise, into a fan of triangles at the height
+// `ground_mm`. pyramid_front() joins the sides to an apex over the centre instead.
 inline HeightFieldMesh fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
   HeightFieldMesh front;
   front.ground_mm = ground_mm;
@@ -84,12 +84,13 @@ inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   return {points, std::move(mesh.triangles), std::move(mesh.hull)};
 }
 
-// Returns a plate of the front; the test ends if there is none.
+// Returns a plate with that front; if there is none, the test ends.
 inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   return value_of(make_plate(front, options));
 }
 
-// Returns the polygon of an ellipse with `n` corners. Rounding leaves all of them convex for the sizes that tests use.
+// Returns the polygon of an ellipse with `n` corners. Rounding leaves all of them convex for the sizes that
+// tests use.
 inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
   std::vector<Vec2> polygon;
   for (int i = 0; i < n; ++i) {
@@ -99,8 +100,9 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
   return polygon;
 }
 
-// Returns the Delaunay triangulation of a square grid of points with flat sides and heights z(x, y) within them, turned by
-// an angle, so that rounding leaves its sides almost straight: the case of a mesh that is sampled on a grid.
+// Returns the Delaunay triangulation of a square grid of points that is turned by an angle. Its heights are
+// z(x, y) inside and 0 on the sides. Rounding leaves the sides not quite straight, as in meshes that are
+// sampled on a grid.
 inline HeightFieldMesh turned_grid_front(int cells, double angle,
                                          const std::function<double(double, double)>& z) {
   std::vector<Vec3> points;
@@ -133,7 +135,7 @@ inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
   return depth;
 }
 
-// Returns whether a corner of the solid lies over a place, to within a distance.
+// Returns whether a corner of the solid is nearer than `distance` to a place, seen from above.
 inline bool has_corner_at(const Solid& solid, const Vec2& place, double distance) {
   return std::ranges::any_of(solid.points,
                              [&](const Vec3& p) { return (p.head<2>() - place).norm() < distance; });

@@ -18,7 +18,8 @@ struct PlyColumn {
   std::string length_type = {};  // type of a list's length; empty if the column is no list
 };
 
-// An element: each row has one number per column; a list has its length first, then its values.
+// An element of a PLY file. Each row has one number per column. For a list, it has the length and then the
+// values.
 struct PlyTable {
   std::string name;
   std::vector<PlyColumn> columns;

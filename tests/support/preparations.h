@@ -10,7 +10,7 @@
 
 namespace relievo::test {
 
-// Returns a preparation of a torus with that many points.
+// Returns a preparation of a torus with `points` points.
 inline Preparation preparation_of(std::size_t points = 5000) {
   return {.points = [points](Progress&) -> Preparation::Points {
     return std::make_shared<const Cloud>(test::torus(points, 1, .4));

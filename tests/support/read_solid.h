@@ -53,7 +53,7 @@ struct ReadSolid {
   }
 };
 
-// Merges corners of equal coordinates.
+// Returns the solid in which corners with equal coordinates are one point.
 inline Solid solid_of(const ReadSolid& read) {
   Solid solid;
   std::map<std::array<float, 3>, Index> numbers;

@@ -14,7 +14,8 @@
 
 namespace relievo {
 
-// Reads from an allocation of exactly the text's size, so that the address sanitizer sees a step past its end.
+// Reads from an allocation of exactly the text's size, so that the address sanitizer finds a read past its
+// end.
 inline Result<CloudFile> read(std::string_view text, std::string_view name) {
   std::vector<std::byte> bytes(text.size());
   if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());

@@ -39,7 +39,8 @@ struct Cancelled : Progress {
   Cancelled() { cancel(); }
 };
 
-// Expects an error whose message contains `part`, of any kind or of the given one.
+// Both functions expect an error whose message contains `part`. The second function also expects the given
+// kind of error.
 template <typename T>
 void expect_error(const Result<T>& result, std::string_view part) {
   const std::string message = message_of(result);

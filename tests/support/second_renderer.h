@@ -12,15 +12,16 @@
 
 namespace relievo::test {
 
-// Parallel rays along the viewer's direction. The rows of `turn` are the picture's axes, to the right, upwards and
-// towards the viewer, in the coordinates of the file; `middle` is the place in the middle of the picture.
+// Parallel rays along the viewer's direction. In the coordinates of the file, the rows of `turn` are the
+// picture's axes: to the right, upwards and towards the viewer. `middle` is the place in the middle of the
+// picture.
 struct RayCamera {
   Mat3 turn = Mat3::Identity();
   Vec3 middle = Vec3::Zero();
   double pixels_per_mm = 1;
   int width = 1, height = 1;
 
-  // Returns the place in pixels, y downwards, and how near it is.
+  // Returns the position of p in pixels, with y downwards, and how near p is to the viewer.
   Vec3 pixel(const Vec3f& p) const {
     const Vec3 q = pixels_per_mm * (turn * (p.cast<double>() - middle));
     return {width / 2. + q.x(), height / 2. - q.y(), q.z()};
@@ -54,8 +55,9 @@ struct RayTriangle {
   }
 };
 
-// Returns, for the centre of each pixel, the cosine of the angle between the lamp's direction and the surface there, at
-// least 0; NaN where there is nothing. Brute force: the nearest of all triangles.
+// Returns, for the centre of each pixel, the cosine of the angle between the lamp's direction and the
+// surface's normal there, at least 0; NaN where there is no surface. All triangles are tried, and the nearest
+// one counts.
 inline Image<double> lamp_cosines(const ReadSolid& solid, const RayCamera& camera, const Vec3& to_lamp) {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   Image<double> nearest = filled_image(camera.width, camera.height, -nowhere), cosines = nearest;

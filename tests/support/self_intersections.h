@@ -1,4 +1,4 @@
-// Finds the pairs of triangles in which a solid cuts or touches itself, in exact arithmetic on the
+// Finds the pairs of triangles in which a solid cuts or touches itself. The arithmetic is exact for the
 // single-precision coordinates that files store.
 #pragma once
 
@@ -17,8 +17,8 @@ namespace relievo::test {
 
 using Corners = std::array<Vec3, 3>;
 
-// Returns the sign of the determinant of b - a, c - a and d - a: 1 if d lies to the left of the triangle abc, seen as
-// counter-clockwise from there.
+// Returns the sign of the determinant of b - a, c - a and d - a. It is 1 if the triangle abc is
+// counter-clockwise as seen from d.
 inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto determinant = [&](auto number) {
     using Number = decltype(number(0.0));
@@ -35,13 +35,14 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   const double value = determinant([](double x) { return x; });
   const double size = std::max({(b - a).lpNorm<Eigen::Infinity>(), (c - a).lpNorm<Eigen::Infinity>(),
                                 (d - a).lpNorm<Eigen::Infinity>()});
-  // Each of the six products has a relative error below 1e-15, and none exceeds the cube of the largest entry.
+  // Each of the six products has a relative error below 1e-15, and none exceeds the cube of the largest
+  // entry.
   if (std::abs(value) > 1e-14 * size * size * size) return value > 0 ? 1 : -1;
   return determinant(BigInteger::scaled).sign();
 }
 
 inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
-  // A point beyond the plane of projection turns the determinant of three dimensions into that of two.
+  // With a point above the plane of projection, the determinant of three dimensions is that of two.
   Vec3 p = a, q = b, r = c, above = a;
   p[drop] = q[drop] = r[drop] = 0;
   above[drop] = 1;
@@ -111,7 +112,8 @@ struct BoundedTriangle {
   }
 };
 
-// A binary tree of boxes over triangles, halved along the longer side of each box; it sorts the triangles.
+// A binary tree of boxes over triangles. Each box is halved along its longest side, so the triangles are
+// reordered.
 class BoxTree {
  public:
   explicit BoxTree(std::span<BoundedTriangle> triangles) : triangles_(triangles) {
@@ -119,14 +121,14 @@ class BoxTree {
     if (!triangles.empty()) build(0, triangles.size());
   }
 
-  // Calls f(j) for each triangle j whose box overlaps that of the i-th, and with j > i.
+  // Calls f(j) for each triangle j > i whose box overlaps that of triangle i.
   template <typename F>
   void for_overlapping(std::size_t i, F&& f) const {
     visit(0, triangles_.size(), i, f);
   }
 
  private:
-  // The box of a range of two triangles or more is stored at twice its middle, which no other such range has.
+  // The box of a range of two or more triangles is stored at begin + end, a sum that no other such range has.
   static std::size_t slot(std::size_t begin, std::size_t end) { return begin + end; }
 
   void build(std::size_t begin, std::size_t end) {

@@ -68,8 +68,8 @@ inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   return cloud;
 }
 
-// Returns points of z = f(x, y), uniformly distributed in x and y over the square of that half side; `gradient` is its
-// gradient (df/dx, df/dy), for the normals.
+// Returns points of z = f(x, y), uniformly distributed in x and y over a square of side 2 * half. The normals
+// follow from `gradient`, which returns (df/dx, df/dy).
 template <typename F, typename G>
 Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t seed = 4) {
   Random random(seed);
@@ -82,7 +82,7 @@ Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t se
   return cloud;
 }
 
-// Returns points of a square of that half side, parallel to the view plane.
+// Returns points of a square of side 2 * half, parallel to the view plane.
 inline Cloud sheet(std::size_t n, double half, double z, std::uint64_t seed = 5) {
   return height_field(
       n, half, [z](double, double) { return z; }, [](double, double) { return Vec2(0, 0); }, seed);
@@ -154,8 +154,8 @@ inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t
   return cloud;
 }
 
-// Returns points distributed uniformly on a flat disc of that radius that faces +z, its edge rounded by a quarter of a
-// torus, its lowest points at `z`.
+// Returns points distributed uniformly on a button: a flat disc of that radius that faces +z, and around it a
+// quarter of a torus of tube radius `edge`. The lowest points are at `z`.
 inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std::uint64_t seed = 12) {
   Random random(seed);
   Cloud cloud;

@@ -1,5 +1,5 @@
-// Finds scans that are not part of the project, because their licences forbid it. Tests that need one are skipped where it
-// is missing, and say so.
+// Finds scans that are not part of the project, because their licences forbid it. A test that needs a missing
+// scan is skipped and says so.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ inline bool has_shared(const std::filesystem::path& name) {
   return std::filesystem::exists(shared_data() / name);
 }
 
-// Returns the bytes of a file of that folder; none if it is missing.
+// Returns the bytes of a file in the folder of scans; no bytes if the file is missing.
 inline std::vector<std::byte> shared_bytes(const std::filesystem::path& name) {
   std::ifstream file(shared_data() / name, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -1,4 +1,4 @@
-// Makes surfaces and models of reliefs from clouds; the test ends if this fails.
+// Makes surfaces and models of reliefs from clouds. The test ends if this fails.
 #pragma once
 
 #include "relievo/relief/relief.h"
@@ -16,7 +16,7 @@ inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
   return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, mode));
 }
 
-// Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, an inner hole.
+// Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, and an inner hole.
 // Bumps and ring have `n` points each.
 inline Cloud bumps_behind_a_ring(std::size_t n = 30000) {
   const Cloud bumps = height_field(
