@@ -13,7 +13,7 @@ namespace relievo {
 namespace {
 
 const std::vector<Vec2> plate = {
-    {-40, -20}, {60, -20}, {60, 40}, {-40, 40}};  // 100 x 60, its middle at 10, 10
+    {-40, -20}, {60, -20}, {60, 40}, {-40, 40}};  // 100 x 60, with its middle at (10, 10)
 const Vec2 middle(10, 10);
 
 std::shared_ptr<const Image<float>> ramp_image() {
@@ -107,7 +107,7 @@ TEST(Base, IsSmoothButForItsRidge) {
     for (const Vec2& way : {Vec2(step, 0), Vec2(0, step)}) {
       if (base.ridge_between(p - way, p + way)) continue;
       const double bend = base.height(p + way) - 2 * base.height(p) + base.height(p - way);
-      RC_ASSERT(std::abs(bend) < step * step);  // a radius of curvature above 1 mm; a jump would be far above
+      RC_ASSERT(std::abs(bend) < step * step);  // the curvature is below 1 / mm, which excludes steps
     }
   }));
 }

@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// A square grid over a roof whose ridge runs along the diagonal from the lower left or from the upper left.
+// A square grid of points on a roof. Its ridge runs along the diagonal from the lower left or, if `direction`
+// is -1, from the upper left.
 struct Roof {
   std::vector<Vec2> points;
   std::vector<Vec2f> slopes;
@@ -30,7 +31,7 @@ struct Roof {
     mesh = delaunay(points);
   }
 
-  // Returns the largest difference between the roof and the middles of edges.
+  // Returns the largest vertical distance between the roof and the middles of the mesh's edges.
   double error(double direction) const {
     double most = 0;
     for (const Triangle& t : mesh.triangles)
@@ -45,7 +46,7 @@ struct Roof {
 };
 
 TEST(Diagonals, FollowARidge) {
-  // The triangulation's own diagonals cross the ridge in at least one of the two directions.
+  // For at least one direction of the ridge, edges of the Delaunay triangulation cross it.
   EXPECT_GT(std::max(Roof(1).error(1), Roof(-1).error(-1)), .05);
   for (const double direction : {1., -1.}) {
     Roof roof(direction);

@@ -17,7 +17,7 @@
 namespace relievo {
 namespace {
 
-// Returns a ball with a smaller one at its upper right, which is not symmetric.
+// Returns a cloud that is not symmetric: a ball with a smaller one at its upper right.
 Cloud balls() {
   Cloud cloud = test::sphere(12000, 1);
   const Cloud small = test::sphere(6000, .5, 9);
@@ -39,12 +39,12 @@ Box box_of(const Solid& solid) {
   return Box::of(solid.points);
 }
 
-// Returns the lithophane of a cloud, 20 mm wide, whose thickness varies by 4 mm.
+// Returns the lithophane of a cloud. It is 20 mm wide, and its thickness varies by 4 mm.
 HeightFieldMesh lithophane_of(const Cloud& cloud) {
   return lithophane(*find_surface(cloud, *parse_view("front")), 10, 4);
 }
 
-// Returns a ball with a shade of grey at every place.
+// Returns a ball with the colour grey(p) at each point p.
 template <typename F>
 Cloud grey_ball(F grey) {
   Cloud cloud = test::sphere(20000, 1);
@@ -89,7 +89,7 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const MadeRelief it = made(Form::lithophane);
   const Box box = box_of(it.solid);
-  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is thin, so that light passes
+  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate below the relief is thin, so that light passes
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
   // The lamp is at the upper left: over the ball's upper left the plate is thinner than over its lower right.
   const HeightFieldMesh front = lithophane_of(test::sphere(20000, 1));
@@ -100,7 +100,8 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
 
 TEST(Forms, ColoursDarkenALithophane) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) { return p.y() > 0 ? 255 : 200; }));
-  // Grey 200 stands for 57.8 % of the light, which needs 4 ln(1 / .578) / ln 10 = .95 mm more.
+  // Where the model has grey 200, 57.8 % of the light of white must pass, so the plate is 4 ln(1 / .578) / ln
+  // 10 = .95 mm thicker there.
   EXPECT_NEAR(height_around(front, {-1, -.5}, .4) - height_around(front, {-1, .5}, .4), .95, .15);
 }
 
@@ -114,7 +115,7 @@ TEST(Forms, AHighlightDarkensNothingElseOfALithophane) {
   EXPECT_NEAR(middle(255), middle(60), .05);
 }
 
-// The ball has three shades; two of them are darker than a tenth.
+// Two of the ball's three shades are darker than a tenth of white, but their heights must differ.
 TEST(Forms, ALithophaneShowsWhatIsDarkerThanATenth) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) {
     return p.y() > .3 ? 255 : p.y() > -.3 ? 60 : 30;

@@ -13,8 +13,8 @@ namespace {
 
 using test::grid_front, test::plate_of;
 
-// Expects the heights of the front above its lowest point, which are found by trying all triangles; 0 where
-// there are none.
+// Expects that the field has the front's heights above its lowest point, and 0 beside the front. The expected
+// heights are found by trying all triangles.
 void expect_heights_of(const Solid& solid) {
   const HeightField field = measure_height_field(solid, 97);
   ASSERT_FALSE(field.z.empty());
@@ -32,7 +32,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// Flat bevels like these, and folds, were once smoothed by up to .7 mm.
+// Flat bevels, as here, and folds were once smoothed by up to .7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {
@@ -57,7 +57,8 @@ TEST(HeightField, IsTheTrianglesHeightOnBases) {
   }
 }
 
-// Walls are too steep for a rasteriser with fixed fractions of a pixel.
+// The wall is so steep that a rasteriser which rounds corners to fractions of a pixel could put it on the
+// wrong side of a pixel's centre.
 TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   const auto wall = [](double x, double) { return x < 10 ? 3. : 0.; };
   HeightFieldMesh front = grid_front({20, 20, 20, 20}, wall);

@@ -19,8 +19,8 @@
 namespace relievo {
 namespace {
 
-// Returns the least distance from the points to the lines of the polygon's edges; negative if one lies
-// outside.
+// Returns the least distance of the points from the lines of the polygon's edges. It is negative if a point
+// lies outside the polygon.
 double least_ground(const std::vector<Vec2>& polygon, const std::vector<Vec2>& points) {
   double least = 1e300;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -63,12 +63,14 @@ TEST(OutlineAround, ASquareHasAKnownCircleEllipseAndHexagon) {
   const double radius = 10 * std::numbers::sqrt2 + 2;
   EXPECT_NEAR(size_of(outline_around(square, {Outline::circle, 5, 2})).x(), 2 * radius, .02);
   EXPECT_NEAR(size_of(outline_around(square, {Outline::ellipse, 5, 2})).y(), 2 * radius, .02);
-  // The corners of the square meet the slanted sides: 10 sqrt(3)/2 + 10/2 + 2 from the middle.
+  // But for the margin of 2, the square's corners touch the hexagon's slanted sides, so these are 10
+  // sqrt(3)/2 + 10/2 + 2 from the middle.
   const double width = size_of(outline_around(square, {Outline::hexagon, 5, 2})).minCoeff();
   EXPECT_NEAR(width, 2 * (10 * std::sqrt(.75) + 5 + 2), .05);
 }
 
-// The smallest circle of all around this triangle would have its centre at (6.3, -2), beside the middle of the box.
+// The smallest circle around this triangle has its centre at (6.3, -2), beside the middle of the box. The
+// outline's centre must be the middle of the box.
 TEST(OutlineAround, ACircleIsInTheMiddleBetweenLeftAndRight) {
   const std::vector<Vec2> triangle = {{-10, 0}, {10, -18}, {10, 14}};
   const std::vector<Vec2> circle = outline_around(triangle, {Outline::circle, 5, 2});
@@ -89,7 +91,7 @@ double worst_of(const std::vector<Vec2>& polygon, Off off) {
   return worst;
 }
 
-// Once, a coin of 30 mm was 30.019 mm wide, with 88 sides.
+// Once, a coin of 30 mm had a polygon with 88 sides, which was 30.019 mm wide.
 TEST(OutlineAround, ACirclesPolygonLiesWithinAMicrometreOfIt) {
   for (const double diameter : {1., 30., 80., 900.}) {
     const std::vector<Vec2> point = {{70, -3}};
@@ -128,7 +130,8 @@ TEST(OutlineAround, RoundCornersAndEllipsesLieWithinAMicrometreOfTheirCurves) {
   EXPECT_LE(worst_of(round, off_round), 1e-3);
   EXPECT_LT((size_of(round) - Vec2(60, 40)).norm(), 1e-9);
   const std::vector<Vec2> ellipse = outline_around(point, {Outline::ellipse, 5, .1, {60, 40}});
-  // The distance from the curve, to second order: the function over the length of its gradient.
+  // Returns the distance from the ellipse to first order: the ellipse's function divided by the length of its
+  // gradient.
   const auto off_ellipse = [](const Vec2& p) {
     const Vec2 shares = p.cwiseQuotient(Vec2(30, 20));
     return (shares.squaredNorm() - 1) / (2 * shares.cwiseQuotient(Vec2(30, 20)).norm());
@@ -189,7 +192,7 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   }
 }
 
-// Returns a grid of squares, of which those marked '#' are relief. The heights do not matter.
+// Returns a grid of squares; those that `rows` marks with '#' are relief. Their heights do not matter.
 HeightFieldMesh patches(const std::vector<std::string>& rows) {
   const int n = static_cast<int>(rows.size());
   HeightFieldMesh front =
@@ -230,8 +233,8 @@ TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
 }
 
 TEST(MakePlate, WithoutGroundNothingHangsOnByACorner) {
-  // Two blocks touch in one point. The diagonals of the cells run through it, so two triangles of each meet
-  // there: the two of one block are removed.
+  // The two blocks touch in one point. The diagonals of the cells run through this point, so two triangles of
+  // each block meet there. Those of one block are removed.
   const auto solid = test::plate_of(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(pieces(solid), 2U);
@@ -297,8 +300,8 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
   EXPECT_NEAR(flat_area(simpler.solid), flat_area(full.solid), 1e-6);
 }
 
-// At its rim, the relief may contain half a cell only. The corners of a cell lie on a circle, so that
-// Delaunay may cut it along the other diagonal.
+// At the relief's rim, only half of a cell may belong to the relief. The corners of a cell lie on a circle,
+// so Delaunay may cut it along the other diagonal, and the silhouette moves there.
 TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const int n = 24;
   HeightFieldMesh front =
@@ -316,8 +319,8 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // the whole area is 254
 }
 
-// The transform of the report maps each point of the outline onto a corner of the solid, for all outlines and
-// forms and for a scan far from the origin. It maps the lowest point onto the ground.
+// The report's transform maps each point of the outline onto a corner of the solid, and the lowest point onto
+// the ground. The test tries all outlines and forms, with a scan far from the origin.
 TEST(Outlines, TheReportTellsWhereTheScanLies) {
   Cloud cloud = two_pieces();
   for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);

@@ -1,4 +1,4 @@
-// Plates on curved bases.
+// Tests plates on curved bases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectang
   return options;
 }
 
-// Calls f(place) for seven places of each of the front's triangles.
+// Calls f at seven points of each front triangle: its corners, the middles of its sides and one inside.
 void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     const auto& [a, b, c] = solid.triangles[t];
@@ -63,7 +63,7 @@ void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   }
 }
 
-// Heights of a plate's front, by looking at all triangles in a place's row and column of cells.
+// Finds heights of a plate's front: tries the triangles whose boxes meet the place's cell in a grid.
 class Heights {
  public:
   explicit Heights(const Solid& solid) : solid_(solid), cells_(80 * 80) {
@@ -142,7 +142,7 @@ TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
   const HeightFieldMesh front = hill();
   const PlateOptions options = plate_on("fold:angle=30");
   const Solid solid = test::plate_of(front, options);
-  // No triangle has corners on both sides.
+  // No triangle has corners on both sides of the ridge.
   const double middle = 17;
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     double left = 0, right = 0;
@@ -200,7 +200,7 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
       EXPECT_EQ(check_solid(solid), "") << shape;
       EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
       EXPECT_LE(solid.error_mm, .034) << shape;
-      // The errors are compared at the points of both surfaces, where either may bend.
+      // Each surface may bend between points of the other, so they are compared at the points of both.
       double worst = 0;
       for (const auto& [one, other] : {std::pair(&solid, &full), std::pair(&full, &solid)}) {
         const Heights heights(*other);

@@ -27,7 +27,8 @@ TEST(Rim, OfARectangleHasItsClosedFormVolume) {
   const Solid solid = plate_of(test::flat_front({60, 40, 6, 4}), {5, 3, Outline::rectangle, 5, {4, 2, 1}});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_LT((Box::of(solid.points).max - Vec3(78, 58, 5)).norm(), 1e-12);
-  // The hollow within the rim is a frustum: 70 x 50 below, 72 x 52 above; Simpson's rule is exact.
+  // The hollow inside the rim is a frustum with a bottom of 70 x 50 and a top of 72 x 52. Simpson's rule is
+  // exact for it.
   const double hollow = 2.0 / 6 * (70. * 50 + 4 * 71. * 51 + 72. * 52);
   EXPECT_NEAR(volume_mm3(solid), 78. * 58 * 5 - hollow, 1e-8);
 }

@@ -43,7 +43,7 @@ TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
     const ToolReach was = measure_reach(before, ball), is = measure_reach(after, ball);
     EXPECT_GT(was.largest_residual_mm, .6);
     EXPECT_GT(is.reached_share, .995);
-    EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // walls of slope 12, between samples
+    EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // a wall of slope 12 rises so far per sample
     double lowest = 0;
     for (std::size_t i = 0; i < is.heights_mm.pixels.size(); ++i)
       if (!std::isnan(is.heights_mm.pixels[i]))

@@ -19,7 +19,8 @@ double dome(const Vec2& p) {
   return 2 - .02 * (p - Vec2(side / 2, side / 2)).squaredNorm();
 }
 
-// Returns random points over a square, its corners among them, with the heights of a function.
+// Returns a front over random points in a square, and over its corners, with the heights that height(p)
+// returns.
 template <typename F>
 HeightFieldMesh front_of(F height, std::size_t n = 4000) {
   std::vector<Vec2> plane = random_points(n, 21);
@@ -38,7 +39,7 @@ std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-// With a tolerance of .004 there are four samples in a square.
+// A square has one sample with a tolerance of .01, and four with .004.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();

@@ -20,7 +20,7 @@ Image<Vec2f> grid_of(Slope slope) {
   return slopes;
 }
 
-// Returns the slopes of a surface that turns along x, by that angle from one cell to the next.
+// Returns the slopes of a cylinder along y whose normal turns by the angle `turn` from cell to cell.
 Image<Vec2f> cylinder(float turn) {
   return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
 }
@@ -72,12 +72,12 @@ TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
     return Vec2f(std::tan(.05F * static_cast<float>(x - 32)) + .02F * static_cast<float>(x % 2), 0);
   });
   EXPECT_LT(quartered(sample_squares(grain, angle)), 64 * 10);
-  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // such turns count as creases
+  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // such large turns count as creases
 }
 
 TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {
-  // The slopes of a cone turn only about its axis. This turns the normals of a steep cone more than of a flat
-  // one.
+  // The slopes of a cone turn about its axis without becoming steeper. This turns the normals of a steep cone
+  // more than those of a flat one, so the steep cone needs smaller squares.
   const auto cone = [](float steepness) {
     return grid_of([&](int x, int y) {
       return Vec2f(steepness *

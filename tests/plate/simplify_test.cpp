@@ -17,7 +17,7 @@ namespace {
 
 using test::flat_front, test::grid_front;
 
-// Returns the Delaunay front of scattered points with a rectangle at 0 around them.
+// Returns the Delaunay triangulation of scattered points and of a rectangle at height 0 around them.
 HeightFieldMesh scattered_front(int n, const std::function<double(double, double)>& z,
                                 std::uint64_t seed = 7) {
   test::Random random(seed);
@@ -67,7 +67,7 @@ TEST(Simplify, FlatGroundStaysFlat) {
   EXPECT_GT(level, 1000);
 }
 
-// Returns the edges of the triangles, each once or twice.
+// Returns the edges of all triangles. Edges that two triangles share are returned twice.
 std::vector<std::array<Vec2, 2>> edges_of(const HeightFieldMesh& front) {
   std::vector<std::array<Vec2, 2>> edges;
   for (const Triangle& t : front.triangles)
@@ -76,14 +76,15 @@ std::vector<std::array<Vec2, 2>> edges_of(const HeightFieldMesh& front) {
   return edges;
 }
 
-// The difference of two piecewise flat surfaces is largest at a point or where two edges cross: all are tried.
+// The difference of two piecewise flat surfaces is largest at a point or where two edges cross, so all these
+// places are tried.
 TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   const HeightFieldMesh full = scattered_front(80, waves);
   const auto simpler = value_of(simplify(full, .4));
   double largest = 0;
   const auto compare = [&](const Vec2& place) {
     const double error = std::abs(height_at(full, place) - height_at(simpler.front, place));
-    if (error > largest) largest = error;  // NaN, which is outside by rounding, does not count
+    if (error > largest) largest = error;  // NaN at a place that is outside by rounding does not count
   };
   for (const Vec3& p : full.points) compare(p.head<2>());
   for (const auto& [a, b] : edges_of(full))
@@ -96,8 +97,8 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   EXPECT_NEAR(simpler.error_mm, largest, 1e-9);
 }
 
-// All points of this front are needed. The four corners of a cell lie on a circle, so that Delaunay may cut it the other
-// way, which would take more triangles than the front has.
+// All points of this front are needed. The corners of a cell lie on a circle, so Delaunay may choose the
+// other diagonal. Then it would take more triangles than the front has.
 TEST(Simplify, NeverAddsTriangles) {
   const HeightFieldMesh saddle =
       grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x * 7 + y * 3, 5); });
@@ -153,7 +154,7 @@ double steepest(const HeightFieldMesh& front) {
 }
 
 TEST(Simplify, MakesNoTriangleSteeperThanAsked) {
-  // Folds with slopes of 1.1, cut off by ramps of slope 1 at the rim.
+  // Returns the height of folds with slopes of 1.1, which ramps of slope 1 cut off at the rim.
   const auto folds = [](double x, double y) {
     const double along = x + .5 * y + 100;
     return std::min({std::abs(along - 6 * std::round(along / 6)), x, 60 - x, y, 40 - y});

@@ -27,7 +27,7 @@ Box used_box(const Solid& solid) {
   return box;
 }
 
-// Returns the area of the front, whose triangles all have to face upwards.
+// Expects that all triangles of the front face upwards. Returns their area as seen from above.
 double area_from_above(const Solid& solid) {
   const std::span front = std::span(solid.triangles).first(solid.front_triangles);
   test::expect_counter_clockwise(solid.points, front);
@@ -100,7 +100,8 @@ TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
     const Solid solid = plate_of(fan_front(polygon), {*rc::gen::element(0.01, 1.0, 50.0), 2});
     RC_ASSERT(check_solid(solid) == "");
     const Vec3 size = used_box(solid).max;
-    // Positive areas that sum to the rectangle's: no overlap, no gap.
+    // All triangles have a positive area, and their areas add up to the rectangle's, so they neither overlap
+    // nor leave gaps.
     const double area = area_from_above(solid);
     RC_ASSERT(std::abs(area - size.x() * size.y()) < 1e-9 * area);
   }));
@@ -120,7 +121,7 @@ TEST(MakePlate, PointsThatTheFrontDoesNotUseCountForNothing) {
 }
 
 TEST(MakePlate, SeparatesPointsThatSinglePrecisionWouldMerge) {
-  // Two inner points 1e-9 mm apart, in a plate of 100 mm.
+  // Two inner points are 1e-9 mm apart, in a plate of 100 mm.
   HeightFieldMesh front = fan_front({{0, 0}, {100, 0}, {100, 100}, {0, 100}});
   front.points.emplace_back(50, 50, 2);
   front.points.emplace_back(50 + 1e-9, 50, 2);
@@ -183,7 +184,7 @@ TEST(CheckSolid, NamesWhatIsBroken) {
 }
 
 TEST(CheckSolid, RejectsTwoSolidsThatShareAnEdgeFourTimes) {
-  // The same closed body twice, the second inside out: each edge is used by four triangles.
+  // The solid is the same closed body twice, the second time inside out, so four triangles share each edge.
   Solid solid = bumpy_plate();
   const std::vector<Triangle> once = solid.triangles;
   for (const Triangle& t : once) solid.triangles.push_back({t[1], t[0], t[2]});
@@ -328,7 +329,8 @@ TEST(InUnit, ScalesAndSeparates) {
   EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
 }
 
-// Two points of a needle differ in a file in millimetres, but not always in one in inches.
+// Two points of a needle differ in a file in millimetres. If their coordinates are only divided by 25.4, they
+// may be equal in a file in inches.
 TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {

@@ -15,7 +15,7 @@ Solid surface_of(std::vector<Vec3> points, std::vector<Triangle> triangles) {
 }
 
 TEST(ThinTriangles, AreFlipped) {
-  // c lies a billionth above the edge ab, d below it.
+  // Of the points a, b, c and d, c lies almost on the edge ab, and d on the other side of this edge.
   Solid solid = surface_of({{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1.0001}, {1, -1, 1}}, {{0, 1, 2}, {1, 0, 3}});
   EXPECT_NEAR(flip_thin_triangles(solid), 1e-4, 1e-12);
   EXPECT_EQ(solid.triangles, (std::vector<Triangle>{{0, 3, 2}, {3, 1, 2}}));
@@ -58,7 +58,7 @@ TEST(ThinTriangles, AtAnEdgeOfTheFrontAreRemovedIfItMayLoseEdges) {
   EXPECT_EQ(solid.regions.size(), 2);
 }
 
-// Without the thin triangle, the point 2 alone would connect the two sides.
+// Without the thin triangle, only the point 2 would connect the other two triangles.
 TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   const std::vector<Vec3> points{{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1}, {0, 1, 1}, {2, 1, 1}};
   Solid solid = surface_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}});
@@ -66,8 +66,9 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// Points of a silhouette are almost on one line, with two thin triangles beyond it and a slit between them
-// and the wide ones. The outer thin triangle connects two sides, and after its removal so does the inner one.
+// The points of a silhouette are almost on one line. Two thin triangles lie beyond it, with a slit between
+// them and the wide triangles. The outer one connects both ends of the slit; after its removal, the inner one
+// does. Both are removed.
 TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
                                  {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};
@@ -79,8 +80,8 @@ TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   EXPECT_EQ(solid.triangles, wide);
 }
 
-// The points of the silhouette, and those of the hull, where the plate's ring begins, are almost on one line,
-// also after a change of the unit.
+// The points of the silhouette are almost on one line, and so are those of the hull, where the plate's ring
+// begins. This is still so after a change of the unit.
 TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
   const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
   for (const Outline outline : {Outline::none, Outline::rectangle})

@@ -28,8 +28,9 @@ Image<float> picture(int width, int height, const auto& z) {
   return image;
 }
 
-// Closes the heights by the definition. The tool is lowered over every sample, and beside the picture within
-// its radius. Each sample gets the lowest height that any position of the tool leaves above it.
+// Closes the heights by the definition of a closing. The tool is lowered over every sample, and beside the
+// picture within its radius. Each sample gets the lowest height that any position of the tool leaves above
+// it.
 Image<float> closed_by_brute_force(const Image<float>& z, double step, const Tool& tool) {
   const int border = std::max(z.width, z.height);
   Image<float> left = z;
@@ -134,7 +135,7 @@ TEST(CloseByTool, ABallAtAWall) {
   const auto wall = picture(200, 21, [&](int x, int) { return x < 100 ? 0 : 3; });
   const Image<float> left = close_by_tool(wall, step, ball);
   for (int x = 20; x < 100; ++x) {
-    const double from_axis = (x - 49) * step;  // the wall is beyond the radius, 50 samples
+    const double from_axis = (x - 49) * step;  // the axis is 50 samples, the radius, from the wall
     const double expected = from_axis > 0 ? 1 - std::sqrt(std::max(0.0, 1 - from_axis * from_axis)) : 0;
     EXPECT_NEAR(left.pixels[10 * 200 + static_cast<std::size_t>(x)], expected, 1e-5) << x;
   }
@@ -160,7 +161,7 @@ TEST(CloseByTool, IsAClosing) {
     const Image<float> once = close_by_tool(z, .2, tool), twice = close_by_tool(once, .2, tool);
     for (std::size_t i = 0; i < z.pixels.size(); ++i) {
       RC_ASSERT(once.pixels[i] >= z.pixels[i]);
-      // A V tool is left out, as its flank would end lower the second time.
+      // V tools are not compared, as their flanks would end lower the second time.
       RC_ASSERT(tool.kind == Tool::Kind::v || std::abs(twice.pixels[i] - once.pixels[i]) < 1e-5F);
     }
     RC_ASSERT(*std::ranges::max_element(once.pixels) == *std::ranges::max_element(z.pixels));
@@ -180,7 +181,7 @@ Solid plate_with_step(double height) {
   return test::plate_of(front);
 }
 
-// The walls rise 3 mm over half a millimetre, all around 20 x 20 mm of a plate of 50 x 30.
+// The walls rise by 3 mm within half a millimetre, around a square of 20 x 20 mm on a plate of 50 x 30 mm.
 TEST(MeasureReach, OfABallAtTheFootOfWalls) {
   const ToolReach reach = measure_reach(plate_with_step(3), ball);
   // The ball of radius 1 touches the ground at the distance `from_foot` and stays `above_foot` above the foot.

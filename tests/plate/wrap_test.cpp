@@ -92,7 +92,7 @@ TEST(Wrap, AConeLeansAsAsked) {
   EXPECT_LT(wrap.min_radius_mm(), 25);
 }
 
-// Everywhere the map keeps its orientation, and heights stand at right angles to the ground.
+// The map keeps the orientation everywhere, and heights are at right angles to the bent ground.
 TEST(Wrap, HeightsStandUprightAndNothingIsMirrored) {
   for (const char* body : bodies) {
     const Wrap wrap = around(body);
