@@ -16,7 +16,8 @@ namespace {
 
 constexpr double mm_per_unit = 32;
 
-// A model, heights on it, and the plate that files are made of, with the same points.
+// A model, heights and normals of a relief at its points, and the finished solid, whose first points are the
+// same.
 struct Bodies {
   std::shared_ptr<const ReliefModel> model =
       std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
@@ -107,7 +108,7 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   EXPECT_TRUE(other.image.pixels.empty());
 }
 
-// The preview's front view, on its wall, equals the studio's picture at this size and zoom.
+// The front view of a preview, except its wall, equals the studio's picture at this size and zoom.
 TEST(OneRenderer, PreviewShowsTheLivePicture) {
   const Image8 preview = render_preview(bodies().solid, {.longer_side_px = 300});
   RenderOptions options = options_for(Material::plaster, true, 0);
@@ -131,7 +132,7 @@ TEST(OneRenderer, PreviewShowsTheLivePicture) {
         if (const int by = std::abs(live.image.pixels[i + c] - preview.pixels[preview.index(x, y) + c]))
           ++different, largest = std::max(largest, by);
     }
-  // The zoom is not quite the preview's scale, in its last digit, so that a colour between two levels can be
+  // The zoom differs from the preview's scale in the last digit, so a colour between two levels can be
   // rounded the other way.
   EXPECT_LE(largest, 1);
   EXPECT_LT(different, opaque / 1000);

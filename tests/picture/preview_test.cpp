@@ -24,7 +24,7 @@ std::uint16_t grey_at(const HeightMap& map, int column, int row) {
 // ---------------------------------------------------------------------------------------------- height map
 
 TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
-  // Base 40 x 20 around (25, 15) on a plate of 50 x 30.
+  // The pyramid's base is 40 x 20, with its middle at (25, 15), on a plate of 50 x 30.
   const Solid solid = plate_of(pyramid_front({{0, 0}, {40, 0}, {40, 20}, {0, 20}}, 7), {5, 3});
   const auto height = [](double x, double y) {
     return std::max(0.0, 7 * (1 - std::max(std::abs(x - 25) / 20, std::abs(y - 15) / 10)));
@@ -87,7 +87,8 @@ Solid hemisphere_plate() {
   return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
-// Returns the mean of the channels at x, y in millimetres on a plate of the given size, in the front view.
+// Returns the mean of the three channels at the place (x, y) in the front view of a plate of the given size.
+// All lengths are in millimetres.
 struct FrontView {
   const Image8& image;
   double width_mm, height_mm;
@@ -183,7 +184,7 @@ TEST(Preview, NothingToDrawGivesNoPixels) {
   EXPECT_EQ(render_preview(hemisphere_plate(), {.longer_side_px = 1}).pixels.size(), 2U * 3);
 }
 
-// A lamp straight in front, straight behind, or none: no side is lit more than the opposite one.
+// With a lamp straight in front, straight behind or none, no side is lit more than the opposite one.
 TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
   const Solid solid = hemisphere_plate();
   for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 0)}) {
@@ -217,8 +218,8 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
   }
 }
 
-// Shadows are computed from the front, where the sides of a half cylinder are seen edge on: 2 % of its width beside each
-// edge lean by 74 degrees or more.
+// Shadows are computed from the front. There the sides of a half cylinder are seen almost edge on: beside
+// each edge, 2 % of its width lean by 74 degrees or more. So these strips have no shadows.
 TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
   ReliefOptions options;
   options.height_mm = 4;

@@ -1,4 +1,4 @@
-// Only material that a tool leaves standing is coloured.
+// Tests that only material which a tool leaves standing is coloured.
 #include "picture/reach_tint.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,8 @@
 namespace relievo {
 namespace {
 
-// Returns a front of 20 mm x 10 mm in samples of 1 mm. Its right half is left standing, more towards the top.
+// Returns the reach of a tool on a front of 20 mm x 10 mm, in samples of 1 mm. On the right half, the tool
+// leaves 1 mm standing in the top row and .1 mm below.
 std::shared_ptr<const ToolReach> reach() {
   ToolReach reach;
   reach.mm_per_sample = 1;

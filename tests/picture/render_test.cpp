@@ -12,13 +12,13 @@
 namespace relievo {
 namespace {
 
-// Returns a model of half a ball, 2 wide and high in the plane.
+// Returns the model of a half ball, which is 2 wide and 2 high in the picture plane.
 std::shared_ptr<const ReliefModel> ball() {
   static const auto model = std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
   return model;
 }
 
-// A relief of the ball, with heights that are a function of the place.
+// A relief of the ball. field() sets its heights by a function of the place.
 struct Field {
   std::vector<float> heights;
   std::vector<Vec3f> normals;
@@ -150,7 +150,8 @@ TEST(Render, KeepsNothingOfEarlierPictures) {
   EXPECT_EQ(after.image.pixels, picture(other, small()).image.pixels);
 }
 
-// Pictures of an orbit draw all triangles anew, and pictures of the front look them up. Both must be equal.
+// Pictures from a turned camera draw all triangles anew; pictures from the front look them up. For a camera
+// that is hardly turned, both must look the same.
 TEST(Render, OrbitBeginsAtTheFront) {
   RenderOptions turned = small();
   turned.camera.pitch_deg = 1e-7;
@@ -204,7 +205,8 @@ TEST(Render, OrbitsAtTheScaleOfTheFrontAsLongAsThePlateFits) {
   }
 }
 
-// `pan` is the place of the plate in the middle of the picture, so the plate moves the other way; rows run downwards.
+// `pan` is the place on the plate that is in the middle of the picture, so the plate moves the other way.
+// Rows run downwards.
 TEST(Render, PansByMillimetresOfThePlate) {
   RenderOptions options = small();
   options.camera.zoom = .5;
@@ -281,7 +283,7 @@ TEST(CloudRenderer, ShowsABallAsADisc) {
   const double radius = 3 * made.pixels_per_mm;
   const double share = static_cast<double>(opaque_pixels(made)) / (std::numbers::pi * radius * radius);
   EXPECT_GT(share, .99);
-  EXPECT_LT(share, 1.1);  // the discs at the rim reach beyond it
+  EXPECT_LT(share, 1.1);  // points are drawn as discs, and those at the rim reach beyond it
   EXPECT_EQ(made.image.pixels[3], 0);
   EXPECT_GT(red(made, 85, 65), red(made, 125, 105));  // the lamp is at the upper left
 }
