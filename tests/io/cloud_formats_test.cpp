@@ -1,4 +1,4 @@
-// PCD and LAS: the clouds that are read, and the messages about broken fields.
+// Tests the readers of PCD and LAS: the clouds that they return, and their messages about broken fields.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -55,7 +55,8 @@ TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {
 TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
   const std::string head =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 10\nPOINTS 10\nDATA binary_compressed\n";
-  // Four literal bytes, then 116 bytes copied from four bytes back; the length is stored as 9 + 107 - 2.
+  // The data are four literal bytes, then 116 bytes that are copied from four bytes back. This length less 2
+  // is stored as 7 + 107.
   const std::string packed = std::string("\x03", 1) + raw(2.F) + std::string("\xE0\x6B\x03", 3);
   const auto file = value_of(
       read(head + raw(static_cast<std::uint32_t>(packed.size())) + raw(std::uint32_t{120}) + packed, "scan"));

@@ -1,6 +1,6 @@
-// Reads files of other projects' test suites, which are no part of this project because of their licences.
-// Every answer must keep its promises, and agree with the verdicts in the files' names and the validators'
-// reports.
+// Reads files from the test suites of other projects, which are no part of this project because of their
+// licences. Every result must pass check_answer(), and agree with the verdicts in the files' names and with
+// the reports of validators.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ class Corpus : public testing::Test {
 
   static std::string missing_corpus() { return test::missing_scan("../corpus"); }
 
-  // Returns the files below a folder of the corpus whose names have that ending.
+  // Returns the files below a folder of the corpus whose names have the given ending.
   std::vector<fs::path> files(const std::string& below, const std::string& ending) const {
     std::vector<fs::path> found;
     if (!fs::is_directory(folder_ / below)) return found;
@@ -173,7 +173,7 @@ TEST_F(Corpus, LuminanceIsThatOfTheChannels) {
   EXPECT_GT(judged, 0U);
 }
 
-// A glTF file with the validator's report beside it.
+// A glTF file, and numbers from the validator's report beside it.
 struct JudgedGltf {
   std::string name;
   std::size_t errors, draws, triangles;
@@ -193,7 +193,7 @@ std::vector<JudgedGltf> judged_gltf(const std::vector<fs::path>& reports) {
   return all;
 }
 
-// Files by the ends of their names, with the reason why they are no counterexample.
+// Files that may contradict a test, given by the ends of their names, and the reason.
 struct Exceptions {
   const char* reason;
   std::vector<std::string> names;
@@ -261,7 +261,7 @@ TEST_F(Corpus, BrokenGltfOfTheValidatorIsRefused) {
           << end << " is no exception any more";
 }
 
-// Corrupt pictures of PngSuite have names with an x.
+// The names of the corrupt pictures of PngSuite begin with x.
 TEST_F(Corpus, BrokenPngIsRefused) {
   for (const fs::path& path : files("nothings+stb", ".png"))
     EXPECT_FALSE(path.filename().string().starts_with("x") && depths_at(path)) << path;
@@ -285,7 +285,7 @@ TEST_F(Corpus, BrokenPlyIsRefused) {
     EXPECT_FALSE(path.string().contains("_err_") && read_at(path)) << path;
 }
 
-// The scans that libE57Format and its reference implementation wrote of one model, in numbers of many sizes.
+// libE57Format and its reference implementation wrote these scans of one model, in numbers of many sizes.
 TEST_F(Corpus, OneModelHasTheSamePointsInE57OfEveryNumber) {
   const fs::path rust = folder_ / "cry-inc+e57/testdata";
   const auto finest = read_at(rust / "bunnyDouble.e57");
@@ -326,7 +326,8 @@ TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
   EXPECT_FALSE(read_at(folder_ / "cry-inc+e57/testdata/corrupt_crc.e57"));
 }
 
-// The files have point formats 4 to 10, with extra bytes and wave packets; some are of several scanners.
+// The files have point formats 4 to 10, with extra bytes and wave packets. Some have points of several
+// scanners.
 TEST_F(Corpus, LazHasThePointsOfItsLas) {
   std::size_t compared = 0;
   for (const fs::path& path : files("visgl+loaders.gl", ".laz")) {
@@ -354,7 +355,8 @@ TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {
   }
 }
 
-// One picture in numbers of many sizes: as shares of the largest number the pictures are equal, but for rounding.
+// The files contain one picture in numbers of many sizes. Divided by the largest number of each size, the
+// pictures are equal, but for rounding.
 TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
   const fs::path depth = folder_ / "image-rs+image-tiff/tests/libtiffpic/depth";
   const auto finest = depths_at(depth / "flower-minisblack-16.tif");
@@ -363,7 +365,7 @@ TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
     const auto image = depths_at(depth / cat("flower-minisblack-", bits < 10 ? "0" : "", bits, ".tif"));
     if (!image) continue;  // not every size is in the corpus
     ASSERT_EQ(image->values.size(), finest->values.size());
-    // Numbers above 16 bits were made from 8 bits.
+    // Pictures of more than 16 bits were made from 8 bits, so they are as coarse.
     const double most = std::exp2(bits) - 1, coarsest = bits > 16 ? 1 / 255. : 1 / most;
     for (std::size_t i = 0; i < image->values.size(); ++i)
       ASSERT_NEAR(static_cast<double>(image->values[i]) / most,

@@ -1,4 +1,4 @@
-// Depth images in PNG and TIFF files, whole and broken.
+// Tests the reading of depth images in PNG and TIFF files, whole and broken.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -13,8 +13,8 @@
 #include "support/read_text.h"
 #include "support/results.h"
 
-// The largest allocation of the test program and its libraries, which call the malloc() below in place of the
-// system's. Sanitizers have a malloc() of their own.
+// The size in bytes of the largest allocation. The test program and its libraries call the malloc() below in
+// place of the system's. Sanitizers have a malloc() of their own, so nothing is measured with them.
 static std::atomic<std::size_t> largest_allocation = 0;
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -92,8 +92,8 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }
 
-// Returns a chunk of a PNG that states that length, true or not. Its checksum is wrong, but not read if it is
-// skipped.
+// Returns a PNG chunk that states the given length, which may be wrong. The chunk's checksum is wrong, but is
+// not read if the chunk is skipped.
 std::string png_chunk(const std::string& type, std::uint32_t length, const std::string& data) {
   std::string chunk;
   for (int shift = 24; shift >= 0; shift -= 8) chunk += static_cast<char>(length >> shift);

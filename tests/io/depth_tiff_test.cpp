@@ -1,4 +1,4 @@
-// TIFF pictures of every kind of number, as cameras, terrain models and microscopes write them.
+// Tests TIFF pictures with every kind of number, as cameras, terrain models and microscopes write them.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -23,7 +23,7 @@ struct TiffField {
   std::uint32_t count, value;
 };
 
-// The tags of a picture, which tests change.
+// The tags of a picture that tests change.
 struct TiffTags {
   std::uint32_t bits = 16, kind = 1, channels = 1, colours = 1;
   std::string no_data = {};
@@ -78,7 +78,7 @@ std::string whole_tiff() {
   return tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
 }
 
-// A file in which these fields, counted from 0, have other values.
+// Returns the file with this value in the given fields, which are counted from 0.
 std::string with_field(std::string file, std::initializer_list<std::size_t> fields, std::uint32_t value) {
   for (const std::size_t i : fields) file = patched(file, 10 + 12 * i + 8, value);
   return file;
@@ -120,7 +120,7 @@ TEST(DepthTiff, ReadsFractions) {
   expect_values({64, 3}, pixels_of([](int i) { return 1 / (1. + i); }), [](int i) { return 1 / (1. + i); });
   expect_values({32, 3}, pixels_of([](int i) { return .25F * static_cast<float>(i); }),
                 [](int i) { return .25 * i; });
-  // Halves have 10 bits of fraction; 15 is the exponent of 1.
+  // Numbers of half precision have 10 bits of fraction, and 15 in the bits of the exponent stands for 2^0.
   expect_values({16, 3}, pixels_of([](int i) { return static_cast<std::uint16_t>(i << 10 | 512); }),
                 [](int i) { return i == 0 ? std::ldexp(512, -24) : std::ldexp(1.5, i - 15); });
   const auto special = read_tiff({16, 3}, pixels_of([](int i) {
@@ -135,7 +135,8 @@ TEST(DepthTiff, ReadsFractions) {
   EXPECT_EQ(special->values[4], -2);
 }
 
-// Terrain models have the lowest fraction where no height is known, though not all have a tag that says so.
+// Where no height is known, terrain models have the lowest floating-point number. Not all have a tag that
+// says so.
 TEST(DepthTiff, TakesTheLowestFractionForNone) {
   const auto image = read_tiff({32, 3}, pixels_of([](int i) {
                                  constexpr float all[] = {-3.4028235e38F, -3.4e38F, -9999, 7};
@@ -147,7 +148,7 @@ TEST(DepthTiff, TakesTheLowestFractionForNone) {
   EXPECT_EQ(image->values[3], 7);
 }
 
-// Each row begins at a byte; the most significant bit of a number comes first.
+// Each row begins at a whole byte, and the most significant bit of a number comes first.
 TEST(DepthTiff, ReadsPackedNumbers) {
   for (const std::uint32_t bits : {1U, 2U, 3U, 4U, 7U, 9U, 10U, 12U, 14U, 17U, 20U, 31U}) {
     const auto number = [&](int i) {
@@ -280,7 +281,8 @@ TEST(DepthTiff, CutFilesAreNamedWithThePlace) {
   EXPECT_EQ(tiff_message(tiled_tiff(16).substr(0, tiled_tiff(16).size() - 1)),
             cat("d.tif, tile 5: expected 512 bytes from byte ", tiled_tiff(16).size() - 512,
                 " on, found 511; the file is cut, get it anew"));
-  // Some programs write the tags after the picture.
+  // Some programs write the tags after the picture. Then a cut file has none, and its header names a place
+  // beyond its end.
   for (const auto& [begin, place] : {std::pair{std::string("II*\0\x20\x1\0\0", 8), "byte 4"},
                                      {std::string("MM\0*\0\0\x1\x20", 8), "byte 4"},
                                      {std::string("II+\0\x8\0\0\0\x20\x1\0\0\0\0\0\0", 16), "byte 8"}})

@@ -1,4 +1,4 @@
-// E57 files that the tests write themselves; corpus_test.cpp reads those of other programs.
+// Tests E57 files that the tests write themselves; corpus_test.cpp reads files of other programs.
 #include <gtest/gtest.h>
 
 #include "io/e57/pages.h"
@@ -13,7 +13,7 @@ E57TestScan scan_of(const std::vector<double>& x, const std::vector<double>& y, 
   return {{e57_doubles("cartesianX", x), e57_doubles("cartesianY", y), e57_doubles("cartesianZ", z)}, xml};
 }
 
-// Returns the error message for a file in which `what` is replaced within the contents of the pages.
+// Returns the error message for a file with `what` replaced by `by` in the contents of its pages.
 std::string message_with(const std::string& what, const std::string& by) {
   const std::string contents = e57_contents({scan_of({1}, {2}, {3})});
   return message_of(e57_pages(replaced(contents, what, by)), "a.e57");
@@ -34,7 +34,7 @@ TEST(E57, PointsColoursAndInvalidOnesAreRead) {
   EXPECT_EQ(file.dropped_points, 1U);
 }
 
-// Packets of seven bytes cut numbers of all widths at any bit.
+// Each packet has only seven bytes, so numbers of all widths are cut at any bit.
 TEST(E57, IntegersOfAllWidthsAreUnpacked) {
   for (unsigned bits = 1; bits <= 64; ++bits) {
     const std::uint64_t most = bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
@@ -60,7 +60,7 @@ TEST(E57, ScaledIntegersAndSinglesAreRead) {
       "cartesianX", R"(type="ScaledInteger" minimum="-8" maximum="7" scale="0.5" offset="100")", 4, {15}};
   scan.columns[1] = {
       "cartesianY", R"(type="Float" precision="single")", 32, {std::bit_cast<std::uint32_t>(1.25F)}};
-  // All numbers are equal, so none is stored.
+  // All z coordinates are equal, so the file stores no bits for them.
   scan.columns[2] = {"cartesianZ", R"(type="Integer" minimum="6" maximum="6")", 0, {0}};
   EXPECT_EQ(file_of(e57({scan}), "a").cloud.points[0], Vec3(103.5, 1.25, 6));
 }
@@ -75,7 +75,7 @@ TEST(E57, SphericalCoordinatesAreTurnedIntoCartesianOnes) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((file.cloud.points[i] - expected[i]).norm(), 1e-15);
 }
 
-// A quarter turn about z, as a quaternion whose length is 2.
+// The pose has a quarter turn about z, as a quaternion of length 2, and a translation.
 TEST(E57, ScansAreMovedByTheirPoses) {
   const std::string pose =
       "<pose><rotation><w>1.4142135623730951</w><z>1.4142135623730951</z><x/><y/></rotation>"
@@ -99,7 +99,8 @@ TEST(E57, MissingPartsOfAPoseAreZero) {
   EXPECT_LT((file.cloud.points[0] - Vec3(1, -3, 2)).norm(), 1e-14);
 }
 
-// Limits are stated for red alone. Integers without limits are shares of their range, and fractions reach from 0 to 1.
+// Only red has stated limits. Without limits, integers are scaled by their minimum and maximum, and
+// floating-point numbers by 0 and 1.
 TEST(E57, ColoursAreScaledByTheirLimits) {
   E57TestScan whole = scan_of({0, 1}, {0, 1}, {0, 1},
                               "<colorLimits><colorRedMinimum>100</colorRedMinimum>"

@@ -1,4 +1,5 @@
-// The table of formats: the lists that are made from it, and that each row reads the files of its format.
+// Tests the table of formats: the lists that are made from it, and that each row reads the files of its
+// format.
 #include "io/formats.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// glTF with buffers in other files, and with legal but rare features.
+// Tests glTF with buffers in other files, and with legal but rare features.
 #include "io/gltf/gltf.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Reads the file with the given files beside it; `asked` gets the names that were asked for.
+// Reads the glTF `text` with `files` beside it. `asked` gets the names of the files that the reader asks for.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
   return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
@@ -27,7 +27,7 @@ CloudFile changed(std::string_view what, std::string_view by) {
   return file_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
 }
 
-// Returns the sample's JSON with those nodes, or none, and without scenes.
+// Returns the sample's JSON without scenes, and with `nodes` in place of its nodes.
 std::string with_nodes(std::string_view nodes) {
   std::string json = gltf_json();
   const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
@@ -54,7 +54,7 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
   }
 }
 
-// The data of a URI are in base64, or plain bytes, any of which may be escaped.
+// The data of a URI are base64 or plain bytes. In both, any byte may be escaped.
 TEST(Gltf, ReadsDataOfUrisInBothForms) {
   std::string escaped;
   for (const char byte : gltf_buffer()) {
@@ -143,7 +143,7 @@ TEST(Gltf, TakesWholeNumbersWrittenAsFractions) {
   const auto file = changed(R"("nodes":[0])", R"("nodes":[0.0])");
 }
 
-// Returns the tetrahedron with its second and fourth corner replaced by sparse values.
+// Returns the tetrahedron, with sparse values in place of its second and fourth corner.
 std::string sparse_glb(const std::string& base) {
   std::string json =
       replaced(gltf_json(), R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
@@ -183,8 +183,8 @@ TEST(Gltf, AnEmptyAccessorHasNoPoints) {
   EXPECT_EQ(message_of(json, "a.gltf"), "a.gltf, meshes: expected triangles or points, found none");
 }
 
-// Exporters store coordinates in 8 or 16 bits: the node scales them, or they are fractions of the largest
-// number.
+// Exporters store coordinates as integers of 8 or 16 bits. Either these stand for fractions of the largest
+// integer, or the node scales them.
 TEST(Gltf, ReadsQuantisedMeshes) {
   struct Kind {
     int code;
@@ -214,7 +214,7 @@ TEST(Gltf, ReadsQuantisedMeshes) {
                     R"({"buffer":0,"byteLength":48,"byteStride":)" + std::to_string(stride) + "}");
     const auto file = file_of(glb_of(json, buffer), "a.glb"), plain = file_of(glb(), "a.glb");
     EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
-    const Vec3 middle(10, 0, 0);  // the place of the node, which doubles sizes
+    const Vec3 middle(10, 0, 0);  // the nodes move the mesh here, and double sizes
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 expected =
           (plain.mesh.points[i] - middle) * (kind.is_normalised ? 1 : kind.largest) + middle;
@@ -223,7 +223,8 @@ TEST(Gltf, ReadsQuantisedMeshes) {
   }
 }
 
-// The file's two nodes move by (10, 0, 0) and double sizes; the second copy is turned by 90 degrees about z.
+// Together, the file's two nodes move meshes by (10, 0, 0) and double sizes. The second copy is also turned
+// by 90 degrees about z.
 TEST(Gltf, PutsCopiesOfAMeshWhereInstancingSaysSo) {
   std::string buffer = gltf_buffer();
   for (const float x : {0.F, 0.F, 0.F, 5.F, 6.F, 7.F}) buffer += raw(x);
@@ -322,7 +323,8 @@ TEST(Gltf, KeepsNormalsOfMirroredMeshesOutside) {
     }
 }
 
-// A search for the root from each node would take half a minute, and one that recurses would end the program.
+// A search for the root from each node would take half a minute, and a recursive search would overflow the
+// stack.
 TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   std::string nodes = R"("nodes":[)";
   const int length = 400000;

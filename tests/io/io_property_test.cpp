@@ -1,4 +1,4 @@
-// Properties of the readers over generated files, whole and broken.
+// Tests properties of the readers with generated files, whole and broken.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -45,7 +45,7 @@ rc::Gen<float> finite_float() {
   });
 }
 
-// Returns columns with the given names, shuffled with extra columns, all of any type; extra columns may be
+// Returns columns with the given names, shuffled with extra columns. All have any type; the extra ones may be
 // lists.
 std::vector<PlyColumn> any_columns(std::vector<std::string> names) {
   const int extras = *inRange(0, 4);
@@ -77,7 +77,7 @@ PlyTable any_table(const std::string& name, const std::vector<std::string>& colu
   return table;
 }
 
-// Returns the value of a column that is no list.
+// Returns the row's value in the named column, which is no list.
 double value_of(const PlyTable& table, const std::vector<double>& row, std::string_view name) {
   std::size_t at = 0;
   for (const PlyColumn& column : table.columns) {
@@ -164,7 +164,7 @@ TEST(TextProperty, EverySeparatorGivesTheSamePoints) {
   }));
 }
 
-// Returns small valid files of every format, to be broken: format_samples(), and files of PLY.
+// Returns small valid files of every format, which tests then break: format_samples() and more PLY files.
 std::vector<FileSample> valid_files() {
   const PlyTable strips{"strips", {{"int", "i", "uchar"}, {"short", "s"}}, {{2, 0, 1, 7}, {0, 9}}};
   const PlyTable vertex{

@@ -150,7 +150,7 @@ void PrintTo(const Scan& scan, std::ostream* out) {
   *out << scan.file;
 }
 
-// Returns the characters of a file's path that a test's name may have.
+// Returns those characters of a file's path that the name of a test may contain.
 std::string test_name_of(std::string path) {
   std::erase_if(path, [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
   return path;

@@ -1,4 +1,4 @@
-// LAZ files that the tests write themselves; corpus_test.cpp reads those of other programs.
+// Tests LAZ files that the tests write themselves; corpus_test.cpp reads files of other programs.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -54,12 +54,13 @@ TEST(Laz, ChunksOfDifferentSizesAreRead) {
   }
 }
 
-// Writes points at one place, of several scanners and with grey colours, as LASzip's writers of version 3 and 4 do.
+// Writes points of several scanners, all at one place and with grey colours, as versions 3 and 4 of LASzip
+// do.
 class ScannerLayers {
  public:
   explicit ScannerLayers(bool is_version_3) : is_version_3_(is_version_3) {}
 
-  // The first point is not compressed, but starts the models of its scanner.
+  // Sets the first point, which is not compressed, but starts the models of its scanner.
   void start(std::size_t scanner, std::uint16_t grey) {
     scanner_ = context_ = scanner;
     scanners_.emplace(scanner, Scanner{});

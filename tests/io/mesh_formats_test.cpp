@@ -1,5 +1,5 @@
-// STL, OFF, glTF and the faces of PLY and OBJ: the meshes that are read, and the messages about broken
-// fields.
+// Tests the readers of STL, OFF, glTF and the faces of PLY and OBJ: the meshes that they return, and their
+// messages about broken fields.
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -57,7 +57,7 @@ TEST(MeshFormats, StripsOfPlyTurnEverySecondTriangle) {
   }
 }
 
-// The arrow has an area of 2; fanned out from its second corner, it has more.
+// The arrow has an area of 2. A fan from its second corner would have a larger area.
 TEST(MeshFormats, ConcavePolygonsAreCoveredInEveryFormat) {
   const PlyTable vertices = ply_vertices({{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}});
   const PlyTable faces = ply_faces({{4, 1, 2, 3, 0}});
@@ -112,7 +112,7 @@ TEST(Stl, TextMayBeginInManyWays) {
     expect_tetrahedron(text, "scan.stl", "STL ascii");
 }
 
-// The name of the solid contains words of the format.
+// The name of the solid contains words of the format, which must not be read as such.
 TEST(Stl, TextMayStandInOneLine) {
   const std::string named = replaced(ascii_stl(), "solid tetrahedron", "solid a vertex of my facet 7");
   expect_tetrahedron(replaced(named, "\n", " "), "a.stl", "STL ascii");
@@ -169,7 +169,8 @@ TEST(Off, TheKeywordMayBeMissing) {
   expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", "OFF "), "a.off", "OFF");
 }
 
-// Numbers after a face may be its colour.
+// Numbers after a face may be its colour, so a second face in a line is skipped. Only at the end of the file
+// the reader notices that a face is missing; then it gives this reason.
 TEST(Off, TwoRowsInALineAreRefusedWithTheReason) {
   EXPECT_EQ(
       message_of(replaced(off(), "3 0 2 1\n", "3 0 2 1 "), "a.off"),

@@ -1,4 +1,5 @@
-// Attributes of both versions of meshopt's compression, from encoders that are independent of the decoder.
+// Tests attributes in both versions of meshopt's compression, with encoders that are independent of the
+// decoder.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +16,7 @@ namespace {
 
 using namespace io;
 
-// Returns four bytes of the difference of two numbers, as a channel of that mode stores it in version 1.
+// Returns the difference of two numbers as version 1 stores it in a channel of this mode, in four bytes.
 std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std::uint32_t now) {
   std::uint32_t stored = std::rotr(before ^ now, static_cast<int>(mode >> 4));
   if (mode < 2) {
@@ -31,8 +32,8 @@ std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std:
   return bytes;
 }
 
-// Returns the elements as version 1 compresses them. Each channel of four bytes has one of the modes, and each column of
-// bytes is stored in one of the ways that suit it, both in turns.
+// Returns the elements as version 1 compresses them. `modes` has the mode of each channel of four bytes.
+// Columns of bytes are stored in turn in each way that suits them.
 std::string compressed_attributes_1(const std::string& elements, std::size_t stride,
                                     const std::string& modes) {
   const std::size_t count = elements.size() / stride, block = block_of(stride);
@@ -67,7 +68,7 @@ std::string compressed_attributes_1(const std::string& elements, std::size_t str
 }
 
 TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
-  // A group with 4 bits per difference, for the first of four bytes; the others do not change.
+  // The group has 4 bits per difference. It is for the first of four bytes; the other bytes do not change.
   const std::string group = bytes_of({0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5});
   const std::string stream =
       "\xA0" + bytes_of({2}) + group + bytes_of({0, 0, 0}) + std::string(28, '\0') + bytes_of({100, 1, 2, 3});
@@ -91,7 +92,7 @@ TEST(MeshoptAttributes, DecodesAttributesOfAllSizes) {
   std::mt19937 random(1);
   for (const std::size_t stride : {4U, 8U, 12U, 16U, 64U, 256U})
     for (const std::size_t count : {1U, 15U, 16U, 17U, 64U, 200U, 255U, 256U, 257U, 1000U})
-      for (const unsigned range : {1, 2, 5, 256}) {  // differences are smaller than this
+      for (const unsigned range : {1, 2, 5, 256}) {  // bytes differ by less than this
         const std::string elements = random_elements(random, count * stride, stride, range);
         const std::string stream = compressed_attributes(elements, stride);
         const MeshoptLayout layout{.count = count, .stride = stride};
@@ -127,7 +128,8 @@ TEST(MeshoptAttributes, RefusesModesThatAreNone) {
     EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1) + mode, layout));
 }
 
-// In version 1 a block of elements of four bytes takes a single byte if all its differences are 0.
+// In version 1, a block of four-byte elements takes a single byte if all its differences are 0. A block has
+// at most 256 elements.
 TEST(MeshoptAttributes, TakesNoMoreMemoryThanItsBytesStandFor) {
   const std::string stream = "\xA1" + std::string(1000, '\xAA') + std::string(24, '\0');
   EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 256'000, .stride = 4})), std::string(1'024'000, '\0'));

@@ -1,6 +1,6 @@
-// Buffer views of glTF that are compressed by KHR_meshopt_compression and EXT_meshopt_compression: examples
-// of the specification, streams that are put together by hand, and an encoder that is independent of the
-// decoder.
+// Tests the buffer views of glTF that KHR_meshopt_compression and EXT_meshopt_compression compress. They come
+// from examples of the specification, from streams that are put together by hand, and from an encoder that is
+// independent of the decoder.
 #include "io/gltf/meshopt.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ TEST(Meshopt, RefusesLayoutsThatAreNotAllowed) {
   EXPECT_FALSE(meshopt_mode("POINTS") || meshopt_filter("QUATERNION"));
 }
 
-// Returns the stream of triangles with those codes and that data; number 0 of the table are two new corners, 1 the last
-// vertex and a new one.
+// Returns the stream of triangles with these codes and data. Entry 0 of its table stands for two new corners,
+// entry 1 for the last vertex and a new corner.
 std::string triangle_stream(const std::string& codes, const std::string& data) {
   return "\xE1" + codes + data + bytes_of({0x00, 0x10}) + std::string(14, '\0');
 }
@@ -54,10 +54,10 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
       0xF0,  // three new corners: 0 1 2; edges, the newest first: 0 2, 2 1, 1 0
       0x00,  // the newest edge, 0 2, and a new corner
       0x10,  // the second edge, which is 3 2, and a new corner
-      0x02,  // the newest edge, 3 4, and the vertex before the one before the newest: 4 3 2
-      0x0E,  // the newest edge, 3 2, and the explicit index after the last, which is 0
-      0x0D,  // the newest edge, 3 1, and the one before
-      0x0F,  // the newest edge, 3 0, and an explicit index, 10 after the last
+      0x02,  // the newest edge, 3 4, and the third newest of the vertices 4 3 2
+      0x0E,  // the newest edge, 3 2, and the index after the last explicit one, which is 0
+      0x0D,  // the newest edge, 3 1, and the index before the last explicit one, 1
+      0x0F,  // the newest edge, 3 0, and an explicit index: the last one, 0, plus 10
       0xF1,  // a new corner 5, the last vertex and a new corner
       0xFF,  // explicit indices: 3 before, 2 after and 300 after
       0xFE,  // a new corner, the newest vertex and an explicit one
@@ -77,8 +77,8 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
   EXPECT_EQ(text_of(small), bytes_of({0, 0, 1, 0, 2, 0}));
 }
 
-// Decodes triangles by the specification, with lists instead of rings, and makes up the data that the codes
-// need.
+// Decodes triangles as the specification says, but with lists in place of ring buffers. Invents the data that
+// the codes need.
 class TriangleModel {
  public:
   TriangleModel(const std::string& table, std::mt19937& random) : table_(table), random_(random) {}
@@ -155,7 +155,7 @@ TEST(Meshopt, DecodesRandomTrianglesAsAModelDoes) {
 }
 
 TEST(Meshopt, DecodesIndicesAgainstTwoBaselines) {
-  // Differences 5 and -3 to the first baseline, 1000 and 1 to the second.
+  // The stream has differences of 5 and -3 to the first baseline, and of 1000 and 1 to the second.
   const std::string stream =
       "\xD1" + bytes_of({5 << 2, 1000 * 4 % 128 + 1 + 128, 1000 * 4 / 128, 2 << 2 | 2, 1 << 2 | 1}) +
       std::string(4, '\0');
@@ -165,7 +165,7 @@ TEST(Meshopt, DecodesIndicesAgainstTwoBaselines) {
   EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::indices, MeshoptFilter::none, 5, 4}));
 }
 
-// Compresses elements, decodes them and applies the filter.
+// Returns the elements after they were compressed, decoded and filtered.
 std::optional<std::vector<std::byte>> filtered(MeshoptFilter filter, const std::string& elements,
                                                std::size_t stride) {
   return decode_meshopt(compressed_attributes(elements, stride),
@@ -173,7 +173,8 @@ std::optional<std::vector<std::byte>> filtered(MeshoptFilter filter, const std::
 }
 
 TEST(Meshopt, UnfoldsTheOctahedron) {
-  // +x, -y, the middle of a side above, and -z, which lies at the corners; 127 and, of fewer bits, 15 stand for 1.
+  // The directions are +x, -y, the middle between +x and +y, and -z, which lies at the corners. 127 stands
+  // for 1, and so does 15 where there are fewer bits.
   const std::string folded = bytes_of({127, 0, 127, 7, 0, -15, 15, 8, 64, 63, 127, 9, 15, 15, 15, 1});
   EXPECT_EQ(text_of(filtered(MeshoptFilter::octahedral, folded, 4)),
             bytes_of({127, 0, 0, 7, 0, -127, 0, 8, 91, 89, 0, 9, 0, 0, -127, 1}));
@@ -193,7 +194,7 @@ TEST(Meshopt, ExpandsExponents) {
 }
 
 TEST(Meshopt, MixesColours) {
-  // White, red and a grey of 8 bits, half of it opaque; then white of 4 bits, and blue of 16.
+  // The colours are white, red and a half opaque grey of 8 bits, then white of 4 bits, and blue of 16 bits.
   const std::string stored = bytes_of({255, 0, 0, 255, 64, 127, -64, 255, 128, 0, 0, 128 | 64});
   EXPECT_EQ(text_of(filtered(MeshoptFilter::colour, stored, 4)),
             bytes_of({255, 255, 255, 255, 255, 0, 1, 255, 128, 128, 128, 128}));
@@ -204,7 +205,7 @@ TEST(Meshopt, MixesColours) {
   EXPECT_FALSE(filtered(MeshoptFilter::colour, std::string(4, '\0'), 4));
 }
 
-// Any bytes are decoded to as many bytes as the layout states, or to none.
+// Any bytes are refused or are decoded to as many bytes as the layout states.
 TEST(Meshopt, SurvivesAnyBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
@@ -235,7 +236,7 @@ std::string json_of(const TestView& view, std::size_t offset, const std::string&
          "\"}}}";
 }
 
-// Returns the tetrahedron's corners in thousandths, as four numbers of 16 bits.
+// Returns the tetrahedron's corners in thousandths, each as four numbers of 16 bits.
 TestView compressed_corners() {
   std::string positions;
   for (const Vec3& point : tetrahedron_points) {
@@ -248,7 +249,7 @@ TestView compressed_corners() {
   return {compressed_attributes(positions, 8), "ATTRIBUTES", tetrahedron_points.size(), 8};
 }
 
-// Returns the tetrahedron's triangles with explicit indices alone.
+// Returns the tetrahedron's triangles with only explicit indices.
 TestView compressed_triangles() {
   std::string data;
   int last = 0;

@@ -50,8 +50,8 @@ Decoded decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// Returns an image of ramps, jumps and a little noise. Its values reach both ends, and it makes every filter
-// useful.
+// Returns an image of ramps, jumps and a little noise, for which every filter is useful. Its values reach
+// from the smallest to the largest number.
 template <typename T>
 Image<T> pattern(int width, int height, int channels) {
   Image<T> image{width, height, channels, {}};

@@ -21,8 +21,8 @@ Vec3 area_of(const Polygon& p) {
   return sum;
 }
 
-// Triangles cover a polygon that does not cross itself without overlap if none of them is turned over and
-// their areas add up to the polygon's.
+// Expects that triangulate() covers the polygon, which must not cross itself. The triangles cover it without
+// overlap if none of them is turned over and their areas add up to the polygon's.
 void expect_covered(const Polygon& polygon, const char* what) {
   const auto triangles = triangulate(polygon);
   const Vec3 area = area_of(polygon);
@@ -37,7 +37,7 @@ void expect_covered(const Polygon& polygon, const char* what) {
   EXPECT_NEAR(sum, 1, 1e-5) << what;
 }
 
-// Expects this of a polygon in a slanting plane, for every first corner and in both orientations.
+// Expects that a polygon in a slanting plane is covered, for every first corner and in both orientations.
 void expect_covered_in_every_way(Polygon polygon, const char* what) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond(.3, -.5, .7, .2).normalized();
   for (Vec3& p : polygon) p = turn * p + Vec3(300, -20, 7);
@@ -73,7 +73,7 @@ Polygon spiral(int corners) {
   return polygon;
 }
 
-// A square with a hole, which a seam of two equal edges connects with the outline.
+// A square with a hole. A seam of two equal edges connects the hole with the outline.
 const Polygon wall_with_a_hole = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {0, 0, 0},
                                   {3, 3, 0}, {3, 6, 0}, {6, 6, 0}, {6, 3, 0}, {3, 3, 0}};
 

@@ -34,8 +34,8 @@ TEST(ScanSize, IsThatOfAPicture) {
   EXPECT_EQ(size.points, 0U);
 }
 
-// For every format, the expected number of points is at least a tenth of the points that are read: estimates
-// may be rough, but memory must not be gravely underestimated.
+// For every format, the expected number of points must be at least a tenth of the number that is read.
+// Estimates may be rough, but must not gravely underestimate the memory.
 TEST(ScanSize, IsNotFarBelowThePointsOfAnyFormat) {
   for (const FileSample& sample : format_samples()) {
     const auto bytes = std::as_bytes(std::span(sample.bytes));

@@ -43,7 +43,7 @@ StreamedCloud streamed(std::vector<std::byte> bytes, const View& view = front, d
   return value_of(stream_front(source, "a.ply", view, points));
 }
 
-// Returns a sphere around another, both with noise: the inner one must never show.
+// Returns a sphere with noise around a smaller sphere, which must never show.
 Cloud shells(std::size_t n) {
   Cloud cloud = test::sphere(n, 1);
   test::Random random(5);
@@ -67,7 +67,7 @@ TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
     if (p.z() > .6) sum_sq += (p.norm() - 1) * (p.norm() - 1), ++n;
   }
   EXPECT_LT(error, .03);
-  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // the scan's noise is .002: means reduce it
+  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // means reduce the scan's noise, which is .002
 }
 
 TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
@@ -187,8 +187,8 @@ TEST(StreamFront, ReadsLas) {
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // Without normals, a square without points of the front shows points behind it. These are exp(-5) of the
-  // squares in the middle. The relief's own search for visible points removes them.
+  // Without normals, a square that has no points of the front shows points behind it. In the middle this
+  // concerns exp(-5) of the squares. The relief's own search for visible points removes these points.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 
@@ -219,7 +219,7 @@ TEST(StreamFront, BrokenFilesAreNamed) {
   EXPECT_EQ(stream_front(good, "a.ply", front, 10).error().kind, ErrorKind::option);
 }
 
-// Returns a LAS file of 400 points on a slope, whose coordinates are multiples of the scale.
+// Returns a LAS file with 400 points on a slope. Their coordinates are multiples of the scale.
 std::string slope_las(double scale) {
   std::string file = patched(las(2).substr(0, 227), 107, std::uint32_t{400});
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -258,7 +258,7 @@ TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   ASSERT_TRUE(direct && by_stream);
   EXPECT_EQ(check_solid(by_stream->solid), "");
   EXPECT_NEAR(by_stream->report.height_mm, 5, .01);
-  // A grid of means has less of the steep rim.
+  // A grid of means has less of the steep rim, so the volumes differ a little.
   EXPECT_NEAR(volume_mm3(by_stream->solid) / volume_mm3(direct->solid), 1, .05);
 }
 

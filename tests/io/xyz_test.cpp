@@ -18,7 +18,7 @@ std::vector<Vec3> points_of(std::string_view text) {
 
 const std::vector<Vec3f> xz = {Vec3f::UnitX(), Vec3f::UnitZ()};
 
-// Expects the two points from each of the texts, with those normals and colours.
+// Expects that each text gives the two points, with these normals and colours.
 void expect_two_points(const std::vector<std::string>& texts, const std::vector<Vec3f>& normals,
                        const std::vector<Colour>& colours = {}) {
   for (const std::string& text : texts) {
@@ -81,7 +81,7 @@ TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
   EXPECT_NEAR(file.cloud.normals[1].norm(), 1, 1e-7);
 }
 
-// A point's colour follows from its place, so that a wrong row, column or scale shows.
+// Each point's colour follows from its place, so a wrong row, column or scale would show.
 TEST(Xyz, ColoursOfARampAreThoseOfItsPlaces) {
   std::string bytes, fractions, words;
   std::vector<Colour> expected;
