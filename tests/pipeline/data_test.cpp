@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 using test::has_shared, test::missing_scan, test::shared_bytes, test::shared_data;
 
-// Returns the scans' paths within the folder; "none" if there are no scans, so that one test reports what is
-// skipped.
+// Returns the scans' paths within the folder. Returns "none" if there are no scans, so that one test reports
+// what is skipped.
 std::vector<std::string> scan_names() {
   std::vector<std::string> names;
   for (const fs::path& folder : {shared_data(), shared_data() / "original"})
@@ -61,7 +61,8 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
   EXPECT_GT(made.report.visible_points, .2 * static_cast<double>(file.cloud.size()));
-  // Two of these scans show a table. Statues on plinths, busts and range images of a figure alone show none.
+  // Only two of these scans show a table. Statues on plinths, busts, and range images of a single figure show
+  // none.
   const bool has_table =
       path.filename() == "kinect_milk_table.pcd" || path.filename() == "figurines_scene.pcd";
   EXPECT_EQ(made.report.plane.has_value(), has_table);
@@ -71,7 +72,8 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   }
 }
 
-// Three cartons on a wide table, whose farthest corner the camera has bent up by 3 tolerances, and figurines on a board.
+// One scan shows three cartons on a wide table, whose farthest corner the camera has bent up by 3 tolerances.
+// The other shows figurines on a board.
 TEST(Data, TablesAreLeftOut) {
   for (const auto& [name, share] :
        {std::pair("original/kinect_milk_table.pcd", .77), std::pair("original/figurines_scene.pcd", .25)}) {
@@ -91,9 +93,9 @@ TEST(Data, TablesAreLeftOut) {
   }
 }
 
-// The list that comes with the scans states their fronts: +Z with Y upwards, but for the two that have Z
-// upwards and face -Y. For the bimba without normals it states a front between +X and +Z, 45 degrees beside
-// the one that is found.
+// The list that comes with the scans states their fronts. Most face +Z with Y upwards; two face -Y with Z
+// upwards. For the bimba without normals, the list states a front between +X and +Z. best_side() tries only
+// sides along the axes and finds +Z, 45 degrees away.
 TEST_P(RealScan, IsShownFromItsToldFront) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");

@@ -1,4 +1,4 @@
-// Reliefs on plates with rims, from cloud to solid.
+// Tests reliefs on plates with rims, from cloud to solid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ ReliefOptions coin_options() {
   return options;
 }
 
-// Returns the height of the highest corner of the plate's edge above the ground.
+// Returns how high the highest corner of the plate's edge is above the ground.
 double rim_height(const MadeRelief& relief) {
   const Solid& solid = relief.solid;
   const Box box = box_of(solid);
@@ -49,7 +49,7 @@ TEST(MakePlates, ARimIsAsHighAsTheReliefIfItsBevelFits) {
     options.rim_mm = width;
     EXPECT_NEAR(rim_height(made(options)), .8, 1e-3) << width;
   }
-  options.rim_mm = .15;  // its bevel is .3 of its height
+  options.rim_mm = .15;  // the bevel takes .3 of the rim's height
   EXPECT_NEAR(rim_height(made(options)), .5, 1e-12);
   options.rim_bevel_mm = .1;
   EXPECT_NEAR(rim_height(made(options)), .8, 1e-3);

@@ -41,7 +41,7 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
 }
 
 // Expects that a relief in a plate of that size is as large as the margin allows: one point touches the
-// margin, and none lies beyond.
+// margin, and no point lies beyond it.
 void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const Vec2& size) {
   const auto made = value_of(make_relief(model, options));
   EXPECT_EQ(check_solid(made.solid), "");
@@ -51,7 +51,8 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
   ReliefOptions larger = options;
   larger.width_mm = width * 1.001;
   expect_error(make_relief(model, larger), "width: expected ");
-  // Without a size, the plate of a relief of this width is no larger, and as large in one direction.
+  // The plate that is fitted around a relief of this width is as large as `size` in one direction, and no
+  // larger in the other.
   ReliefOptions free = options;
   free.width_mm = width;
   free.diameter_mm.reset();
@@ -81,7 +82,7 @@ TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   const auto made = make_relief(*model, options);
   EXPECT_NEAR(box_of(made->solid).size().x(), 80, 1e-9);
   EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
-  options.form = Form::die;  // the coin's rim is a groove, in a border as wide as the rim and its bevel
+  options.form = Form::die;  // a border as wide as the rim and its bevel lies around the rim's groove
   const Vec3 die = box_of(make_relief(*model, options)->solid).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);
 }
@@ -102,7 +103,7 @@ std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   return heights;
 }
 
-// A figure as scanned from -Y with Z upwards has no other side.
+// The figure is scanned only from -Y, with Z upwards, so it has no other side.
 TEST(MakeRelief, ShowsTheBestSideWhereThatIsAskedFor) {
   Cloud standing;
   const Cloud whole = figure();
@@ -160,7 +161,7 @@ TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
   EXPECT_FALSE(paper->report.height_usual_mm);
 }
 
-// The dome is too shallow for a height of a twentieth, with or without a draft angle.
+// The dome is too shallow for a height of a twentieth of its width, with or without a draft angle.
 TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
   Cloud shallow = test::sphere(20000, 1);
   for (Vec3& p : shallow.points) p.z() *= .02;
@@ -200,7 +201,7 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
   options.height_mm = 2;
   options.rim_mm = 3;
   options.draft_deg = 20;
-  for (const double share : {.9, 1.1}) {  // shares of the bevel that leans by the draft angle
+  for (const double share : {.9, 1.1}) {  // times the bevel that leans by the draft angle
     options.rim_bevel_mm = share * 2 * std::tan(20 * std::numbers::pi / 180);
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
     const auto made = make_relief(*model, options);
@@ -223,8 +224,7 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
   }
 }
 
-// The relief's box moves by the whole shift, and no part of it comes nearer to the plate's edge than the
-// margin.
+// The relief's box moves by the whole shift. No part of it comes nearer to the plate's edge than the margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
   ReliefOptions options;
@@ -268,7 +268,8 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-// Two sheets, one before the other, have no slopes.
+// Two sheets, one before the other, have no slopes, so only the step between them can give the relief its
+// height.
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;
@@ -310,8 +311,8 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
 }
 
-// Other instructions of the processor give the same bits. For other compilers and targets,
-// scripts/compare-builds allows differences of 1e-5 of the height.
+// The processor's instructions for wide vectors must give the same bits as the others. For other compilers
+// and targets, scripts/compare-builds allows differences of 1e-5 of the height.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
   for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
     ReliefOptions options;
@@ -327,7 +328,7 @@ TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
   ReliefOptions options;
   options.saturation = 1;
   options.tone = *parse_tone_curve("0.5,0");
-  // All slopes are flat, which is refused.
+  // The curve makes all slopes flat, which is refused.
   expect_error(make_relief(figure(), options), ErrorKind::geometry);
 }
 

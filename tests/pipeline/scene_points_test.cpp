@@ -1,4 +1,4 @@
-// The points of a scene that are visible, and the relief made of them.
+// Tests which points of a scene are visible, and the relief that is made of them.
 #include "relievo/io/write.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
@@ -125,8 +125,8 @@ TEST(SeenScene, MeshesHideEachOther) {
   }
 }
 
-// The spacing of the points of a ball, and the mean angle between their normals and those of a sphere about
-// its centre.
+// The spacing of a ball's points, and the mean angle between their normals and the directions from its
+// centre.
 struct Look {
   double spacing = 0, angle_deg = 0;
 };
@@ -239,8 +239,7 @@ TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
   expect_same_for_any_threads([&] { return write_stl(value_of(make_relief(scene, options)).solid); });
 }
 
-// One ball stands before another. The relief has no wall at the jump between them, and both keep their
-// shapes.
+// One ball stands before another. The relief must have no wall at the jump between them.
 TEST(SceneRelief, NoWallStandsBetweenModels) {
   const Scene scene{
       {model_of(test::sphere(60000, 1), at(0, 0, 0)), model_of(test::sphere(60000, 1), at(.9, 0, -8))}};
@@ -256,7 +255,8 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
                q = made.solid.points[c] - made.solid.points[a];
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
-  // The depths differ by 8 of 100 mm; an edge is about a third of a millimetre long.
+  // The depths differ by more than the relief is wide, so a wall would be almost as high as the whole relief,
+  // 4 mm. An edge of a triangle is only about a third of a millimetre long.
   EXPECT_LT(steepest, 1.0);
 }
 

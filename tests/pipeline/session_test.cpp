@@ -97,7 +97,8 @@ TEST(Session, CanBeCancelledWhileItPrepares) {
   EXPECT_EQ(session.model(), nullptr);
 }
 
-// Work that rarely checks for cancelling must not keep the user waiting, nor may its result appear later.
+// If work rarely checks whether it is cancelled, the user must not wait for it, and its result must not
+// appear later.
 TEST(Session, SaysAtOnceThatItIsCancelled) {
   Session session;
   std::binary_semaphore has_begun{0}, goes_on{0};
@@ -177,7 +178,7 @@ TEST(Session, ANewerOpeningReplacesAnOlder) {
   first.ready = second.ready = third.ready = count;
   session.open(first);
   stuck.has_begun.acquire();
-  session.open(second);  // cancels the first preparation, and is never begun
+  session.open(second);  // cancels the first preparation; the second is never begun
   session.open(third);
   ASSERT_TRUE(session.wait_until_idle(60s));
   ASSERT_NE(session.model(), nullptr);

@@ -57,7 +57,7 @@ std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& vi
   return value_of(session.turn(view)).model;
 }
 
-// Returns whether both calls of turn() before the first model gave the same relief.
+// Calls turn() twice before the first model is ready, and returns whether both calls gave the same relief.
 bool turns_once(bool makes_first_relief) {
   Session session;
   HeldAtPoints held{session};
@@ -115,7 +115,8 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
   EXPECT_EQ(asked, 1);
 }
 
-// A picture of the model while it is turned may be asked for late, when the view in which it rests is being prepared.
+// The last picture of turning may be asked for late, when the view in which the model rests is already being
+// prepared.
 TEST(Session, TurningLeavesThePreparationAlone) {
   Session session;
   session.open(preparation_of());
@@ -130,7 +131,7 @@ TEST(Session, TurningLeavesThePreparationAlone) {
   ASSERT_TRUE(session.wait_until_idle(60s));
 }
 
-// A turn whose preparation gives the points of all sides only after the turn has been cancelled.
+// A session whose first turn gets the points of all sides only after this turn has been cancelled.
 struct StuckTurn {
   std::binary_semaphore has_begun{0};
   std::atomic<bool> is_first = true, has_ended = false;
@@ -149,7 +150,8 @@ struct StuckTurn {
     EXPECT_TRUE(session.wait_until_idle(60s));
   }
 
-  // Calls turn() in a thread, then `end`, and returns the error.
+  // Calls turn() in a thread, and `end` while turn() waits for the points. Returns the error of turn(), if
+  // any.
   template <typename F>
   std::optional<ErrorKind> error_after(F&& end) {
     std::optional<ErrorKind> error;
@@ -179,7 +181,7 @@ TEST(Session, TurningCanBeCancelled) {
   EXPECT_TRUE(stuck.session.turn(view_to("1,1,1")));
 }
 
-// The view in which a drag rests is opened while the last picture of the drag is still drawn.
+// The view in which a drag ends is opened while the last picture of the drag is still being drawn.
 TEST(Session, AnOpeningLeavesTurningAlone) {
   StuckTurn stuck;
   EXPECT_EQ(stuck.error_after([&] {

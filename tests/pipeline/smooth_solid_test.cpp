@@ -1,4 +1,5 @@
-// The solid of a shape that is smooth but for its silhouette and one depth jump: a button with a smaller one before it.
+// Tests the solid of a shape that is smooth except at its silhouette and at one depth jump: a button with a
+// smaller one before it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -21,8 +22,8 @@ Cloud two_buttons(std::size_t n) {
                       test::button(n / 5, face / 2, rounding / 2, .5));
 }
 
-// Returns the angles in degrees between the facets of the front that share a side inside, but not on the silhouette and
-// the jump.
+// Returns the angles in degrees between neighbouring facets of the front, except at the silhouette and at the
+// jump.
 std::vector<double> facet_angles(const Solid& solid, double rho_mm) {
   const auto normal = [&](std::size_t t) -> Vec3 {
     const auto& [a, b, c] = solid.triangles[t];
@@ -58,7 +59,7 @@ MadeRelief made_of(const Cloud& cloud) {
   return make_relief(cloud, options).value();
 }
 
-// A scan with that many points, and how much the facets of its solid may turn.
+// A scan with that many points, and bounds of the angles between the facets of its solid.
 struct ScanSize {
   std::size_t points;
   double most_deg, rare_deg;  // bounds of 99 % and 99.9 % of the angles
@@ -66,8 +67,9 @@ struct ScanSize {
 
 class SmoothSolid : public testing::TestWithParam<ScanSize> {};
 
-// The edge of the small button turns by 14 degrees from point to point if there are 20,000, and by 3 if there
-// are 250,000. Where the boundary weight is wide, the surface bends by 13 degrees all along the silhouette.
+// From one point to the next, the normal at the small button's edge turns by 14 degrees if there are 20,000
+// points, and by 3 if there are 250,000. Where the boundary weight is wide, the surface bends by 13 degrees
+// all along the silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
@@ -78,7 +80,7 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
 INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,
                          testing::Values(ScanSize{20000, 5, 9}, ScanSize{100000, 2.5, 6},
                                          ScanSize{250000, 2, 4}));
-// This takes long, and runs with --gtest_also_run_disabled_tests alone.
+// This takes long, so it runs only with --gtest_also_run_disabled_tests.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2, 13}));
 
 }  // namespace

@@ -52,10 +52,10 @@ TurnedRelief prepared(const MeasuredCloud& measured, const View& view) {
   return {std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1};
 }
 
-// Similarities of coarse reliefs to those of all points in the same view.
+// How similar pictures of coarse reliefs are to those of the reliefs of all points, in the same view.
 struct Similarities {
-  double turned = 0;  // takes over the height correction of another view, as it does while a model is turned
-  double first = 0;   // has no model before it, as when a scan has just been opened
+  double turned = 0;  // with the height correction of another view, as while a model is turned
+  double first = 0;   // without a model before it, as when a scan has just been opened
 };
 
 Similarities similarities(const Cloud& cloud, const char* from, const char* to) {
@@ -91,7 +91,8 @@ TEST(Turntable, LooksLikeTheFullRelief) {
   EXPECT_GT(found.first, .9);
 }
 
-// Points that differ by less than half a cell would do as well, but the same call has to give the same relief.
+// Points that differ by less than half a cell would look as good, but the same call must give the same relief
+// each time.
 TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto measured = MeasuredCloud::measure(test::torus(30'000, 1, .4), {}).value();
   const Turntable table(*measured);
@@ -112,8 +113,8 @@ TEST(Turntable, HasAboutAsManyPointsAsItSays) {
   }
 }
 
-// Returns the diameter of the part of a sphere of radius 1 that is left if the model before had a plane at
-// that height.
+// Turns a sphere of radius 1 after a model with a support plane at that height. Returns the diameter of the
+// part of the sphere that is left.
 double diameter_before_plane(const Turntable& table, const MeasuredCloud& measured, double height) {
   Surface surface = find_surface(measured, {}).value();
   surface.plane = SupportPlane{PlaneKind::background, Vec3::UnitZ(), height - surface.centre.z(), .01, .3};
