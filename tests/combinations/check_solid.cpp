@@ -1,5 +1,5 @@
 // Checks a solid in an STL file, and a height map against it, without the code that made them: check_solid
-// SOLID.stl [MAP.png|MAP.tif]. If it finds a fault, it prints it, and its exit code is 1.
+// SOLID.stl [MAP.png|MAP.tif]. If there are faults, the program prints them and its exit code is 1.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -37,8 +37,8 @@ Front front_of(const Solid& solid) {
   return front;
 }
 
-// Returns the height of the highest triangle under each pixel's centre, by trying all pixels of each triangle's box; NaN
-// where there is none.
+// Returns the height of the highest triangle under each pixel's centre, NaN where there is none. Tries all
+// pixels in each triangle's box.
 Image<double> heights_under(const Front& front, int width, int height, double mm_per_pixel) {
   Image<double> heights = filled_image(width, height, std::nan(""));
   const Vec3 middle = front.box.centre();
@@ -66,8 +66,8 @@ Image<double> heights_under(const Front& front, int width, int height, double mm
   return heights;
 }
 
-// Returns how a map differs from the solid: more than a micrometre on more than a thousandth of the pixels, or more than
-// .01 mm on any.
+// Returns how a map differs from the solid. The text is empty if no pixel differs by more than .01 mm, and at
+// most a thousandth of the pixels by more than a micrometre.
 std::string difference(const Solid& solid, const char* path) {
   const std::string file = bytes_of(path);
   const Result<DepthImage> map = read_depth_image(std::as_bytes(std::span(file)), path);

@@ -1,5 +1,6 @@
-// Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file and, after a zero byte, the
-// buffer beside it, which are put into an archive; otherwise the rest is the archive or project file itself.
+// Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file, a zero byte
+// and the buffer of the glTF file; both are put into an archive. Otherwise the rest is the archive or project
+// file itself.
 #include <algorithm>
 #include <cstdlib>
 #include <string>

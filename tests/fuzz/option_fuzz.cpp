@@ -1,5 +1,5 @@
-// Fuzz target of options and projects: a line "name=text" sets an option, and all of the bytes are read as
-// a project. An accepted value is within its range; a refusal names an option.
+// Fuzz target of options and projects. A line "name=text" sets an option; all of the bytes are also read as a
+// project. A refusal must say what was expected, and a refusal of options must name the option.
 #include <cstdlib>
 #include <string>
 

@@ -1,5 +1,5 @@
-// Fuzz targets of the readers, one per family of formats: RELIEVO_FUZZ_FAMILY chooses the endings of the name. The first
-// byte chooses one of them, the rest is the file.
+// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names.
+// The first byte of an input chooses one of these names, the rest is the file.
 #include <array>
 #include <cstdlib>
 #include <string>

@@ -1,5 +1,5 @@
-// Fuzz target of the studio's requests, below HTTP: the first byte chooses an action, the rest is the body. One document
-// is open, and pictures and exports are small. The page must be able to show every answer.
+// Fuzz target of the studio's requests, below HTTP. The first byte chooses an action, the rest is the body.
+// One document is open, and pictures and exports are small. The page must be able to show every answer.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -47,7 +47,7 @@ struct Studio {
   ~Studio() { std::filesystem::remove_all(folder); }
 };
 
-// Changes a request so that it is about the open document, and its pictures and samples take little time.
+// Makes a request concern the open document, with pictures and samples that take little time.
 Json small(Json json, const std::string& document) {
   if (json.value("document", Json("")) != Json("x")) json["document"] = document;
   json["width"] = 48;

@@ -1,5 +1,5 @@
-// Makes allocations of the whole process fail: those of the library, of the libraries below it, and of all
-// threads.
+// Makes allocations of the whole process fail: those of the library, of the libraries that it uses, and of
+// all threads.
 #pragma once
 
 #include <cstddef>

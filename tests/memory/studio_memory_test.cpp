@@ -1,8 +1,8 @@
-// The studio below HTTP, in one process, while memory runs out. If any allocation of any thread fails, the
-// request must get its usual answer or an error of kind memory, nothing must stay busy, and the same request
-// must be answered as usual afterwards. Allocations of a few bytes do not fail here: the destructors of JSON
-// make some, and the program has a reserve for them. The environment variable ALLOCATIONS sets how many
-// allocations of each request fail in turn; all if it is 0.
+// Tests the studio, without HTTP and in one process, while memory runs out. If an allocation fails in any
+// thread, the request must get its usual answer or an error of kind memory. Nothing may stay busy, and the
+// same request must be answered as usual afterwards. Allocations of a few bytes do not fail here: the
+// destructors of JSON make some, and the program has a reserve for them. The environment variable ALLOCATIONS
+// sets how many allocations of each request fail in turn; all if it is 0.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -130,7 +130,8 @@ class Studio {
   std::string document_;
 };
 
-// Returns the numbers of the allocations that fail in turn, out of `all`.
+// Returns the numbers of the allocations that fail in turn. They are spread over all allocations of a
+// request; `usual` is about how many they are, unless the environment says otherwise.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");
   const long most = asked ? std::atol(asked) : usual;
@@ -148,7 +149,7 @@ class StudioMemory : public testing::TestWithParam<int> {
   }
   void TearDown() override { set_thread_count(0); }
 
-  // Makes a request without faults, and then again and again while other allocations fail.
+  // Makes a request without faults. Then repeats it, each time with other allocations that fail.
   template <typename Request>
   void survives(const Request& request, long usual = 12) {
     const Told whole = request();
@@ -160,11 +161,12 @@ class StudioMemory : public testing::TestWithParam<int> {
       return none.counted();
     }();
     ASSERT_GT(all, 0);
-    for (const long count : {1, 1000000})  // one allocation, or all from there on
+    for (const long count : {1, 1000000})  // allocation n fails, or all from n on
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 
-  // Returns the answer to a request while an allocation fails. Making the request may fail as well.
+  // Returns the answer to a request while an allocation fails. This may be one of the test's own, for the
+  // request.
   template <typename Request>
   static Told with_fault(const test::AllocationFault& fault, const Request& request) {
     const FailingAllocation failing(fault);

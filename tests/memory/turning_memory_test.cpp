@@ -1,4 +1,4 @@
-// Turning copies no points of a scan, as scans may have many points.
+// Tests that turning copies no points of a scan, as scans may have many points.
 #include <gtest/gtest.h>
 
 #include "memory/failing_allocation.h"
@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Normals that were estimated have no sign, and are turned towards the viewer in each frame.
+// Estimated normals have no sign, so they are turned towards the viewer in each frame.
 TEST(TurningMemory, CopiesThePointsInNoFrame) {
   Cloud cloud = *make_sample("shell", {.points = 100000});
   cloud.normals.clear();
