@@ -1,10 +1,10 @@
-"""Generates a catalogue of small scans with bad ones among them, for the tests of runs."""
+"""Generates a catalogue of small scans, some of them bad, for the tests of batch runs."""
 
 import math
 import os
 import random
 
-# Options with which these scans take little time.
+# With these options, the scans take little time.
 OPTIONS = ["--method", "linear", "--height", "2", "--width", "30", "--resolution", "1.5", "--denoise", "0"]
 
 

@@ -129,8 +129,8 @@ def check(output, scans, program, good, bad, first):
     assert [name for name in sorted(records) if records[name]["status"] == "made"] == good
     for name in bad:
         assert records[name]["error"].count("\n") == 0 and "expected" in records[name]["error"], records[name]
-    # Only a scan that was being made when a worker or the run was killed may have been begun twice. None was finished
-    # twice.
+    # Only a scan that was being made when a worker or the run was killed may have been begun twice. No scan was
+    # finished twice.
     lines = journal(output)
     made = [record["name"] for record in lines if record["status"] == "made"]
     assert len(made) == len(set(made)) == len(good), f"{len(made)} made, {len(set(made))} different"

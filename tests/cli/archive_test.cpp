@@ -1,4 +1,4 @@
-// ZIP archives like those that sites for models offer.
+// Tests ZIP archives like those that sites for models offer.
 #include "common/archive.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ Result<CloudFile> read(const std::string& archive) {
   return read_cloud_at(std::as_bytes(std::span(archive)), "a.zip");
 }
 
-// A triangle with its coordinates in another file.
+// A glTF file with one triangle, whose coordinates are in another file.
 const std::string gltf =
     R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],
@@ -49,8 +49,8 @@ TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
             "needs no other file");
 }
 
-// Changes a field in both headers of the archive's only file; `at` counts bytes from the field of the version
-// needed.
+// Changes a field in both headers of the archive's only file. `at` is the field's distance in bytes from the
+// field "version needed".
 std::string changed_headers(std::string archive, std::size_t at, std::uint16_t to) {
   archive = patched(archive, archive.find("PK\x03\x04") + 4 + at, to);
   return patched(archive, archive.find("PK\x01\x02") + 6 + at, to);

@@ -1,4 +1,4 @@
-// Tables and lists of jobs, and the memory that jobs need.
+// Tests tables and lists of jobs, and the memory that jobs need.
 #include "batch/jobs.h"
 
 #include <nlohmann/json.hpp>
@@ -67,7 +67,7 @@ TEST_F(BatchJobs, AreTheScansOfAFolder) {
   ASSERT_TRUE(jobs);
   std::vector<std::string> names;
   for (const Job& job : *jobs) names.push_back(job.name);
-  // Pictures beside models are textures, and outputs are no scans.
+  // Pictures beside models are textures, and outputs of a run are no scans.
   EXPECT_EQ(names, (Cells{"b/c/x", "b/x", "b/x-2", "depths/d", "torus"}));
   EXPECT_EQ(skipped_files({folder_.string(), "", (folder_ / "out").string(), {}}, *jobs),
             (Cells{"b/notes.pdf", "b/texture.png"}));

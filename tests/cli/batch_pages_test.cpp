@@ -1,4 +1,4 @@
-// The contact sheet, and the parts of the index page.
+// Tests the contact sheet, and the parts of the index page.
 #include "batch/contact_sheet.h"
 #include "batch/index_page.h"
 #include "relievo/core/text.h"

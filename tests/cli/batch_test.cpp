@@ -1,4 +1,4 @@
-// Runs over catalogues: outputs that are made or kept, and jobs and runs that end early.
+// Tests runs over catalogues: outputs that are made or kept, and jobs and runs that end early.
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Runs jobs without making reliefs: the content of each solid is the arguments of its job.
+// Runs jobs without making reliefs: the arguments of a job become the content of its solid.
 class BatchRun : public CliFolder {
  protected:
   void SetUp() override {
@@ -94,7 +94,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(journal_lines(), 4U);
 }
 
-// A second run keeps finished outputs, and repeats killed jobs, but not jobs whose errors would come again.
+// A second run keeps finished outputs. It repeats killed jobs, but not jobs whose errors would come again.
 TEST_F(BatchRun, DoesNothingTwice) {
   run_jobs();
   EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));
@@ -111,7 +111,8 @@ TEST_F(BatchRun, DoesNothingTwice) {
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
 }
 
-// If an option is changed and changed back, the outputs are those of the change and have to be made again.
+// If an option is changed and changed back, the outputs are still those of the change, so they must be made
+// again.
 TEST_F(BatchRun, KeepsOnlyWhatWasMadeLast) {
   jobs_.resize(1);
   run_jobs();
@@ -133,7 +134,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
 TEST_F(BatchRun, GivesAllProcessorsToTheFewJobsThatMemoryAllows) {
   jobs_.resize(1);
   jobs_[0].options["width"] = "10";
-  run_jobs({1, 50});  // the job needs 100, so it runs alone
+  run_jobs({1, 50});  // the job needs 100 MB, so it runs alone
   const std::string arguments = read_all(folder_ / "out/a.stl");
   const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
   EXPECT_NE(arguments.find("--threads="), std::string::npos);
@@ -161,7 +162,7 @@ TEST_F(BatchRun, WritesOneLinePerJobAndThePages) {
 
 // ----------------------------------------------------------------------------- the program, with real scans
 
-// Small scans, and options that make small reliefs quickly.
+// Runs the program on small scans, with options that make small reliefs quickly.
 class BatchProgram : public CliFolder {
  protected:
   void SetUp() override {
@@ -173,7 +174,7 @@ class BatchProgram : public CliFolder {
     write_all(folder_ / "scans/bad.ply", "ply\nformat ascii 1.0\n");
   }
 
-  // Returns the lines of jobs that --list prints.
+  // Returns the lines that --list prints, one per job.
   std::vector<std::string> listed(const std::string& options = "") const {
     const Outcome list = run(cat("batch scans -o out --list ", options, quick));
     EXPECT_EQ(list.exit_code, 0) << list.err;

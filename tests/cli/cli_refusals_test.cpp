@@ -1,4 +1,5 @@
-// Errors of the program's users: each ends with an exit code and one line, and leaves no file behind.
+// Tests errors that users of the program make: each ends with an exit code and one line, and leaves no file
+// behind.
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"

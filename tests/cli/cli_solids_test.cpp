@@ -1,5 +1,5 @@
-// Reads the solids and height maps that the program writes without the library, or compares them with closed
-// forms.
+// Tests the solids and height maps that the program writes. Solids are read without the library, and volumes
+// are compared with closed forms.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,8 @@ ReadSolid solid_in_3mf(const std::string& file) {
   return solid;
 }
 
-// The model is the same as in STL, and the height map is as high as the relief, from its ground on.
+// The 3MF file has the same solid as the STL file. The height map reaches from the ground to the relief's
+// highest point.
 TEST_F(CliSolids, Writes3mfAndTiff) {
   const std::string options = "make torus.ply --height 3 --tolerance 0.05 --quiet";
   EXPECT_EQ(run(options + " -o t.3mf --heightmap h.tif --report r.json").exit_code, 0);
@@ -57,7 +58,7 @@ TEST_F(CliSolids, Writes3mfAndTiff) {
   EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);
 }
 
-// Relief and die together fill a block. A lithophane stands on .8 mm.
+// Together, relief and die fill a block. A lithophane's plate is .8 mm thick.
 TEST_F(CliSolids, MakesEveryForm) {
   const auto made = [&](const std::string& form) {
     const std::string file = form + ".stl";

@@ -1,4 +1,4 @@
-// The program as its users run it: its outputs, and its messages and reports.
+// Tests the program as its users run it: its outputs, and its messages and reports.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -34,7 +34,7 @@ int count(const std::string& text, std::string_view part) {
   return found;
 }
 
-// The torus is 2.8 units wide and seen along its axis. The relief is 50 mm wide with margins of 5 mm, and 3
+// The torus is 2.8 units wide and seen along its axis. The relief is 50 mm wide with margins of 5 mm. It is 3
 // mm high on a plate of 3 mm.
 TEST_F(Cli, MakesEverythingAskedFor) {
   const Outcome outcome =
@@ -186,8 +186,8 @@ TEST_F(Cli, TellsWhatIsInAScan) {
     size >> side >> comma;
     EXPECT_NEAR(side, expected, .01);
   }
-  // The expected spacing is that of a grid with as many points on the torus' surface, whose area is .4 * 4
-  // pi^2.
+  // The torus' surface has an area of .4 * 4 pi^2. The expected spacing is that of a grid with as many points
+  // on this area.
   const double in_a_grid = 2 * std::numbers::pi * std::sqrt(.4 / 20000);
   EXPECT_NEAR(std::stod("0" + line_of(outcome.out, "spacing")) / in_a_grid, 1, .1);
 }

@@ -23,7 +23,7 @@ def run_with_fault(place, kind, chance, command, name):
     elif kind == "read":
         faults.arm(Faults.READS, chance.randint(1, most[6]), chance.choice([1, 10**9]))
     process = place.start(command, {})
-    if kind == "kill" and chance.random() < 0.5:  # while outputs are written, or at any time
+    if kind == "kill" and chance.random() < 0.5:  # half of the signals come while outputs are written
         while process.poll() is None and not place.is_writing():
             time.sleep(0.003)
         time.sleep(chance.uniform(0, 0.02))
@@ -100,7 +100,7 @@ def batch(workshop, kind, chance, number):
         if kind != "folder gone":
             place.check_foreign_files()
             for name, content in files_in(place.out).items():
-                is_of_all = name == "contact-sheet.png"  # shows the scans that were made
+                is_of_all = name == "contact-sheet.png"  # it shows the scans that were made
                 require(is_of_all or name not in whole or content == whole[name], name, "is not whole")
         place.faults[Faults.CLOCK] = 0
         is_of_others = place.out.is_dir() and any(place.out.iterdir()) and not place.is_marked()

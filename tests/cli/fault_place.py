@@ -1,4 +1,4 @@
-"""Helpers of scripts/fault-campaign: the numbers that make calls fail, folders, and programs at work in them."""
+"""Helps scripts/fault-campaign: sets the numbers that make calls fail, makes folders, and runs programs in them."""
 
 import mmap
 import os
@@ -29,7 +29,7 @@ def require(condition, *complaint):
 
 
 class Faults:
-    """The numbers that tests/cli/faults.c reads: see its enumeration."""
+    """The numbers that tests/cli/faults.c reads; its enumeration says what they mean."""
 
     ALLOCATIONS, WRITES, READS, WRITE_ERROR, CLOCK, LEAST_BYTES = 0, 3, 6, 9, 10, 11
 
@@ -63,7 +63,7 @@ class Faults:
 
 
 def failing_allocations(faults, chance):
-    """Chooses the allocations that fail, as (first, count): one, or all large ones from then on."""
+    """Chooses the allocations that fail: one, or all large ones from one on. Returns (first, count)."""
     count, faults[Faults.LEAST_BYTES], most = chance.choice([(1, 0, 4.7), (1, 4096, 3), (10**9, 4096, 3)])
     return int(10 ** chance.uniform(0, most)), count
 
@@ -170,7 +170,7 @@ class Place:
         self.mounted.append(path)
 
     def fill_disk(self, path, free):
-        """Fills the disk until that many bytes are free."""
+        """Fills the disk until only that many bytes are free."""
         room = os.statvfs(path)
         with open(path / "filling", "wb") as file:
             file.write(bytes(max(0, room.f_bavail * room.f_frsize - free)))

@@ -1,4 +1,4 @@
-"""The cases of scripts/fault-campaign in the studio: a page sends its requests while faults last."""
+"""Runs the cases of scripts/fault-campaign in the studio: a page sends its requests while faults last."""
 
 import http.client
 import json
@@ -14,7 +14,7 @@ from fault_place import (PATIENCE, SIGNALS, BROKEN, NO_ROOM, Faults, Find, Place
 
 
 class Page:
-    """A page of a studio, which may answer badly while a fault lasts."""
+    """A page of a studio. While a fault lasts, the studio may answer with errors."""
 
     ANSWERS = (200, 202, 400, 409, 422, 500, 503, 507)
 
@@ -71,7 +71,7 @@ class Page:
 
 
     def keep_a_scan(self):
-        """Keeps a document of a scan that was dropped on the page. Returns the scan's path."""
+        """Uploads a scan as if it were dropped on the page, and keeps its document. Returns the scan's path."""
         content = self.must("upload?name=dropped.ply", (self.place.folder / "scan.ply").read_bytes() + b"dropped")
         dropped = json.loads(content)["input"]
         document = json.loads(self.must("open", {"input": dropped, "tab": "u", "view": "front"}))["document"]
@@ -139,7 +139,7 @@ def send_slowly(page, chance, is_over):
         try:
             chance.choice(held).sendall(b"y")
         except OSError:
-            pass  # the studio has closed it
+            pass  # the studio has closed this connection
     for connection in held:
         connection.close()
 
@@ -185,7 +185,7 @@ def check_studio(page, kind, document, frame):
     page.place.faults[Faults.CLOCK] = 0
     page.must("open", page.opening("shell"))
     error = page.wait(document)
-    if error:  # from work that was done while the fault lasted
+    if error:  # the error is of work that was done while the fault lasted
         page.must("view", {"document": document, "view": "front"})
         error = page.wait(document)
     require(not error, "studio: cannot prepare the scan again:", error)
@@ -225,7 +225,7 @@ def studio(workshop, kind, chance, number):
         require(state["changed"] in (kept, kept + 1), "studio: kept", state["changed"], "after", kept)
         require(state["changed"] == 0 or state["text"] == "x" * ((state["changed"] - 1) % 5 * 9000), "studio: what it kept is not whole")
         if kind == "kill":
-            page.keep(page.open("shell"))  # this removes files that a killed program left
+            page.keep(page.open("shell"))  # keeping work removes files that a killed program left
         require(not temporaries(place.state), "studio: left", temporaries(place.state))
         page.process.terminate()
         finish(page.process)

@@ -1,9 +1,10 @@
-// Preloaded into programs, makes faults happen in them. tests/cli/faults sets these in the environment: THREADS, the
-// largest number of threads; SHRINK, the file that becomes shorter when it is about to be read; CLOCK_BACK, with which
-// the clock is set back by an hour whenever it is read. With NO_TMPFILE, no file can be made without a name.
-// scripts/fault-campaign sets FAULTS, a file of numbers that all processes of a program share. They say which calls
-// fail: see the enumeration below. Allocations are counted from main() on, or from the start if AT_ONCE is set, except
-// those of modules whose paths contain a word of EXCEPT.
+// This library is preloaded into programs and makes faults happen in them. tests/cli/faults sets these
+// variables in the environment: THREADS, the largest number of threads; SHRINK, the file that becomes shorter
+// when it is about to be read; CLOCK_BACK, with which the clock is set back by an hour whenever it is read.
+// With NO_TMPFILE, no file can be made without a name. scripts/fault-campaign sets FAULTS, a file of numbers
+// that all processes of a program share. They say which calls fail: see the enumeration below. Allocations
+// are counted from main() on, or from the start if AT_ONCE is set. Allocations of modules whose paths contain
+// a word of EXCEPT are not counted.
 #define _GNU_SOURCE
 #define open declared_open  // declared with a variable number of arguments
 #define open64 declared_open64
@@ -28,7 +29,7 @@ extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 
-// With NO_TMPFILE programs behave as on a file system that makes no files without names.
+// With NO_TMPFILE, programs behave as on a file system that cannot make files without names.
 static int open_with(const char* path, int flags, mode_t mode) {
   if ((flags & O_TMPFILE) == O_TMPFILE && getenv("NO_TMPFILE")) {
     errno = EOPNOTSUPP;
@@ -101,7 +102,7 @@ void* _ZSt15set_new_handlerPFvvE(void* handler) {  // std::set_new_handler, whic
   return original(handler);
 }
 
-// Only regular files fail, neither connections nor the terminal.
+// Only calls on regular files fail, not those on connections or the terminal.
 static int file_fails(int kind, int file) {
   struct stat about;
   if (shared == none || fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || !fails(kind)) return 0;

@@ -1,4 +1,4 @@
-// Files of the programs: paths that are no files, temporary files, and pipes where they are allowed.
+// Tests files of the programs: paths that are no files, temporary files, and pipes where they are allowed.
 #include "common/files.h"
 
 #include <sys/stat.h>
@@ -73,7 +73,8 @@ TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   EXPECT_EQ(files(), before + 2) << "nothing is left of what could not take its place";
 }
 
-// Temporary files have consecutive numbers, and files with all the next numbers exist already.
+// The names of temporary files end with consecutive numbers. Here files with the next 2,000 numbers exist
+// already.
 TEST_F(Files, NothingIsRemovedThatWasThere) {
   write_all(path("a.stl"), "old");
   std::vector<std::string> names{"a.stl.relievo-abcdef", "a.stl.relievo-ABCDEF", "a.stl.relievo-"};
@@ -87,7 +88,7 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// Leaves the files of a process that was killed just before a finished file replaced another.
+// The test leaves the files of a process that was killed just before a finished file replaced another.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   const auto leave = [&](const char* name) {
@@ -125,7 +126,7 @@ TEST_F(Files, TemporaryFilesHaveTheirPermissionsAndLeaveTheMaskAlone) {
   ::umask(before);
 }
 
-// Threads go on making files while one of them handles the signal.
+// While one thread handles the signal, the others go on making files.
 TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "this sanitizer delays signals";

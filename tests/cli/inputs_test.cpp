@@ -1,4 +1,5 @@
-// Inputs on a disk: buffers beside a glTF, meshes that are read in parts, names with control characters.
+// Tests inputs on a disk: buffers beside a glTF, meshes that are read in parts, and names with control
+// characters.
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 
@@ -35,7 +36,7 @@ TEST_F(CliInputs, ReadsNoFileOutsideTheFolderOfAGltf) {
   expect_refusal("info scans/a.gltf", "expected a file in the same folder, found '../b.bin'");
 }
 
-// Four points, of which two are used by triangles and one is not finite; the fifth is far away and unused.
+// Triangles use three of the five points. Of the other two, one is not finite, and one is far away.
 TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   write_all(folder_ / "a.obj",
             "v 0 0 0\nv 2 0 0\nv 0 3 0\nv nan 0 0\nv 0 0 1e30\nvn 0 0 1\nvn 0 0 -1\n"

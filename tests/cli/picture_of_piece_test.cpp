@@ -1,5 +1,5 @@
-// The studio shows what its files contain: compares its picture of a piece with a picture of the exported STL
-// that is drawn from nothing but the triangles.
+// Tests that the studio shows what its files contain. Compares its picture of a piece with a picture of the
+// exported STL, which is drawn only from the triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::shared_ptr<const ReliefModel> model() {
   return made;
 }
 
-// Returns a solid of the triangles in a file. Those that face up are the front.
+// Returns a solid of the triangles in a file. Triangles that face upwards are its front.
 Solid solid_with_front(const test::ReadSolid& file, double ground_mm) {
   Solid solid = test::solid_of(file);
   solid.ground_mm = ground_mm;
@@ -49,7 +49,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Removes the camera from a piece, as its angles are not among the options, and returns it.
+// Removes the camera's angles from a piece, as they are not among the options. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);
@@ -59,7 +59,8 @@ Camera take_camera(nlohmann::json& piece) {
   return camera;
 }
 
-// Removes the base from a piece and returns it, with its image, which the text of a piece cannot contain.
+// Removes the base from a piece and returns it. A base of kind image gets its image here, as the text of a
+// piece cannot contain it.
 BaseOptions take_base(nlohmann::json& piece) {
   BaseOptions base = *parse_base(piece.value("base", "plane"));
   if (base.kind == BaseKind::image) base.image = hill_and_hollow();
@@ -67,8 +68,8 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
-// Returns the correlation of the picture's green with the cosines over the piece. Expects that the piece is
-// drawn there and nowhere else, except for pixels of its outline.
+// Returns the correlation between the green channel of the picture and the cosines, over the piece. Expects
+// that the piece is drawn where there are cosines and nowhere else, except for pixels of its outline.
 double agreement(const Image8& picture, const Image<double>& cosines) {
   Image<float> drawn = filled_image(picture.width, picture.height, 0.F), expected = drawn;
   PixelMask both;
@@ -86,8 +87,8 @@ double agreement(const Image8& picture, const Image<double>& cosines) {
   return correlation(drawn, expected, both);
 }
 
-// Expects that, without shadows, the piece's brightness follows the angles between surface and lamp, which a
-// renderer computes that shares no code with the library's.
+// Expects that, without shadows, the piece's brightness follows the angles between surface and lamp. A second
+// renderer, which shares no code with the library, computes these angles.
 void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& drawing,
                       app::studio::PictureRequest request) {
   const Camera& camera = request.render.camera;
@@ -141,7 +142,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   SolidRenderer(solid).render(request.render, file);
   EXPECT_GT(test::structural_similarity(shown->picture.image, file.image), .97);
 
-  // The comparison detects another picture: one that is 2 % smaller.
+  // The comparison must detect another picture, here one that is 2 % smaller.
   request.render.camera.zoom = .98;
   SolidRenderer(solid).render(request.render, file);
   EXPECT_LT(test::structural_similarity(shown->picture.image, file.image), .85);
