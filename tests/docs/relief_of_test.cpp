@@ -1,4 +1,4 @@
-// The library example of README, compiled as it stands there, makes the relief that README promises.
+// Tests that README's library example, compiled as it stands there, makes the relief that README promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>
