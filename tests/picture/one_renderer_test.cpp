@@ -108,7 +108,8 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   EXPECT_TRUE(other.image.pixels.empty());
 }
 
-// The front view of a preview, except its wall, equals the studio's picture at this size and zoom.
+// The front view of a preview, apart from the wall behind the plate, equals the studio's picture at this size
+// and zoom.
 TEST(OneRenderer, PreviewShowsTheLivePicture) {
   const Image8 preview = render_preview(bodies().solid, {.longer_side_px = 300});
   RenderOptions options = options_for(Material::plaster, true, 0);

@@ -163,7 +163,8 @@ TEST(Preview, NothingIsClipped) {
 }
 
 TEST(Preview, AShadowFallsAwayFromTheLight) {
-  // A tower of 10 x 10 x 12 is compared with the ground beside it, at the same distance on all sides.
+  // The ground beside a tower, which is 10 mm wide and 12 mm high, is compared on all sides at the same
+  // distance.
   const auto tower = [](double x, double y) {
     return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
   };

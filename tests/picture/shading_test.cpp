@@ -72,7 +72,7 @@ TEST(Shading, NothingIsClippedOnLevelGround) {
       }
 }
 
-// The patches of patina repeat after 64 mm, on both sides of the middle.
+// The patches of patina repeat every 64 mm, also across the middle of the plate.
 TEST(Shading, PatinaHasNoSeamInTheMiddle) {
   Lit place = level_at(0, 0), again = place;
   for (const float x : {-1.F, 0.F, 5.5F, -.95F, 5.47F}) {

@@ -49,7 +49,7 @@ TEST(MakePlates, ARimIsAsHighAsTheReliefIfItsBevelFits) {
     options.rim_mm = width;
     EXPECT_NEAR(rim_height(made(options)), .8, 1e-3) << width;
   }
-  options.rim_mm = .15;  // the bevel takes .3 of the rim's height
+  options.rim_mm = .15;  // the bevel is .3 times as wide as the rim is high
   EXPECT_NEAR(rim_height(made(options)), .5, 1e-12);
   options.rim_bevel_mm = .1;
   EXPECT_NEAR(rim_height(made(options)), .8, 1e-3);

@@ -311,8 +311,8 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
 }
 
-// The processor's instructions for wide vectors must give the same bits as the others. For other compilers
-// and targets, scripts/compare-builds allows differences of 1e-5 of the height.
+// The bits must be the same with and without the processor's instructions for wide vectors. For other
+// compilers and targets, scripts/compare-builds allows differences of 1e-5 of the height.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
   for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
     ReliefOptions options;

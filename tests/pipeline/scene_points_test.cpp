@@ -125,8 +125,8 @@ TEST(SeenScene, MeshesHideEachOther) {
   }
 }
 
-// The spacing of a ball's points, and the mean angle between their normals and the directions from its
-// centre.
+// The spacing of a ball's points, and the mean angle between their normals and the directions from the ball's
+// centre to them.
 struct Look {
   double spacing = 0, angle_deg = 0;
 };
@@ -255,8 +255,8 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
                q = made.solid.points[c] - made.solid.points[a];
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
-  // The depths differ by more than the relief is wide, so a wall would be almost as high as the whole relief,
-  // 4 mm. An edge of a triangle is only about a third of a millimetre long.
+  // The depths of the balls differ by more than the relief is wide, so a wall would be almost as high as the
+  // whole relief, 4 mm. An edge of a triangle is only about a third of a millimetre long.
   EXPECT_LT(steepest, 1.0);
 }
 

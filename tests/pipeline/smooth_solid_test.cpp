@@ -68,8 +68,8 @@ struct ScanSize {
 class SmoothSolid : public testing::TestWithParam<ScanSize> {};
 
 // From one point to the next, the normal at the small button's edge turns by 14 degrees if there are 20,000
-// points, and by 3 if there are 250,000. Where the boundary weight is wide, the surface bends by 13 degrees
-// all along the silhouette.
+// points, and by 3 if there are 250,000. A wide boundary weight bends the surface by 13 degrees all along the
+// silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);

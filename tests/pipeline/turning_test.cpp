@@ -52,7 +52,7 @@ TurnedRelief prepared(const MeasuredCloud& measured, const View& view) {
   return {std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1};
 }
 
-// How similar pictures of coarse reliefs are to those of the reliefs of all points, in the same view.
+// The similarity of the picture of a coarse relief to that of the relief of all points, in the same view.
 struct Similarities {
   double turned = 0;  // with the height correction of another view, as while a model is turned
   double first = 0;   // without a model before it, as when a scan has just been opened

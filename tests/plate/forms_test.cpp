@@ -100,8 +100,8 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
 
 TEST(Forms, ColoursDarkenALithophane) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) { return p.y() > 0 ? 255 : 200; }));
-  // Where the model has grey 200, 57.8 % of the light of white must pass, so the plate is 4 ln(1 / .578) / ln
-  // 10 = .95 mm thicker there.
+  // Grey 200 must let 57.8 % of the light of white pass. For this, the plate is thicker there than at white,
+  // by 4 ln(1 / .578) / ln 10 = .95 mm.
   EXPECT_NEAR(height_around(front, {-1, -.5}, .4) - height_around(front, {-1, .5}, .4), .95, .15);
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 using test::grid_front, test::plate_of;
 
-// Expects that the field has the front's heights above its lowest point, and 0 beside the front. The expected
-// heights are found by trying all triangles.
+// Expects that the field has the front's heights above the front's lowest point, and 0 beside the front. The
+// expected heights are found by trying all triangles.
 void expect_heights_of(const Solid& solid) {
   const HeightField field = measure_height_field(solid, 97);
   ASSERT_FALSE(field.z.empty());
@@ -32,7 +32,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// Flat bevels, as here, and folds were once smoothed by up to .7 mm.
+// The field once smoothed flat bevels like these, and folds, by up to .7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {

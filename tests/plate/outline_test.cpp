@@ -63,8 +63,8 @@ TEST(OutlineAround, ASquareHasAKnownCircleEllipseAndHexagon) {
   const double radius = 10 * std::numbers::sqrt2 + 2;
   EXPECT_NEAR(size_of(outline_around(square, {Outline::circle, 5, 2})).x(), 2 * radius, .02);
   EXPECT_NEAR(size_of(outline_around(square, {Outline::ellipse, 5, 2})).y(), 2 * radius, .02);
-  // But for the margin of 2, the square's corners touch the hexagon's slanted sides, so these are 10
-  // sqrt(3)/2 + 10/2 + 2 from the middle.
+  // Towards the middles of the hexagon's slanted sides, the square reaches 10 sqrt(3)/2 + 10/2. The margin
+  // adds 2.
   const double width = size_of(outline_around(square, {Outline::hexagon, 5, 2})).minCoeff();
   EXPECT_NEAR(width, 2 * (10 * std::sqrt(.75) + 5 + 2), .05);
 }
@@ -168,7 +168,8 @@ TEST(PlateSize, IsTwoLengthsOfAnyUnit) {
 TEST(OutlineAround, RoundCornersWithinTheMarginKeepTheRectanglesSize) {
   const std::vector<Vec2> box = {{0, 0}, {30, 0}, {30, 20}, {0, 20}};
   EXPECT_LT((size_of(outline_around(box, {Outline::round, 5, 5})) - Vec2(40, 30)).norm(), 1e-9);
-  // Corners of radius 15 - 5 would cut off the corners of the box, so the rectangle grows.
+  // Without the margin of 5, corners of radius 15 - 5 would cut off the corners of the box, so the rectangle
+  // grows.
   const Vec2 grown = size_of(outline_around(box, {Outline::round, 15, 5}));
   const double inner = 10 * (1 - std::sqrt(.5));  // growth at each side
   EXPECT_NEAR(grown.x(), 40 + 2 * inner, .02);
@@ -301,7 +302,7 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
 }
 
 // At the relief's rim, only half of a cell may belong to the relief. The corners of a cell lie on a circle,
-// so Delaunay may cut it along the other diagonal, and the silhouette moves there.
+// so Delaunay may cut the cell along its other diagonal. This moves the silhouette by half a cell.
 TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const int n = 24;
   HeightFieldMesh front =

@@ -32,7 +32,7 @@ HeightFieldMesh hill() {
   return front;
 }
 
-// Returns the same hill with scattered points and Delaunay's triangles; it ends in flat ground, too.
+// Returns the same hill as the Delaunay triangulation of scattered points. It ends in flat ground, too.
 HeightFieldMesh scattered_hill() {
   test::Random random(7);
   std::vector<Vec3> points;

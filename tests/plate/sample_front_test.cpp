@@ -39,7 +39,7 @@ std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-// A square has one sample with a tolerance of .01, and four with .004.
+// A square of the sampling grid has one sample with a tolerance of .01, and four with .004.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();

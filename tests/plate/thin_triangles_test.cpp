@@ -66,9 +66,9 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// The points of a silhouette are almost on one line. Two thin triangles lie beyond it, with a slit between
-// them and the wide triangles. The outer one connects both ends of the slit; after its removal, the inner one
-// does. Both are removed.
+// The points of a silhouette are almost on one line. Two thin triangles lie beyond this line, with a slit
+// between them and the wide triangles. The outer one connects both ends of the slit; after its removal, the
+// inner one does. Both are removed.
 TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
                                  {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};
@@ -81,7 +81,7 @@ TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
 }
 
 // The points of the silhouette are almost on one line, and so are those of the hull, where the plate's ring
-// begins. This is still so after a change of the unit.
+// begins. The plate must not cut itself, neither in millimetres nor in inches.
 TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
   const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
   for (const Outline outline : {Outline::none, Outline::rectangle})

@@ -135,7 +135,7 @@ TEST(CloseByTool, ABallAtAWall) {
   const auto wall = picture(200, 21, [&](int x, int) { return x < 100 ? 0 : 3; });
   const Image<float> left = close_by_tool(wall, step, ball);
   for (int x = 20; x < 100; ++x) {
-    const double from_axis = (x - 49) * step;  // the axis is 50 samples, the radius, from the wall
+    const double from_axis = (x - 49) * step;  // beyond sample 49, the axis is too near to the wall
     const double expected = from_axis > 0 ? 1 - std::sqrt(std::max(0.0, 1 - from_axis * from_axis)) : 0;
     EXPECT_NEAR(left.pixels[10 * 200 + static_cast<std::size_t>(x)], expected, 1e-5) << x;
   }

@@ -140,7 +140,7 @@ TEST(WrapPlate, IsWatertightForEveryBodyAndOutline) {
     }
 }
 
-// The front and the back lie at their radii, even between the corners of triangles.
+// The shell's front and back keep their radii, even between the corners of triangles.
 TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
   const HeightFieldMesh front = test::flat_front({56, 36, 4, 4});
   const PlateOptions options = plate_around("cylinder:diameter=60");
