@@ -134,7 +134,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
 TEST_F(BatchRun, GivesAllProcessorsToTheFewJobsThatMemoryAllows) {
   jobs_.resize(1);
   jobs_[0].options["width"] = "10";
-  run_jobs({1, 50});  // the job needs 100 MB, so it runs alone
+  run_jobs({1, 50});  // the job needs 100 MB, more than the limit, so it runs alone
   const std::string arguments = read_all(folder_ / "out/a.stl");
   const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
   EXPECT_NE(arguments.find("--threads="), std::string::npos);

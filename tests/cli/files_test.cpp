@@ -88,7 +88,8 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// The test leaves the files of a process that was killed just before a finished file replaced another.
+// The test writes the files that a process leaves if it is killed just before a finished file replaces
+// another.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   const auto leave = [&](const char* name) {

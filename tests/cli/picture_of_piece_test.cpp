@@ -68,8 +68,9 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
-// Returns the correlation between the green channel of the picture and the cosines, over the piece. Expects
-// that the piece is drawn where there are cosines and nowhere else, except for pixels of its outline.
+// Returns the correlation, over the piece, between the picture's green channel and the cosines of the angles
+// between surface and lamp. Expects that the piece is drawn where there are cosines and nowhere else, except
+// for pixels of its outline.
 double agreement(const Image8& picture, const Image<double>& cosines) {
   Image<float> drawn = filled_image(picture.width, picture.height, 0.F), expected = drawn;
   PixelMask both;

@@ -132,7 +132,7 @@ TEST_F(Corpus, BrokenStlIsRefused) {
   }
 }
 
-// The pixels of these pictures are numbers that count up, modulo the largest number.
+// The numbers in these pictures count up, and begin anew after the largest number.
 TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
   std::size_t judged = 0;
   for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {

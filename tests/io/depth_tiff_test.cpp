@@ -23,7 +23,7 @@ struct TiffField {
   std::uint32_t count, value;
 };
 
-// The tags of a picture that tests change.
+// The tags of a test picture. The tests give other values to some of them.
 struct TiffTags {
   std::uint32_t bits = 16, kind = 1, channels = 1, colours = 1;
   std::string no_data = {};
@@ -240,8 +240,8 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
   EXPECT_EQ(tiff_message(with_field(whole_tiff(), {1, 7}, 1U << 26)), pixels + "335544320");
 }
 
-// Returns a picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16. Tiles at its sides are cut. The
-// number in column x and row y is 100 y + x; pixels beyond the sides are 7.
+// Returns a picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16. The number in column x and row y
+// is 100 y + x. Where tiles reach beyond the picture, their numbers are 7.
 std::string tiled_tiff(std::uint32_t tile_width) {
   constexpr std::uint32_t columns = 40, rows = 24, side = 16, tiles = 6, tile_bytes = 2 * side * side;
   const std::uint32_t data = 8 + 2 + 11 * 12 + 4;

@@ -32,8 +32,8 @@ std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std:
   return bytes;
 }
 
-// Returns the elements as version 1 compresses them. `modes` has the mode of each channel of four bytes.
-// Columns of bytes are stored in turn in each way that suits them.
+// Returns the elements as version 1 compresses them. `modes` has the mode of each channel of four bytes. Each
+// column of bytes is stored in the next of the ways that suit it.
 std::string compressed_attributes_1(const std::string& elements, std::size_t stride,
                                     const std::string& modes) {
   const std::size_t count = elements.size() / stride, block = block_of(stride);

@@ -84,7 +84,7 @@ TEST_P(Ply, HeaderMayHaveCommentsAndCrlf) {
 TEST_P(Ply, TruncatedVerticesAreAnError) {
   const std::string whole = encode({three_vertices});
   const std::size_t header = encode_ply_header({three_vertices}, GetParam()).size();
-  // If an ASCII file is cut in its last number or at the end of that line, nobody can notice it.
+  // If an ASCII file is cut in its last number or at the end of that line, the reader cannot notice it.
   const std::size_t least =
       GetParam() == PlyEncoding::ascii ? whole.rfind(' ', whole.size() - 3) + 1 : whole.size();
   for (std::size_t size = header; size < least; ++size) {

@@ -80,7 +80,8 @@ TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
   EXPECT_EQ(streamed(bytes_of(text)).ignored_faces, 2U);
 }
 
-// In single precision, the mean of the colours would be 256, which becomes 0 as a byte.
+// If the colours of so many points were added in single precision, their mean would be 256, which becomes 0
+// as a byte.
 TEST(StreamFront, KeepsAColourThatManyPointsOfASquareHave) {
   std::vector<Vec3> points = test::sphere(600'000, 1).points;
   points.insert(points.end(), 400'000, Vec3(0, 0, 1));

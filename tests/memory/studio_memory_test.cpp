@@ -130,8 +130,8 @@ class Studio {
   std::string document_;
 };
 
-// Returns the numbers of the allocations that fail in turn. They are spread over all allocations of a
-// request; `usual` is about how many they are, unless the environment says otherwise.
+// Returns which of a request's `all` allocations fail, one after the other. They are spread evenly. There are
+// about `usual` of them, or as many as the environment variable ALLOCATIONS says.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");
   const long most = asked ? std::atol(asked) : usual;
@@ -165,8 +165,8 @@ class StudioMemory : public testing::TestWithParam<int> {
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 
-  // Returns the answer to a request while an allocation fails. This may be one of the test's own, for the
-  // request.
+  // Returns the answer to a request while an allocation fails, which may also be one that the test needs to
+  // make the request.
   template <typename Request>
   static Told with_fault(const test::AllocationFault& fault, const Request& request) {
     const FailingAllocation failing(fault);
