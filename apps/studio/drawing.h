@@ -93,9 +93,9 @@ struct PieceHeight {
 // Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. If the model has fewer points than the scan, `shown` also has the detail that these
-  // points do not resolve. `outliers` is the number of outliers that were left out of the scan, and `remarks`
-  // are its other remarks.
+  // Shares the model. If the model has fewer points than the scan, `shown` also has the detail that the
+  // model's points do not resolve. `outliers` is the number of outliers that were left out of the scan, and
+  // `remarks` are the other remarks on the scan.
   Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
@@ -103,17 +103,19 @@ class Drawing {
   // While frozen, pictures show the last frame instead of the requested one, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws a frame. A fine picture has exactly the requested height, others come within 3 % of it. If the
-  // options ask for more than a rectangular plate, draws a piece of exactly that height. This is the finished
-  // piece if take() was called with it, otherwise a coarse one, which is made faster, with fewer samples and
-  // without a draft angle or tool. Errors: those of make_relief().
+  // Draws the model itself if the request asks for it, otherwise the relief or its piece. If the options ask
+  // only for the relief on a rectangular plate, draws a frame: in fine pictures the relief has exactly the
+  // requested height, in others within 3 % of it. The finished piece replaces the frame if the request asks
+  // for the piece and take() got it. For other options draws a piece, always for exactly the requested
+  // height: the finished piece if take() got it, else a coarse one, which is made faster, with fewer samples
+  // and without a draft angle or tool. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the request would show; nothing if take() was called with this
   // piece. Errors: those of with_width().
   Result<std::optional<ReliefOptions>> missing_piece(PictureRequest request);
 
-  // Takes the finished piece that was made with these options, and keeps it until it gets the next one.
+  // Keeps the finished piece that was made with these options, until the next one is taken.
   void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);
 
   // Returns the height in mm of the highest relief that the options allow, see LiveModel::highest_mm().
@@ -121,7 +123,8 @@ class Drawing {
   Result<double> reachable_height(const ReliefOptions& options);
 
   // Returns heights above the ground in mm along a line in the picture from the front. They are those of the
-  // finished piece if pictures show it. Errors: those of picture().
+  // model itself if the request asks for it, of the relief if it is on a rectangular plate, and otherwise of
+  // the piece that picture() draws. Errors: those of picture().
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:

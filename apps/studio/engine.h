@@ -50,7 +50,7 @@ class Engine {
 
   void cancel();
 
-  // Returns whether nothing runs, not even work that was cancelled.
+  // Returns whether all work has ended, cancelled work included.
   bool is_idle();
 
   // Without threads, this does the work that open(), show() and choose_view() have requested.
@@ -62,16 +62,17 @@ class Engine {
   // no relief yet.
   Result<ModelFacts> facts();
 
-  // These draw as Drawing does. While another view is prepared, pictures show the last frame of the model
-  // before it. A picture of a finished piece waits until the piece is made. Any other picture cancels that
-  // work, so as not to wait for it, and a picture that is not fine cancels all fine ones. Errors: also those
-  // of piece().
+  // picture() and profile() draw as Drawing does. While another view is being prepared, pictures show the
+  // last frame of the model that is shown until then. A picture of a finished piece waits until the piece is
+  // made. Any other picture cancels the making of that piece, so as not to wait for it. A picture that is
+  // neither fine nor of a finished piece also cancels all pictures that are. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
-  // Returns the height in mm of the highest relief that the options allow, their draft angle included.
-  // Finding the height under a draft angle takes as long as making a piece, and other pictures cancel this
-  // work, too. Errors: those of Drawing::reachable_height() and highest_with_draft(); kind cancelled.
+  // Returns the height in mm of the highest relief that the options allow, their draft angle included. With a
+  // draft angle this takes as long as making a piece, unless the height is already known. Any picture that is
+  // not of a finished piece cancels this. Errors: those of Drawing::reachable_height() and
+  // highest_with_draft(); kind cancelled.
   Result<double> reachable_height(PictureRequest request);
 
   // Draws the scan itself as it looks in a view.

@@ -48,8 +48,9 @@ class StatusStream {
   StatusStream(std::atomic<int>& pages, Actions& actions, const std::string& run_name)
       : count_(pages), actions_(actions), run_name_(run_name) {}
 
-  // Returns the events since the last call, after a comment: sending it shows whether the page is still
-  // there.
+  // Returns the events since the last call, after a comment line. The line is there even if there are no
+  // events, because only sending something shows whether the page is still there. The first text begins with
+  // the retry time and the run's name instead of the comment.
   std::string next() {
     std::string text = is_new_ ? cat("retry: 300\ndata: ", Json{{"run", run_name_}}.dump(), "\n\n") : ":\n";
     is_new_ = is_busy_ = false;
@@ -114,8 +115,8 @@ struct Server::State {
                          std::string(file->type));
   }
 
-  // Streams the name of this run, and then the statuses of the open documents as they change. The page keeps
-  // the stream open until it is closed.
+  // Streams the name of this run, and then the statuses of the open documents as they change. The stream
+  // stays open as long as the page is open.
   void follow(Response& response) {
     if (pages >= most_pages) return refuse(response, 503, "too many pages are open");
     had_page = true;

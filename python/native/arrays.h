@@ -29,20 +29,21 @@ struct NamedArray {
 std::vector<Vec3> points_of(const NamedArray& given);
 std::vector<Vec2> plane_points_of(const NamedArray& given);
 
-// Returns the rows as unit vectors. Raises if there are not `size` of them, for arrays for which points_of()
-// raises, and for rows of zeros.
+// Returns the rows as unit vectors. Raises where points_of() does, and also if the number of rows is not
+// `size` or a row is all zeros.
 std::vector<Vec3f> normals_of(const NamedArray& given, std::size_t size);
 
 // Returns the colours of `size` rows. A row has three values, or four with an opacity, which is ignored.
 // Integers of 8 bits are from 0 to 255, floats from 0 to 1.
 std::vector<Colour> colours_of(const NamedArray& given, std::size_t size);
 
-// Return indices of points, each below `size`; those of triangles come in rows of three. Raise for numbers
-// other than integers.
+// Return indices of points, which must be integers from 0 to size - 1; otherwise raise. triangles_of() reads
+// three indices per row, and leaves out triangles with two equal corners.
 std::vector<Triangle> triangles_of(const NamedArray& given, std::size_t size);
 std::vector<Index> indices_of(const NamedArray& given, std::size_t size);
 
-// Returns one number per point. Raises if there are not `size` of them, or if one is not in (0, 1].
+// Returns one weight per point. Raises if the number of weights is not `size`, or if a weight is not in
+// (0, 1].
 std::vector<float> weights_of(const NamedArray& given, std::size_t size);
 
 // Returns a depth image of the rows of a 2-D array; numbers that are not finite mean missing depths.

@@ -66,8 +66,8 @@ float as_signed(std::uint64_t bits, unsigned size) {
 }
 
 // Returns the format of the tags SampleFormat and BitsPerSample if it is supported: whole numbers of 1 to 32
-// and of 64 bits, signed whole numbers of 8, 16, 32 and 64 bits, and fractions of 16, 32 and 64 bits.
-// Undefined samples are taken as whole numbers.
+// and of 64 bits, signed whole numbers of 8, 16, 32 and 64 bits, and floating-point numbers of 16, 32 and 64
+// bits, which messages call fractions. Undefined samples are taken as whole numbers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits) {
   const auto is_one_of = [&](auto... sizes) { return ((bits == sizes) || ...); };
   if (sample_format == SAMPLEFORMAT_UINT || sample_format == SAMPLEFORMAT_VOID) {
@@ -280,8 +280,8 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-// Terrain models store the lowest single-precision number where the height is unknown. Not all of them have a
-// tag that states this.
+// Terrain models store the lowest single-precision number where the height is unknown. Not every such file
+// names that number in a tag.
 constexpr float lowest_height = -1e38F;
 
 // Inverts the values if the file stores white as 0, and replaces missing values by NaN.

@@ -104,8 +104,9 @@ class ObjReader {
       if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;
   }
 
-  // Returns one normal per point: the mean of all normals with which faces use the point. If no face refers
-  // to a normal, the points get the file's normals in their order, provided that their numbers are equal.
+  // Returns one normal per point: the mean of the normals that face corners at this point refer to. If no
+  // corner refers to a normal, point i gets the file's normal i. If the file then does not have as many
+  // normals as points, the result is empty.
   std::vector<Vec3f> point_normals() const {
     const bool has_named =
         std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
@@ -118,7 +119,8 @@ class ObjReader {
     return units;
   }
 
-  // Adds the triangles of the faces. If the cloud has normals, a corner without a normal gets its point's.
+  // Adds the triangles of the faces. If the cloud has normals, a corner without a normal gets the normal of
+  // its point.
   void add_mesh(RawCloud& raw) const {
     std::size_t begin = 0;
     std::vector<Vec3> polygon;  // reused to keep its memory
@@ -161,7 +163,7 @@ class ObjReader {
   std::vector<Corner> corners_;         // corners of all faces
   std::vector<std::size_t> face_ends_;  // index after the last corner of each face
   Index highest_vertex_ = 0;            // highest index in a face
-  std::size_t highest_line_ = 0;        // line of that face
+  std::size_t highest_line_ = 0;        // line of the face with this index
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace relievo::io {
 // 2^27 depths take 512 MB of memory; a picture that promises more is treated as broken.
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
-// Deflate compresses by a factor of 1032 at best. A picture that promises more bytes than this factor times
-// the file's size is broken.
+// A picture that promises more than this factor times the bytes of its file is treated as broken: a PNG more
+// bytes, a TIFF more pixels. The factor is a little above 1032, the best that deflate can reach.
 inline constexpr std::size_t best_packing = 1100;
 
 // Return true if the content begins like a file of this format.

@@ -190,7 +190,8 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       room_(material == Material::plaster ? Room() : Room(to_lamp)) {}
 
-// Returns the light of lamp and sky on a place, computed from its normal and the shadows on it.
+// Returns the light of lamp and sky on the point `lit`, computed from the point's normal and the shadows on
+// it.
 Light Shader::facing(const Lit& lit) const {
   return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
           (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};
@@ -211,7 +212,7 @@ Vec3f Shader::colour(const Lit& lit) const {
   }
 }
 
-// Returns the light from the room that the place mirrors towards the viewer.
+// Returns the room's light that the point `lit` mirrors towards the viewer.
 float Shader::mirrored_light(const Lit& lit) const {
   const Vec2f to_viewer = to_viewer_.head<2>() - lit.from_middle / viewer_distance;
   const float cosine = lit.normal.head<2>().dot(to_viewer) + lit.normal.z() * to_viewer_.z();

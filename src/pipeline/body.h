@@ -21,15 +21,16 @@ inline bool is_simplified(const ReliefOptions& options) {
 Vec2 plate_size_of(const ReliefOptions& options);
 
 // Returns the plate options for a relief of that height. The options have passed check(). If they ask for
-// simplification, their `triangles` limits the front's triangles.
+// simplification, `options.triangles` is here the limit for the triangles of the front, not of the solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
 // Returns the limits for simplifying the front. The tolerance excludes the share that a curved base takes.
 // The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether make_plate() must simplify. This is so on curved ground, because its triangles are not the
-// front's triangles.
+// Returns whether make_plate() must simplify, and not simplified_front(). If the options ask for
+// simplification, this is so on curved ground, because the triangles of the ground are not triangles of the
+// front, and for the finish `reachable`. It is never so for the outline `none`.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
 // A solid, and the same solid before it was bent around a wrap.
@@ -55,7 +56,7 @@ struct FormedFront {
 // Returns the surface's triangles as a front in millimetres, with its points at these heights.
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 
-// Returns the front with all its samples in the form that the options ask for. Errors: kind cancelled.
+// Returns the front before simplification, in the form `options.form`. Errors: kind cancelled.
 Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                const Progress* progress);
 
@@ -66,7 +67,8 @@ Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& opti
 // Returns the depth of the front's lowest point below the ground: 0 or more.
 double depth_below_ground(const HeightFieldMesh& front);
 
-// The solid of a front, with at most the requested number of triangles.
+// A front, simplified if the options ask for it, and the body made from it. If the options give a number of
+// triangles, the body's solid has at most that many.
 struct FormedBody {
   FormedFront formed;
   Body body;

@@ -93,7 +93,7 @@ std::vector<Triangle> relief_of(const Solid& front) {
 }
 
 // Returns the Delaunay triangulation of the front's used points and the ground's points. Its indices count
-// the front's points first, used or not, and then the ground's.
+// first all points of the front, used or not, and then the points of the ground.
 std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vector<Vec2>& ground) {
   const std::vector<std::uint8_t> is_used = used_points(front.points.size(), front.triangles);
   std::vector<Vec2> points;
@@ -140,10 +140,10 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
   return cover;
 }
 
-// Returns the given relief together with the ground of the triangulation. If the two do not fit together,
-// because points on one circle were triangulated in another way, returns the whole triangulation. Returns
-// nothing if the triangulation connects points above the ground with new ones, or does not fit a relief that
-// is not Delaunay.
+// Returns nothing if a triangle connects a new point with one that is not at the height of the ground.
+// Otherwise returns the given relief together with the ground of the triangulation, if the two fit together.
+// If they do not, but the relief is Delaunay, only points on one circle can be triangulated differently: then
+// returns the whole triangulation. If they do not and the relief is not Delaunay, returns nothing, too.
 std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
                              const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();

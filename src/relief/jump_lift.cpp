@@ -76,7 +76,8 @@ int side_of_jump(const Boundary& boundary, Index a, Index b) {
   return boundary.wall_side[a] == WallSide::front ? 1 : -1;
 }
 
-// Returns the heights that (9) gives the default layered shape at each knot.
+// Returns for each of JumpLift::knots the heights that solve equation (9) for the default layered shape, with
+// the knot as u and reference_share as the height share.
 std::vector<Field> reference_heights(const JumpLiftInput& input) {
   const Surface& surface = input.surface;
   Shape shape = layered_shape();
@@ -154,7 +155,8 @@ class NearPlaces {
   double known_ = std::numeric_limits<double>::quiet_NaN();  // distance of asked_ to the nearest position
 };
 
-// Returns whether each point is near a jump that is inverted at one of the knots, and not on the silhouette.
+// Returns for each point whether it is not on the silhouette and is near a jump that is inverted at one of
+// the knots.
 std::vector<std::uint8_t> movable_points(const Surface& surface, std::span<const Field> heights,
                                          double distance) {
   const std::vector<Vec2> inverted = inverted_places(surface, heights);

@@ -39,10 +39,10 @@ class JumpLift {
   // Constructs a lift without fields: add_to() changes nothing.
   JumpLift() = default;
 
-  // Finds fields that leave hardly any jump inverted. Silhouettes do not move.
+  // Finds fields that put right nearly all inverted jumps. They do not change the heights on the silhouette.
   static JumpLift find(const JumpLiftInput& input);
 
-  // Adds the field for a layered shape to the shape's heights from (9), one per point of the surface. The
+  // Adds the field for a layered shape to z, which has the height from (9) of each point for that shape. The
   // shape's membrane must be set. Changes nothing if the height correction is switched off, so that level
   // parts stay level.
   template <typename Real>

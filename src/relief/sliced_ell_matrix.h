@@ -29,14 +29,15 @@ class SlicedEllMatrix {
   // Copies the entries of each point.
   explicit SlicedEllMatrix(const Groups<MatrixEntry>& rows);
 
-  // Copies the entries, but reuses the sparsity pattern of `like` if it contains all these entries in order.
-  // Unused slots get coefficient 0.
+  // Copies the entries. If the sparsity pattern of `like` contains all these entries in order, that pattern
+  // is reused, and its unused slots get coefficient 0.
   SlicedEllMatrix(const Groups<MatrixEntry>& rows, const SlicedEllMatrix& like);
 
   // Returns the number of points.
   std::size_t size() const { return pattern_->size; }
 
-  // Returns the bytes of memory in use. A pattern shared with `like` is not counted.
+  // Returns the bytes of memory in use. A sparsity pattern that was reused from another matrix (see the
+  // constructor) is not counted.
   std::size_t memory() const;
 
   // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient: the right-hand side of equation (9).
@@ -76,7 +77,7 @@ class SlicedEllMatrix {
 // products of the triangles around it; at points in no triangle it is (0, 0, 1). The sum is linear in the
 // heights if x and y are fixed. Only triangles inside the relief count.
 //
-// `like`, if given, must have entries for neighbours in ascending order; its pattern is reused.
+// If `like` is given, its pattern is reused. The entries of `like` must be for neighbours in ascending order.
 SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,
                                      const Boundary& boundary, const SlicedEllMatrix* like = nullptr);
 

@@ -13,7 +13,7 @@ constexpr double gentle =
 // The position of a point over the blade.
 struct Place {
   double along;   // 0 at the root, 1 at the tip
-  double vein;    // the same along the slanted side veins, which lead to the lobes
+  double vein;    // `along` where a slanted side vein through the point would leave the mid-rib
   double lobe;    // 0 in a notch, 1 in the middle of a lobe
   double beat;    // 0 to 1 through each lobe
   double across;  // distance from the mid-rib, in half widths
@@ -26,8 +26,8 @@ Place locate(const Leaf& leaf, double x, double v) {
   return {s, t, 4 * beat * (1 - beat), beat, v / leaf.half_width};
 }
 
-// Returns the distance to the outline, an oval with notches. It is divided by its slope, which is large in
-// the notches.
+// Returns the approximate distance to the outline, an oval with notches: the distance across the leaf,
+// divided by sqrt(1 + slope^2) with the slope of the outline, which is large in the notches.
 double outline(const Leaf& leaf, const Place& at) {
   const double bent = at.vein * (1.25 - 0.25 * at.vein);
   const double oval = std::sqrt(std::max(1e-4, 4 * bent * (1 - bent)));

@@ -65,8 +65,8 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
           "precision, or nearer to the origin"));
 }
 
-// Removes points from the order so that of coincident points, which follow each other there, at most eight
-// remain. Every search near many coincident points would read them all, which takes quadratic time. Which
+// Leaves at most eight of all points at one place in the order, in which such points follow each other. A
+// search near more of them would read them all, so all searches together would take quadratic time. Which
 // eight remain depends on the file's order.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
@@ -136,8 +136,9 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   return {};
 }
 
-// Removes the noise that the view asks for, else the measured noise. The spacing stays that of the scan:
-// where several scans overlap, points without noise lie closer together than the surface is sampled.
+// Removes as much noise as View::denoise says or, if that is empty, as was measured. Does not measure the
+// spacing again: where several scans overlap, removing the noise brings their points closer together than the
+// surface is sampled.
 void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
   removed_noise_ = view.noise_to_remove(measured_noise_);

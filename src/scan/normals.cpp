@@ -78,7 +78,7 @@ void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const 
     for (const Index i : spacing.nearest[settled[next]]) {
       if (i == no_index || is_settled[i]) continue;
       Vec3f& n = viewed.normals[i];
-      // All neighbours with a final sign vote, so that one wrong sign does not spread.
+      // The neighbours whose signs are final vote on the sign of n, so that one wrong sign does not spread.
       float agreement = n.dot(viewed.normals[settled[next]]);
       for (const Index j : spacing.nearest[i])
         if (j != no_index && is_settled[j]) agreement += n.dot(viewed.normals[j]);

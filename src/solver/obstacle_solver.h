@@ -10,7 +10,8 @@
 
 namespace relievo::solver {
 
-// Strengths of the terms that pull the field b towards zero.
+// Strengths of the terms that pull the field b towards zero, and at ties also back up to a least value. See
+// Tie below.
 struct Springs {
   float stiffness = 0;      // factor of b^2 at each free node, >= 0
   float tie_stiffness = 1;  // factor of the ties, >= 0
@@ -21,7 +22,7 @@ struct Springs {
 
 // Ties the field to zero at a place within a cell, for curves that pass between the nodes.
 struct Tie {
-  std::size_t cell;  // the number of its first node
+  std::size_t cell;  // the number of the cell's first node
   Vec2f at;          // within the cell, in [0, 1]
   float stiffness;   // factor of the square of the value that is interpolated bilinearly there, > 0
 };

@@ -68,7 +68,9 @@ std::string compressed_attributes_1(const std::string& elements, std::size_t str
 }
 
 TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
-  // The group has 4 bits per difference. It is for the first of four bytes; the other bytes do not change.
+  // Sixteen differences of the first byte of each four-byte element, with 4 bits each. Two of them (0xf) do
+  // not fit into 4 bits; they follow as the last two bytes. The other three bytes of the elements do not
+  // change.
   const std::string group = bytes_of({0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5});
   const std::string stream =
       "\xA0" + bytes_of({2}) + group + bytes_of({0, 0, 0}) + std::string(28, '\0') + bytes_of({100, 1, 2, 3});

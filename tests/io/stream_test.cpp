@@ -188,8 +188,9 @@ TEST(StreamFront, ReadsLas) {
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // Without normals, a square that has no points of the front shows points behind it. In the middle this
-  // concerns exp(-5) of the squares. The relief's own search for visible points removes these points.
+  // Without normals, a square of the grid that got no point of the sphere's front shows points of its back.
+  // In the middle of the sphere a square has about 5 front points on average, so a share exp(-5) of the
+  // squares there has none. The relief's own search for visible points removes the points of the back.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 

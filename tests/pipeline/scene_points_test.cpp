@@ -125,8 +125,8 @@ TEST(SeenScene, MeshesHideEachOther) {
   }
 }
 
-// The spacing of a ball's points, and the mean angle between their normals and the directions from the ball's
-// centre to them.
+// The spacing of a ball's points, and the mean angle between a point's normal and the direction from the
+// ball's centre to the point.
 struct Look {
   double spacing = 0, angle_deg = 0;
 };
@@ -255,8 +255,10 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
                q = made.solid.points[c] - made.solid.points[a];
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
-  // The depths of the balls differ by more than the relief is wide, so a wall would be almost as high as the
-  // whole relief, 4 mm. An edge of a triangle is only about a third of a millimetre long.
+  // `steepest` is in mm: the largest height difference along two edges of each triangle. A wall between the
+  // balls would be almost as high as the whole relief, 4 mm, because their depths differ by more than the
+  // relief is wide. Without a wall the ends of an edge differ little in height, because edges on the balls
+  // are only a fraction of a millimetre long.
   EXPECT_LT(steepest, 1.0);
 }
 

@@ -43,7 +43,8 @@ TEST(Simplify, FlatGroundBecomesTwoTriangles) {
   EXPECT_EQ(simpler.error_mm, 0);
 }
 
-// Rounding moves points of a straight hull off its sides, and so outside the triangles of the other points.
+// The sides of this front are straight only up to rounding. So a point on a side can lie slightly outside all
+// triangles between the other points.
 TEST(Simplify, TakesAHullThatIsStraightUpToRounding) {
   const auto simpler =
       simplify(test::turned_grid_front(60, .5, [](double x, double y) { return waves(9 * x, 9 * y); }), .1);
@@ -97,8 +98,9 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   EXPECT_NEAR(simpler.error_mm, largest, 1e-9);
 }
 
-// All points of this front are needed. The corners of a cell lie on a circle, so Delaunay may choose the
-// other diagonal. Then it would take more triangles than the front has.
+// All points of this front are needed. The corners of a cell lie on a circle, so a Delaunay triangulation may
+// have the other diagonal of a cell. With that diagonal, simplify() would need more triangles than the front
+// has.
 TEST(Simplify, NeverAddsTriangles) {
   const HeightFieldMesh saddle =
       grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x * 7 + y * 3, 5); });

@@ -101,8 +101,8 @@ TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   expect_error(model.make_at_height(1.01 * most, {{}, .04}, 10), ErrorKind::geometry, "at most");
 }
 
-// At a high saturation, most of the height comes only at values of u beyond those of double. These heights
-// must be reached, too.
+// At a high saturation (beta), most heights would need a u that is larger than the largest double. They must
+// be reached, too.
 TEST(Relief, HasEveryHeightUpToTheLargest) {
   const ReliefModel model = prepared(bumps_behind_a_ring());
   for (const double beta : {0.0, 10.0, 100.0}) {

@@ -34,7 +34,8 @@ export function turnedByHand({towards, up}, dx, dy, roll = 0) {
   return {towards, up};
 }
 
-// Returns the view of options after the model is turned in the picture by degrees, positive ones to the left.
+// Returns the options `view` and `up` after the model was turned in the plane of the picture by an angle in degrees,
+// counterclockwise if it is positive.
 export function viewTurned(options, degrees) {
   const {towards, up} = turnedByHand(directionsOf(options), 0, 0, degrees * Math.PI / 180);
   return {view: text(towards), up: text(up)};

@@ -40,7 +40,7 @@ export class Document {
     Object.assign(this, {onChange, onStrokeEnd});
     this.steps = [FIRST];
     this.at = 0;
-    this.forgotten = 0; // steps before the first one
+    this.forgotten = 0; // number of steps that were dropped before the first one in `steps`
     this.changedAt = 0; // in milliseconds since 1970; decides which of two states is newer
   }
 
@@ -71,7 +71,8 @@ export class Document {
     return this.forgotten + this.at;
   }
 
-  // Returns the step at a position, or the first one that is kept.
+  // Returns the step at a position. If that step is forgotten, returns the first one that is kept; if the position is
+  // after the present step, returns the present step.
   stepAt = (position) => this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
 
   // Inserts a change after the step at a position. Later changes follow it and keep their values.

@@ -22,7 +22,8 @@ const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automa
 const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // other stages: "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
-// These tips explain the purpose of shapes. The help of the options explains the format of their texts.
+// The tips of the options `base`, `wrap` and `tool` say what these are for. The help of these options in the engine
+// explains the format of their texts.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
@@ -156,7 +157,7 @@ export class PieceRows {
     row.rest.begin();
   }
 
-  // Takes the entered choice or text. Refuses a text that is no number in a row for numbers.
+  // Takes the entered choice or text. A row for numbers refuses a text that is no number.
   take(name) {
     const {input, rest, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     rest.end();
@@ -184,7 +185,7 @@ export class PieceRows {
     for (const [name, {rest}] of Object.entries(this.rows)) if (rest?.isRunning) this.take(name);
   }
 
-  // Shows the document's values, except in fields in which the user types or with an entry that is being tried.
+  // Shows the document's values, except in fields in which the user types or whose entry is being tried.
   show() {
     const {options} = this.doc.now, tried = new Set(this.entries.pending.map(({name}) => name));
     for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;

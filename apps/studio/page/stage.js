@@ -27,9 +27,10 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // share of the pixels along a side that are drawn while things move
-    // States to be shown are numbered; `wanted` is the newest. `drawn` is the last that was drawn. `shown`, `fine` and
-    // `finished` are the last that needs no picture, no fine picture and no picture of the finished piece any more,
-    // because that was drawn or has failed.
+    // States to be shown are numbered. `wanted` is the number of the newest state, `drawn` that of the last state of
+    // which a picture was drawn. The other three are the numbers of the last state for which a kind of picture is done,
+    // that is, was drawn or has failed: `shown` for any picture, `fine` for a fine one, `finished` for the last one,
+    // which shows the finished piece if one is wanted.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting` has the callbacks of rest()
     this.pause = new Pause(() => this.pump());

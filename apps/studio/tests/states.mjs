@@ -9,7 +9,7 @@ const nothing = () => {};
 
 const tool = (name) => ({enter: (page) => choose(name, page), leave: (page) => choose("Light", page)});
 
-// Undoes the changes of a state, which are that many steps.
+// Returns a function that leaves a state: it undoes `times` steps, and waits until the page is ready.
 const undone = (times) => async (page) => {
   await undo(times, page);
   await untilReady(page);

@@ -18,9 +18,9 @@ namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-// The splines of ratio and offset (see SubspaceModel) have the same lattices. On the finest lattice cells are
-// at least 3/4 of the control points' radius wide, and on each coarser one twice as wide. The ratio is fitted
-// on the two coarsest lattices, the offset on the others.
+// The splines of ratio and offset (see SubspaceModel) have the same lattices. On the finest lattice, cells
+// are at least 3/4 of ControlPoints::radius wide. Each coarser lattice has cells twice as wide as the next
+// finer one. The ratio is fitted on the two coarsest lattices, the offset on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {

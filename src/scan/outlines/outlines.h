@@ -42,8 +42,8 @@ class ExactOutlines {
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest place on an exact outline that leads in that direction. The outline of a sampled
-  // silhouette may be an exact jump, if too little is seen of the surface behind it.
+  // Returns the nearest place on an exact outline that leads in that direction. What samples show as a
+  // silhouette may be an exact jump, if too little is seen of the surface behind the jump.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;
@@ -66,9 +66,11 @@ struct PlanePoints {
   explicit PlanePoints(const Surface& surface) : places(in_plane(surface.points)), tree(places) {}
 };
 
-// Returns whether no surface connects two neighbouring points, given their normals. The test uses that the
-// chord of a circle is perpendicular to the mean of the normals at its ends. is_jump() would not suffice: at
-// the edge of a surface that turns away from the viewer, the normal explains any depth.
+// Returns whether two neighbouring points lie on surfaces that are not connected: whether their depths differ
+// by more than 3 rho plus twice the difference that the mean of their normals explains. (The chord of a
+// circle is perpendicular to the mean of the normals at its ends.) is_jump() takes the steeper of the two
+// normals instead. Where a surface turns away from the viewer, that normal allows so large a difference that
+// jumps would be missed.
 bool is_occlusion(const Surface& surface, Index a, Index b);
 
 // Leaves out pieces of less than 0.5 % of the surface, which are crumbs of the scan, and closes holes of less

@@ -40,7 +40,7 @@ class CellChoice {
   double spacing() const { return std::sqrt(columns_ * rows_); }
   int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
-  // Returns the numbers of the cells, row by row.
+  // Returns the indices of the chosen cells, row by row.
   std::vector<Index> chosen() const {
     const int height = front_.normal.height;
     std::vector<std::vector<Index>> rows(static_cast<std::size_t>(height));
@@ -77,8 +77,8 @@ class CellChoice {
   int columns_ = 1, rows_ = 1, hole_reach_;
 };
 
-// Measures the front around the centres of cells, each over about as many cells as one point of the surface
-// represents.
+// Measures the normal and the curvature of the front at a cell. The normal is a mean over the cells within
+// step / 2 of this cell, where `step` is about the distance between points of the surface, in cells.
 class CellMeasures {
  public:
   CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}
