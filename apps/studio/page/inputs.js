@@ -108,6 +108,13 @@ addEventListener("change", (event) => {
 
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
+// Chromium gives the focus back to a field after a dialog, but not the selection: Ctrl A would then select nothing in
+// the field. All its text is selected, as after the Tab key.
+addEventListener("close", () => {
+  const {activeElement: field} = document;
+  if (field?.matches(TEXTS)) field.select();
+}, true);
+
 // Calls the function of a key. With Ctrl or Cmd it is one of `commands`. Without them it is one of `always` or, while
 // isReady(), one of `keys`; hold(isHeld) is called when B is pressed and released. Keys are ignored while a dialog is
 // open, and letters while the user types.

@@ -1,8 +1,8 @@
 // Tests that entries are taken in the order in which they are typed and chosen. Exports and projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
-  radio as kind, scan, soon, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
+import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, openExport, option,
+  page, radio as kind, scan, soon, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
 import {enter, eventually, openPanels, readStl, savedFiles, type, untilReady, writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
@@ -165,6 +165,19 @@ test("goes on with what is being typed while the panel of another kind comes", a
   await page.keyboard.press("Enter");
   await soon.equal(() => value("thickness"), "2.75");
   await page.locator("#kind-rows").getByLabel("Rim width").waitFor(); // the panel shows the coin's fields
+  await free();
+});
+
+test("types over the text of a field to which a closed dialog gives the focus back", async () => {
+  await option("thickness").focus();
+  await openExport();
+  await button("Cancel", dialog()).click();
+  await dialog().waitFor({state: "hidden"});
+  await soon.ok(() => option("thickness").evaluate((input) => document.activeElement === input));
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("4.3");
+  await page.keyboard.press("Enter");
+  await soon.equal(() => value("thickness"), "4.3");
   await free();
 });
 
