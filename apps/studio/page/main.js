@@ -175,7 +175,8 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  const {u} = doc.now, isNewest = u === null || u === frame.u; // false if requested before u was typed
+  const {u, options: {height}} = doc.now; // the picture may have been requested before u or the height was typed
+  const isNewest = u === null ? frame.options.height === height : frame.u === u;
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     doc.note({u: frame.u, options: {height: clamp(frame.height_mm, 1e-3, 1e5)}});
     sliders.all.height.show(doc.now.options.height);
