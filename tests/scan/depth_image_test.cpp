@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "relievo/make_relief.h"
+#include "relievo/relief/relief.h"
 #include "support/results.h"
+#include "support/self_intersections.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -272,6 +274,31 @@ TEST(DepthCloud, OfAHollowBecomesARelief) {
   const auto made = value_of(make_relief(hollow->cloud, options));
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_GT(made.report.visible_points, .95 * width * height);
+}
+
+// The points at each side of a picture lie on one line, as files store them or but for rounding.
+TEST(DepthCloud, MakesSolidsThatDoNotCutThemselves) {
+  DepthImage image{{48, 36, 1, {}}, 0, "test"};
+  for (int i = 0; i < 48 * 36; ++i)
+    image.values.pixels.push_back(static_cast<float>(1 - hills(5 * (i % 48), 5 * (i / 48))));
+  const ReliefModel model = value_of(prepare(value_of(depth_cloud(image, as_heights())).cloud, View{}));
+  ReliefOptions options;
+  options.height_mm = 2;
+  options.resolution_mm = 2;
+  using Limit = std::optional<double>;
+  for (const Outline outline : {Outline::rectangle, Outline::none})
+    for (const auto& [tolerance, triangles] :
+         {std::pair<Limit, Limit>{}, {.02, std::nullopt}, {std::nullopt, 2500}}) {
+      options.outline = outline;
+      options.tolerance_mm = tolerance;
+      options.triangles = triangles;
+      SCOPED_TRACE(testing::Message() << name_in(outline_choices, outline) << ", tolerance "
+                                      << tolerance.value_or(0) << ", triangles " << triangles.value_or(0));
+      const auto made = value_of(make_relief(model, options));
+      EXPECT_EQ(check_solid(made.solid), "");
+      EXPECT_EQ(test::self_intersections(made.solid), "");
+      EXPECT_EQ(test::self_intersections(in_unit(made.solid, LengthUnit::inch)), "");
+    }
 }
 
 TEST(ParseCamera, TakesFourOrNineNumbers) {
