@@ -4,8 +4,12 @@
 
 #include <cmath>
 
+#include "relievo/make_relief.h"
 #include "relievo/plate/solid.h"
+#include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
+#include "support/shapes.h"
+#include "support/surfaces.h"
 #include "support/triangles.h"
 
 namespace relievo {
@@ -57,8 +61,28 @@ TEST(HeightField, IsTheTrianglesHeightOnBases) {
   }
 }
 
-// The wall is so steep that a rasteriser which rounds corners to fractions of a pixel could put it on the
-// wrong side of a pixel's centre.
+TEST(HeightField, IsTheTrianglesHeightOfAllForms) {
+  const ReliefModel model = test::prepared(test::torus(2500, 1.5, .4));
+  for (const auto& [name, form] : form_choices)
+    for (const double draft : {0., 20.}) {
+      ReliefOptions options;
+      options.width_mm = 20;
+      options.height_mm = .9;
+      options.resolution_mm = .3;
+      options.outline = Outline::circle;
+      options.rim_mm = 1.5;
+      options.form = form;
+      if (draft > 0) options.draft_deg = draft;
+      if (draft > 0 && form == Form::lithophane) continue;
+      SCOPED_TRACE(testing::Message() << name << ", draft " << draft);
+      const Solid full = value_of(make_relief(model, options)).solid;
+      expect_heights_of(full);
+      options.triangles = .8 * static_cast<double>(full.triangles.size());
+      expect_heights_of(value_of(make_relief(model, options)).solid);
+    }
+}
+
+// Walls are too steep for a rasteriser with fixed fractions of a pixel.
 TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   const auto wall = [](double x, double) { return x < 10 ? 3. : 0.; };
   HeightFieldMesh front = grid_front({20, 20, 20, 20}, wall);
