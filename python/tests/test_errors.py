@@ -23,6 +23,11 @@ class Refusals(InFolder):
         copy = pickle.loads(pickle.dumps(error))
         self.assertEqual((str(copy), copy.place), (str(error), error.place))
 
+    def test_of_memory_are_memory_errors_too(self):
+        self.assertTrue(issubclass(relievo.OutOfMemory, relievo.Error))
+        self.assertTrue(issubclass(relievo.OutOfMemory, MemoryError))
+        self.assertFalse(issubclass(relievo.Error, MemoryError))
+
     def test_name_the_keyword_of_an_option(self):
         self.assertEqual(self.refused("option", relievo.make, scan(), width_mm=-1).input, "width_mm")
         self.assertEqual(self.refused("option", relievo.make, scan(), rim_mm=2, rim_height_mm=float("nan")).input, "rim_height_mm")

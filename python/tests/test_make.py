@@ -199,6 +199,29 @@ class Results(InFolder):
         for format in ["stl", "3mf", "ply", "obj", "heightmap", "tiff", "preview"]:
             self.assertGreater(len(relief.to_bytes(format, heightmap_size=64)), 100)
 
+    def test_are_saved_beside_files_of_others(self):
+        folder = Path("outputs")
+        folder.mkdir()
+        for name in ["x.stl.relievo-ABCDEF", "x.stl.relievo-1-1", "x.stl.relievo-", "x.png.relievo-ABCDEF", "x.stl~", "index.html"]:
+            (folder / name).write_text(f"{name} of somebody else")
+        Path("precious.txt").write_text("precious")
+        (folder / "x.stl.relievo-GHIJKL").symlink_to("../precious.txt")
+        (folder / "index.html").chmod(0o444)
+        others = [Path("precious.txt"), *folder.iterdir()]
+        for path in others:
+            os.utime(path, ns=(1_600_000_000_123_456_789,) * 2, follow_symlinks=False)
+
+        def found(path):
+            return path.is_symlink(), path.read_bytes(), path.lstat().st_mode, path.lstat().st_mtime_ns
+
+        before = {path: found(path) for path in others}
+        self.relief.save("outputs/x.stl", preview="outputs/x.png", report="outputs/x.json")
+        with self.assertRaises(Error):
+            self.relief.save("outputs/y.stl", preview="no/such/folder/y.png")
+        ours = {folder / name for name in ["x.stl", "x.png", "x.json"]}
+        self.assertEqual({*folder.iterdir(), Path("precious.txt")} - ours, set(before))
+        self.assertEqual({path: found(path) for path in others}, before)
+
     def test_batch_refuses_a_folder_of_others(self):
         Path("many").mkdir()
         Path("many/index.html").write_text("of somebody else")
