@@ -99,7 +99,17 @@ TEST_F(Cli, MakesProjects) {
   EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
 }
 
-TEST_F(Cli, MakesScenes) {
+class CliScenes : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    write_all(folder_ / "scene.json", R"({"models": [
+      {"file": "torus.ply", "rotate": [60, 0, 0], "translate": [0, 0, 1.5]},
+      {"file": "torus.ply", "scale": 1.5, "mirror": true}]})");
+  }
+};
+
+TEST_F(CliScenes, OfSeveralInputsAreARowAsASceneFileDescribesIt) {
   write_all(folder_ / "wedge.stl", ascii_stl());
   EXPECT_EQ(
       run("make torus.ply wedge.stl torus.ply -o row.stl --report r.json --points 20000 --quiet").exit_code,
@@ -113,15 +123,18 @@ TEST_F(Cli, MakesScenes) {
             R"({"models": [{"file": "../torus.ply"}, {"file": "wedge.stl"}, {"file": "../torus.ply"}]})");
   EXPECT_EQ(run("make models/row.json -o same.stl --points 20000 --quiet").exit_code, 0);
   EXPECT_EQ(read_all(folder_ / "row.stl"), read_all(folder_ / "same.stl"));
-  write_all(folder_ / "scene.json", R"({"models": [
-    {"file": "torus.ply", "rotate": [60, 0, 0], "translate": [0, 0, 1.5]},
-    {"file": "torus.ply", "scale": 1.5, "mirror": true}]})");
+}
+
+TEST_F(CliScenes, AreInputsOfAllCommandsAndOfProjects) {
   EXPECT_EQ(run("make scene.json -o scene.stl --quiet").exit_code, 0);
   write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "scene.json"}, "options": {}})");
   EXPECT_EQ(run("make p.relievo -o p.stl --quiet").exit_code, 0);
   EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "scene.stl"));
   EXPECT_NE(run("compare scene.json --height 0.02 --methods layered").out.find("layered"), std::string::npos);
   EXPECT_NE(run("info scene.json").out.find("models     2"), std::string::npos);
+}
+
+TEST_F(CliScenes, AreRefusedWithOtherInputsWithoutAFileAndOverTheirInputs) {
   expect_refusal("make scene.json -o scene.json", "scene.json");
   expect_refusal("make torus.ply torus.ply -o torus.ply", "torus.ply: expected different files");
   expect_refusal("make scene.json torus.ply -o t.stl", "scene.json: expected a scene file alone");
