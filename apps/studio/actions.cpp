@@ -132,12 +132,20 @@ Result<Answer> Actions::leave(const Json& json) {
   return done();
 }
 
-// Keeps the state of a document. If a newer state is kept, answers with status 409 instead.
+// With `storing_` locked: returns whether a document was opened, or is kept.
+bool Actions::is_known(const std::string& id) {
+  return opened_.with([&](const auto& opened) { return opened.contains(id); }) || store_.document(id) != "";
+}
+
+// Keeps the state of a document unless a newer one is kept: then answers with status 409. The start page counts
+// documents, and lists those with a scan.
 Result<Answer> Actions::keep(const Json& json) {
   const std::string id = json.value("document", "");
   const Json state = json.value("state", Json());
   if (!state.is_object()) return refusal(400, "expected a state");
   const Lock lock(storing_);
+  if (is_document(id) && !is_known(id) && !input_of(state.dump()))
+    return refusal(400, "expected the state of a document with a scan");
   RELIEVO_TRY(const double newest, time_of_newest(id));
   if (time_of(state) < newest)
     return answer_of(Json{{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
@@ -155,8 +163,10 @@ Result<Answer> Actions::keep_picture(const Json& json) {
   const std::string picture = json.value("picture", "");
   if (!picture.starts_with("data:image/jpeg;base64,") || picture.size() > most_picture)
     return refusal(400, "expected a small picture");
+  const std::string id = json.value("document", "");
   const Lock lock(storing_);
-  RELIEVO_CHECK(store_.keep_picture(json.value("document", ""), picture));
+  if (is_document(id) && !is_known(id)) return refusal(400, "expected the picture of a kept document");
+  RELIEVO_CHECK(store_.keep_picture(id, picture));
   return done();
 }
 

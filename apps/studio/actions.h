@@ -84,6 +84,7 @@ class Actions {
   nlohmann::json recent_list(const std::string& after = {});
   Result<nlohmann::json> kept_state(const std::string& id) const;
   Result<double> time_of_newest(const std::string& id);
+  bool is_known(const std::string& id);
   Result<std::shared_ptr<Engine>> open_document(const ScanSource& input, const std::string& tab);
   nlohmann::json status_of(const OpenDocuments::Entry& entry);
 

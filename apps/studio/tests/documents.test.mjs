@@ -307,6 +307,20 @@ test("keeps every document with its scan until it is removed, and says how much 
   await other.stop();
 });
 
+test("keeps nothing of a document that has no scan and was not opened", async () => {
+  const other = await studioIn("unknown"), document = "0123456789abcdef", picture = "data:image/jpeg;base64,AAAA";
+  const before = filesIn(path.join(folder, "unknown"));
+  for (const state of [{changed: 5}, {changed: 5, at: 1, steps: [{input: {sample: "shell"}}]}])
+    assert.equal((await keep(other, document, state)).status, 400);
+  assert.equal((await other.post("picture", {document, picture})).status, 400);
+  assert.deepEqual(filesIn(path.join(folder, "unknown")), before);
+  assert.deepEqual(await other.json("kept"), {documents: 0, bytes: 0});
+  await keep(other, document, stateOf({sample: "shell"}, 3, 5));
+  assert.equal((await other.post("picture", {document, picture})).status, 200);
+  assert.equal((await other.json("kept")).documents, (await other.json("recent")).recent.length);
+  await other.stop();
+});
+
 test("lists a document while its scan is being opened, before anything of it is kept", async () => {
   const other = await studioIn("opening"), input = {path: scan};
   const {document} = await other.json("open", {input, tab: "a"});

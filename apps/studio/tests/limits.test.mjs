@@ -132,7 +132,8 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   });
   await sleep(1000);
   for (let i = 0; i < 5; ++i) {
-    const {status, body} = await engine.post("state", {document, state: {changed: 2 + i}});
+    const kept = {changed: 2 + i, at: 0, steps: [{input: {sample: "shell"}}]};
+    const {status, body} = await engine.post("state", {document, state: kept});
     assert.equal(status, 200, String(body));
     await stillWorks();
   }
@@ -185,7 +186,7 @@ test("keeps apart what two studios keep, and says so", async () => {
   const kept = async (of) => (await of.kept({sample: "shell"})).from;
   const {document} = await first.json("document", {input: {sample: "shell"}});
   for (const [of, from] of [[first, "first"], [second, "second"]]) {
-    await of.post("state", {document, state: {from}});
+    await of.post("state", {document, state: {from, at: 0, steps: [{input: {sample: "shell"}}]}});
     assert.equal(await kept(of), from);
   }
   await first.stop();
