@@ -192,8 +192,10 @@ class BatchProgram : public CliFolder {
 };
 
 TEST_F(BatchProgram, MakesWhatMakeMakes) {
+  write_all(folder_ / "scans/notes.txt2", "no scan");
   const Outcome outcome = run(std::string("batch scans -o out") + quick);
   EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("not taken for scans: notes.txt2"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("expected 4 reliefs, made 3; 1 failed"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("failed: bad: "), std::string::npos) << outcome.err;
   for (const char* name : {"1", "2", "3"}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "common/archive.h"
@@ -77,6 +78,19 @@ TEST_F(CliSolids, MakesEveryForm) {
   EXPECT_NEAR(mirror.volume() / relief.volume(), 1, 1e-5);
   const double block = size.x() * size.y() * (2 * 3 + 2);
   EXPECT_NEAR((relief.volume() + die.volume()) / block, 1, 1e-4);
+}
+
+// The arc of the ground is as long as the flat plate, and its chord is the width of the file.
+TEST_F(CliSolids, TellsHowWideASphereLeavesTheGround) {
+  const Outcome made =
+      run("make torus.ply -o s.stl --wrap sphere:turn=100 --outline circle --diameter 110 --height 2");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const double pi = std::numbers::pi, chord = 110 * 360 / (100 * pi) * std::sin(50 * pi / 180);
+  const std::string_view before = "which leaves it ";
+  const std::size_t at = made.err.find(before);
+  ASSERT_NE(at, std::string::npos) << made.err;
+  EXPECT_NEAR(std::stod(made.err.substr(at + before.size())), chord, .01);
+  EXPECT_NEAR(solid_in_stl(read_all(folder_ / "s.stl")).box().size().x(), chord, .05);
 }
 
 }  // namespace

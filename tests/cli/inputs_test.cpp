@@ -48,6 +48,23 @@ TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   EXPECT_EQ(line_of(run("info s.json").out, "from"), "0, 0, 50");
 }
 
+// A small ball beside a button is left out, and so is noise. Each line names the option that keeps it.
+TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
+  const Cloud crumb = moved(sphere(200, .03), {1.6, 0, 0});
+  write_all(folder_ / "button.ply", write_ply(joined(button(40000, 1, .15), crumb)));
+  const std::string crumbs =
+      "left out 1 small piece of the surface; --crumbs keep keeps all but single specks";
+  EXPECT_NE(run("make button.ply -o t.stl --resolution 1").err.find(crumbs), std::string::npos);
+  EXPECT_EQ(run("make button.ply -o t.stl --resolution 1 --crumbs keep").err.find("small piece"),
+            std::string::npos);
+  write_all(folder_ / "noisy.ply", write_ply(noisy(torus(20000, 1, .4), .01, .2)));
+  const Outcome smooth = run("make noisy.ply -o t.stl --resolution 1 --height 2");
+  EXPECT_NE(smooth.err.find("removed noise of "), std::string::npos) << smooth.err;
+  EXPECT_NE(smooth.err.find(" sampling distances; --denoise 0 keeps it"), std::string::npos) << smooth.err;
+  EXPECT_EQ(run("make noisy.ply -o t.stl --resolution 1 --height 2 --denoise 0").err.find("noise"),
+            std::string::npos);
+}
+
 TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
   std::string text = read_all(folder_ / "torus.ply");
   const std::string end = "end_header\n";

@@ -217,6 +217,12 @@ test("says what the eye sees, and the paper's symbol in the tip", async () => {
   await soon.match(() => page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
   const tip = await page.getByText("Plate thickness", {exact: true}).getAttribute("title");
   assert.equal(tip, "Smallest thickness of the plate, without the relief");
+  await soon.deepEqual(() => option("alpha").evaluate((input) => [input.ariaLabel, input.placeholder, input.value]),
+    ["Flatness", "no effect", ""]);
+  await soon.equal(() => page.getByLabel("Precision", {exact: true}).getAttribute("data-option"), "mode");
+  const words = await page.locator("body *").evaluateAll((all) => all.flatMap((element) =>
+    [element.textContent, element.title, element.ariaLabel, element.placeholder]).join(" "));
+  for (const word of [/Solver/i, /Height coefficient/i, /\|k\|/]) assert.doesNotMatch(words, word);
 });
 
 const PANELS = {

@@ -418,6 +418,8 @@ test("opens a mesh and looks at it from where the view is", async () => {
   run("make", scan, "-o", mesh, "--height", 6);
   const other = await studioIn("mesh");
   await other.open({path: mesh});
+  const texts = (await other.json("facts")).remarks.map(({text}) => text);
+  assert.match(texts.join("\n"), /^The points are taken from a mesh of \d+ triangles: with fewer points from meshes, below,/m);
   const options = {...OPTIONS, view: "1,0.5,2", height: 1, width: 20, mode: "auto"};
   await other.prepare({view: options.view});
   writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "mesh.stl"}, options}));
