@@ -82,7 +82,8 @@ TEST(HeightField, IsTheTrianglesHeightOfAllForms) {
     }
 }
 
-// Walls are too steep for a rasteriser with fixed fractions of a pixel.
+// The wall is so steep that a rasteriser which rounds corners to fractions of a pixel could put it on the
+// wrong side of a pixel's centre.
 TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   const auto wall = [](double x, double) { return x < 10 ? 3. : 0.; };
   HeightFieldMesh front = grid_front({20, 20, 20, 20}, wall);
