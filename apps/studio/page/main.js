@@ -178,8 +178,10 @@ function pictured(frame, ms, isFine) {
   const {u, options: {height}} = doc.now; // the picture may have been requested before u or the height was typed
   const isNewest = u === null ? frame.options.height === height : frame.u === u;
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
-    doc.note({u: frame.u, options: {height: clamp(frame.height_mm, 1e-3, 1e5)}});
-    sliders.all.height.show(doc.now.options.height);
+    const slider = sliders.all.height, rounded = slider.rounded(frame.height_mm);
+    // A height that was computed is shown as rounded as the slider's own ones, unless it is very low.
+    doc.note({u: frame.u, options: {height: rounded < 0.1 ? clamp(frame.height_mm, 1e-3, 0.1) : rounded}});
+    slider.show(doc.now.options.height);
   }
   sliders.showWidth();
   if (opened.status.busy) showProgress(opened.status, false);

@@ -166,6 +166,7 @@ test("keeps a height that is typed while the picture of the one before is drawn,
   assert.equal((await next).postDataJSON().options.height, 4);
   await untilReady(page);
   assert.ok(Math.abs((await value("height")) - 4) < 0.2); // without a lock it is met roughly; it was 3.2
+  assert.match(await option("height").inputValue(), /^\d+\.\d\d$/);
   await free();
 });
 
