@@ -310,9 +310,13 @@ test("keeps every document with its scan until it is removed, and says how much 
 test("keeps nothing of a document that has no scan and was not opened", async () => {
   const other = await studioIn("unknown"), document = "0123456789abcdef", picture = "data:image/jpeg;base64,AAAA";
   const before = filesIn(path.join(folder, "unknown"));
+  const isRefused = ({status, body}, why) => {
+    assert.equal(status, 400);
+    assert.ok(String(body).includes(why), String(body));
+  };
   for (const state of [{changed: 5}, {changed: 5, at: 1, steps: [{input: {sample: "shell"}}]}])
-    assert.equal((await keep(other, document, state)).status, 400);
-  assert.equal((await other.post("picture", {document, picture})).status, 400);
+    isRefused(await keep(other, document, state), "expected the state of a document with a scan");
+  isRefused(await other.post("picture", {document, picture}), "expected the picture of a kept document");
   assert.deepEqual(filesIn(path.join(folder, "unknown")), before);
   assert.deepEqual(await other.json("kept"), {documents: 0, bytes: 0});
   await keep(other, document, stateOf({sample: "shell"}, 3, 5));
