@@ -1,5 +1,5 @@
-// Solving with the factor: forward and backward substitution in single precision, iterative refinement in
-// double precision. Tested by tests/solver/cholesky_test.cpp.
+// Solves with the factor, by forward and backward substitution in single precision and iterative refinement
+// in double precision. Tested by tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <cmath>
 
