@@ -39,7 +39,7 @@ class Frame:
 
     @property
     def u(self) -> float:
-        """The strength of the compression that was found. 0 is flat, 1 the method's own, above 1 is higher."""
+        """The compression that was found: 0 makes a relief flat, 1 gives the method's own height, and more is higher."""
         return self._native.u()
 
     @property
