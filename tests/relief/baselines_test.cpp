@@ -44,8 +44,8 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   }
 }
 
-// A level face has only one depth, and of four points all are on the boundary. So no method gives them a
-// height.
+// All points of a level face have the same depth, and four points are all on the boundary. So no method gives
+// either of them a height.
 TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
   Cloud four;
   four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
