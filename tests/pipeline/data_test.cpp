@@ -1,4 +1,4 @@
-// Every real scan that is at hand becomes a valid solid of the height asked for.
+// Checks that every real scan that is at hand becomes a valid solid with the height that was asked for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
