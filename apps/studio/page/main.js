@@ -175,12 +175,13 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  const {u, options: {height}} = doc.now; // the picture may have been requested before u or the height was typed
-  const isNewest = u === null ? frame.options.height === height : frame.u === u;
+  const {u, options} = doc.now; // the picture may have been requested before u or the height was typed
+  const isNewest = u === null ? frame.options.height === options.height : frame.u === u;
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     const slider = sliders.all.height, rounded = slider.rounded(frame.height_mm);
-    // A height that was computed is shown as rounded as the slider's own ones, unless it is very low.
-    doc.note({u: frame.u, options: {height: rounded < 0.1 ? clamp(frame.height_mm, 1e-3, 0.1) : rounded}});
+    // A computed height gets the slider's own decimals, unless it is so low that these would change it much.
+    const height = rounded < 0.1 ? frame.height_mm : rounded;
+    doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
     slider.show(doc.now.options.height);
   }
   sliders.showWidth();
