@@ -89,9 +89,8 @@ export class RandomEntries {
     const isConfirmed = this.random() < 0.7;
     this.done.push(`${name} ${text}${isConfirmed ? " Enter" : ""}`);
     // An entry that was not confirmed is lost if another one is typed over it.
-    if (this.unconfirmed?.name === name) Object.assign(this.typed, {[name]: this.unconfirmed.before});
-    if (this.typed[name] === undefined) delete this.typed[name];
-    this.unconfirmed = isConfirmed ? null : {name, before: this.typed[name]};
+    if (this.unconfirmed?.name === name) this.typed = this.unconfirmed.before;
+    this.unconfirmed = isConfirmed ? null : {name, before: {...this.typed}};
     await field.focus();
     await keyboard.press("Control+a");
     await keyboard.type(text, {delay: this.oneOf([0, 0, 30])});
