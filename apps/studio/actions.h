@@ -94,8 +94,8 @@ class Actions {
   Store& store_;
   Mutex storing_;         // guards store_ and first_; disk operations may lock it for long
   nlohmann::json first_;  // the input with which the first page begins, or null
-  Guarded<std::map<std::string, Opened>>
-      opened_;  // by document; locked briefly, also while storing_ is locked
+  // The open documents, by their ids. They are locked only briefly, also while storing_ is locked.
+  Guarded<std::map<std::string, Opened>> opened_;
 };
 
 }  // namespace relievo::app::studio
