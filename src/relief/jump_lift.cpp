@@ -102,8 +102,9 @@ std::vector<Field> reference_heights(const JumpLiftInput& input) {
 // The movable points around inverted jumps, with their edges.
 struct Band {
   struct Edge {
-    Index
-        to;  // the point's number in the band; points.size() stands for all points outside, which do not move
+    // The number of the other point in the band. points.size() stands for all points outside the band, which do
+    // not move.
+    Index to;
     int side;  // see side_of_jump()
     float weight;
   };
