@@ -13,8 +13,8 @@
 namespace relievo {
 
 struct CoarseVisibility {
-  // Of the cells' front points, the fraction whose normals face the viewer. Points seen nearly edge on are
-  // left out of both counts. 0.5 if no points are left.
+  // The share of the cells' front points whose normals face the viewer. Points that are seen nearly edge on
+  // are not counted. The share is 0.5 if no points are left.
   double facing_share = .5;
   // The sum of the normal differences between neighbouring cells, without those across depth jumps.
   double normal_variation = 0;
