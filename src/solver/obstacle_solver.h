@@ -15,7 +15,7 @@ namespace relievo::solver {
 struct Springs {
   float stiffness = 0;      // factor of b^2 at each free node, >= 0
   float tie_stiffness = 1;  // factor of the ties, >= 0
-  // Where b at a tie is below this value, the tie also pulls it back to this value.
+  // A tie pulls b back to this value if b is lower there.
   float least_at_ties = -std::numeric_limits<float>::infinity();
   float stop_stiffness = 10;  // factor of that pull, >= 0
 };
