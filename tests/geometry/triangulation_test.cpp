@@ -289,9 +289,8 @@ TEST(Delaunay, DoesNotDependOnExactMovesAndScales) {
   EXPECT_EQ(triangles_of([](const Vec2& p) { return Vec2(-p.y(), p.x()); }), expected);
 }
 
-// Of four points on a circle, either pair of opposite ones may be joined. The choice, drawn as the diagonals
-// of a grid's cells, must be the same on every machine. (A change of the order of insertion may change the
-// picture.)
+// Either diagonal of four points on a circle may be chosen. The choice, drawn for the cells of a grid, must be
+// the same on every machine. (A change of the order of insertion may change the picture.)
 TEST(Delaunay, ChoosesTheSameDiagonalsEverywhere) {
   const int side = 6;
   const Points points = grid_points(side, side);

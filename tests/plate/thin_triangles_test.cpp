@@ -15,7 +15,7 @@ Solid surface_of(std::vector<Vec3> points, std::vector<Triangle> triangles) {
 }
 
 TEST(ThinTriangles, AreFlipped) {
-  // Of the points a, b, c and d, c lies almost on the edge ab, and d on the other side of this edge.
+  // The third point lies almost on the edge between the first two, the fourth on the other side of this edge.
   Solid solid = surface_of({{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1.0001}, {1, -1, 1}}, {{0, 1, 2}, {1, 0, 3}});
   EXPECT_NEAR(flip_thin_triangles(solid), 1e-4, 1e-12);
   EXPECT_EQ(solid.triangles, (std::vector<Triangle>{{0, 3, 2}, {3, 1, 2}}));
