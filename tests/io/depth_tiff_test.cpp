@@ -135,8 +135,8 @@ TEST(DepthTiff, ReadsFractions) {
   EXPECT_EQ(special->values[4], -2);
 }
 
-// Where no height is known, terrain models have the lowest floating-point number. Not all have a tag that
-// says so.
+// Terrain models have the lowest floating-point number at places of unknown height. Not all of them have a tag
+// that says so.
 TEST(DepthTiff, TakesTheLowestFractionForNone) {
   const auto image = read_tiff({32, 3}, pixels_of([](int i) {
                                  constexpr float all[] = {-3.4028235e38F, -3.4e38F, -9999, 7};
