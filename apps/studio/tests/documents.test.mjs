@@ -41,6 +41,11 @@ test("keeps a document for each scan, and the newer state of each", async () => 
   const {recent} = await engine.json("recent");
   assert.deepEqual(recent.map((entry) => entry.document), [...ids].reverse());
   assert.equal(recent[2].picture, picture);
+  for (let round = 0; round < 50; round++) {
+    for (const i of [2, 0, 1]) await keep(engine, ids[i], stateOf(inputs[i], i + 1, 101 + round));
+    const order = (await engine.json("recent")).recent.map((entry) => entry.document);
+    assert.deepEqual(order, [ids[1], ids[0], ids[2]], "the newest come first, however fast they follow one another");
+  }
   for (const document of ["../x", "", "0123", 3])
     assert.ok((await keep(engine, document, {changed: 1})).status >= 400, `${document}`);
 });
