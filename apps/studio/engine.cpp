@@ -86,7 +86,7 @@ struct Engine::State {
   // Returns the preparation of a view of the scan that was requested last.
   Preparation preparation_of(const ReliefOptions& options) {
     Preparation preparation;
-    const auto chosen = std::make_shared<View>(options.view);
+    const auto chosen = std::make_shared<View>(options.effective_view());
     preparation.points = [this, chosen, number = options.points](Progress& progress) {
       return points(*chosen, number, progress);
     };
@@ -365,7 +365,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
   const NumberedModel shown = state_->shown_model();
   const auto& model = shown.model;
   if (!model) return nothing_open();
-  if (options.view != model->surface().view)
+  if (options.effective_view() != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");

@@ -112,6 +112,10 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
+// Checks that the model was prepared for the method of the options: Method::paper has models of its own, and all
+// other methods share theirs. Errors: kind option.
+Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
+
 // Checks that the bevel of the options' rim leans at least as much as the draft angle requires, for a relief
 // of that height. make_relief() does this itself. Errors: kind option.
 Result<void> check_rim(const ReliefOptions& options, double height_mm);

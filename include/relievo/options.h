@@ -86,14 +86,17 @@ struct ReliefOptions : NumericOptions {
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // The plate of a lithophane is thin, because light has to pass through its thinnest places.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
+  // Returns the view, for the paper's method without removal of noise and of crumbs.
+  View effective_view() const;
   double effective_saturation() const;
   double effective_detail() const;
   double effective_boundary_width() const;
 };
 
 // Checks every range, and that options do not contradict each other. Contradictions are: height and alpha;
-// alpha and a method other than the paper's; saturation or detail for a method that has none; a size of the
-// plate that its outline cannot have. Errors: kind option, naming the option.
+// alpha and a method other than the paper's; saturation or detail for a method that has none; a tone curve or
+// steps for the paper's method; a size of the plate that its outline cannot have. Errors: kind option, naming
+// the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

@@ -103,6 +103,8 @@ Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
     const Method method = options.effective_method();
     if (!has_shape(method))
       return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
+    // While a model is turned, its coarse surface serves all methods.
+    if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
     RELIEVO_TRY(ReliefOptions sized, with_width(options));
     sized.height_mm = sized.effective_height_mm();
     return make_frame(sized);
@@ -219,7 +221,7 @@ Result<Job> load(std::span<const std::byte> file, std::string_view name) {
 
 Result<LiveModel> prepare(const Job& job, Progress* progress) {
   return within_memory([&]() -> Result<LiveModel> {
-    const View view = chosen_view(job.inputs, job.options.view);
+    const View view = chosen_view(job.inputs, job.options.effective_view());
     RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
     RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.mode, progress));
     return LiveModel({std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1},

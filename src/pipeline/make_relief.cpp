@@ -16,6 +16,7 @@
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "relievo/scene.h"
+#include "scan/measured_cloud.h"
 
 namespace relievo {
 namespace {
@@ -208,6 +209,7 @@ Shape shape_of(const ReliefOptions& options) {
   Shape shape{Compression::from_alpha(options.effective_alpha(), options.effective_saturation()),
               options.effective_detail()};
   shape.style = default_shape(options.effective_method()).style;
+  shape.is_beta_free = options.effective_method() == Method::paper && !options.saturation;
   if (options.steepest_deg) shape.max_slope = std::tan(to_radians(*options.steepest_deg));
   shape.boundary_width = options.effective_boundary_width();
   shape.steps = options.steps;
@@ -221,14 +223,15 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {
   return within_memory({.points = points.size()}, [&]() -> Result<ReliefModel> {
-    RELIEVO_TRY(Surface surface, find_surface(points, view, progress));
-    return ReliefModel::prepare(std::move(surface), progress, mode);
+    RELIEVO_TRY(const auto measured, MeasuredCloud::measure(points, view, progress));
+    return ReliefModel::of_view(*measured, view, mode, progress);
   });
 }
 
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
   return within_memory(need_of(model, asked), [&]() -> Result<double> {
     RELIEVO_CHECK(check(asked));
+    RELIEVO_CHECK(check_model(model, asked));
     RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
     options.height_mm.reset();
     RELIEVO_TRY(const Relief relief, shape_relief(model, options, uncompressed(shape_of(options)), progress));
@@ -236,9 +239,18 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
   });
 }
 
+Result<void> check_model(const ReliefModel& model, const ReliefOptions& options) {
+  const bool is_paper = options.effective_method() == Method::paper;
+  if (is_paper == (model.paper() != nullptr)) return {};
+  return option_error("method",
+                      cat("expected ", is_paper ? "another than paper" : "paper",
+                          ", as the model was prepared for that; prepare it again with this method"));
+}
+
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
   return within_memory(need_of(model, options), [&]() -> Result<MadeRelief> {
     RELIEVO_CHECK(check(options));
+    RELIEVO_CHECK(check_model(model, options));
     return make_checked(model, options, progress);
   });
 }

@@ -24,6 +24,8 @@ Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
   if (method != Method::paper && options.alpha)
     return option_error("alpha", cat("expected method paper with it, found ", name_of(method)));
+  if (method == Method::paper && (options.tone || options.steps > 0))
+    return option_error("method", "expected neither tone nor steps with method paper, found one");
   const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
                          options.boundary_width || options.tone || options.steps > 0;
   if (is_shaped && !has_shape(method))
@@ -136,6 +138,15 @@ Method ReliefOptions::effective_method() const {
 std::optional<double> ReliefOptions::effective_height_mm() const {
   if (effective_method() == Method::paper || form == Form::lithophane) return height_mm;
   return usual_height_mm();
+}
+
+View ReliefOptions::effective_view() const {
+  View seen = view;
+  if (effective_method() != Method::paper) return seen;
+  seen.is_paper = true;
+  seen.has_crumbs = true;
+  seen.denoise = 0;
+  return seen;
 }
 
 double ReliefOptions::effective_saturation() const {

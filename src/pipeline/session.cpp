@@ -139,8 +139,7 @@ struct Session::State {
     });
     make_first(view);
     RELIEVO_CHECK(check_cancelled(&progress));
-    RELIEVO_TRY(Surface surface, find_surface(*measured, view, &progress));
-    RELIEVO_TRY(ReliefModel model, ReliefModel::prepare(std::move(surface), &progress, wanted.mode));
+    RELIEVO_TRY(ReliefModel model, ReliefModel::of_view(*measured, view, wanted.mode, &progress));
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 

@@ -1,13 +1,15 @@
 #include "relievo/relief/frame.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <variant>
 
+#include "core/memory.h"
+#include "core/stopwatch.h"
 #include "relief/height_search.h"
 #include "relief/jump_lift.h"
+#include "relief/paper_frames.h"
 #include "relief/sliced_ell_matrix.h"
 #include "relief/style.h"
 #include "relief/weight_table.h"
@@ -19,15 +21,6 @@
 namespace relievo {
 namespace {
 
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
 using SolverWorkspace = std::variant<HeightSystem::Workspace, SubspaceModel::Workspace>;
 
 SolverWorkspace make_workspace(const ReliefModel& model) {
@@ -35,9 +28,8 @@ SolverWorkspace make_workspace(const ReliefModel& model) {
   return model.subspace()->make_workspace();
 }
 
-}  // namespace
-
-struct FrameMaker::State {
+// Frames of a model of any method but the paper's.
+struct OwnFrames {
   const ReliefModel& model;
   const Surface& surface = model.surface();
   SlicedEllMatrix normal_matrix =
@@ -55,7 +47,7 @@ struct FrameMaker::State {
   HeightSearch::Track last_height, last_steps;  // results of the last searches by u and by steps
   bool needs_steps = false;                     // whether slopes alone did not reach the last locked height
 
-  explicit State(const ReliefModel& m) : model(m) {}
+  explicit OwnFrames(const ReliefModel& m) : model(m) {}
 
   std::size_t size() const { return surface.points.size(); }
 
@@ -164,6 +156,48 @@ struct FrameMaker::State {
         heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });
   }
+
+  // Makes the relief; `frame` has its options, and room for its points.
+  void make(Frame& frame) {
+    set_boundary_width(frame.options.shape.boundary_width);
+    if (frame.options.height)
+      raise_to(*frame.options.height, frame.options.shape, frame);
+    else
+      raise(frame.options.shape, std::nullopt, frame);
+    finish(frame);
+    const Stopwatch watch;
+    normal_matrix.normals(frame.heights, frame.normals);
+    frame.times.normals_s = watch.seconds();
+  }
+
+  void write_gains(std::vector<float>& gains) const {
+    gains.resize(size());
+    with_style(made, [&](const auto& style) {
+      parallel_for(gains.size(), [&](std::size_t i) {
+        gains[i] = style.gain(input, i, weight(input.k[i]), input.boundary_weight[i]);
+      });
+    });
+  }
+
+  std::size_t memory() const {
+    const std::size_t solver = std::visit([](const auto& w) { return w.memory(); }, workspace);
+    return normal_matrix.memory() + solver + correction_workspace.memory() + bytes(slopes) +
+           bytes(boundary_weight);
+  }
+};
+
+}  // namespace
+
+struct FrameMaker::State {
+  using Frames = std::variant<OwnFrames, PaperFrames>;
+
+  explicit State(const ReliefModel& m)
+      : model(m),
+        frames(m.paper() ? Frames(std::in_place_type<PaperFrames>, m)
+                         : Frames(std::in_place_type<OwnFrames>, m)) {}
+
+  const ReliefModel& model;
+  Frames frames;
 };
 
 std::vector<Vec3f> vertex_normals(const Surface& surface, std::span<const float> heights) {
@@ -178,37 +212,22 @@ FrameMaker::FrameMaker(FrameMaker&&) noexcept = default;
 FrameMaker::~FrameMaker() = default;
 
 void FrameMaker::make(const FrameOptions& options, Frame& frame) {
+  const std::size_t size = state_->model.surface().points.size();
   frame.options = options;
-  frame.heights.resize(state_->size());
-  frame.normals.resize(state_->size());
+  frame.heights.resize(size);
+  frame.normals.resize(size);
   frame.times = {};
   frame.is_height_met = true;
-  state_->set_boundary_width(options.shape.boundary_width);
-  if (options.height)
-    state_->raise_to(*options.height, options.shape, frame);
-  else
-    state_->raise(options.shape, std::nullopt, frame);
-  state_->finish(frame);
-
-  const Stopwatch watch;
-  state_->normal_matrix.normals(frame.heights, frame.normals);
-  frame.times.normals_s = watch.seconds();
+  std::visit([&](auto& frames) { frames.make(frame); }, state_->frames);
 }
 
 void FrameMaker::write_gains(std::vector<float>& gains) const {
-  const SlopeInput& input = state_->input;
-  gains.resize(state_->size());
-  with_style(state_->made, [&](const auto& style) {
-    parallel_for(gains.size(), [&](std::size_t i) {
-      gains[i] = style.gain(input, i, state_->weight(input.k[i]), input.boundary_weight[i]);
-    });
-  });
+  if (const auto* own = std::get_if<OwnFrames>(&state_->frames)) return own->write_gains(gains);
+  gains.assign(state_->model.surface().points.size(), 0);  // models of this method have no finer normals
 }
 
 std::size_t FrameMaker::memory() const {
-  const std::size_t workspace = std::visit([](const auto& w) { return w.memory(); }, state_->workspace);
-  return state_->normal_matrix.memory() + workspace + state_->correction_workspace.memory() +
-         state_->slopes.size() * sizeof(Vec2f) + state_->boundary_weight.size() * sizeof(float);
+  return std::visit([](const auto& frames) { return frames.memory(); }, state_->frames);
 }
 
 }  // namespace relievo

@@ -4,11 +4,13 @@
 #include <optional>
 #include <variant>
 
+#include "paper/surface.h"
 #include "relief/height_search.h"
 #include "relief/height_span.h"
 #include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
 #include "relief/membrane/membrane_tuning.h"
+#include "relief/paper_relief.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -16,6 +18,7 @@
 #include "relievo/relief/subspace.h"
 #include "relievo/scan/surface.h"
 #include "scan/jumps.h"
+#include "scan/measured_cloud.h"
 
 namespace relievo {
 
@@ -36,8 +39,11 @@ struct ReliefModel::State {
   };
 
   Surface surface;
-  Parts parts;
-  MembraneTuning tuning;
+  std::variant<Parts, PaperModel> parts_or_paper;
+  MembraneTuning tuning = {};
+
+  const Parts& parts() const { return std::get<Parts>(parts_or_paper); }
+  const PaperModel* paper() const { return std::get_if<PaperModel>(&parts_or_paper); }
 
   static Result<Parts> prepare_parts(const Surface& surface, Progress* progress);
 
@@ -53,23 +59,26 @@ ReliefModel::~ReliefModel() = default;
 const Surface& ReliefModel::surface() const {
   return state_->surface;
 }
+const PaperModel* ReliefModel::paper() const {
+  return state_->paper();
+}
 std::span<const PointLayers> ReliefModel::layers() const {
-  return state_->parts.layers;
+  return paper() ? std::span<const PointLayers>() : state_->parts().layers;
 }
 const HeightSystem* ReliefModel::system() const {
-  return std::get_if<HeightSystem>(&state_->parts.solver);
+  return paper() ? nullptr : std::get_if<HeightSystem>(&state_->parts().solver);
 }
 const SubspaceModel* ReliefModel::subspace() const {
-  return std::get_if<SubspaceModel>(&state_->parts.solver);
+  return paper() ? nullptr : std::get_if<SubspaceModel>(&state_->parts().solver);
 }
 const StepHeights& ReliefModel::steps() const {
-  return state_->parts.steps;
+  return state_->parts().steps;
 }
 const JumpLift& ReliefModel::jump_lift() const {
-  return state_->parts.jump_lift;
+  return state_->parts().jump_lift;
 }
 const HeightCorrection& ReliefModel::correction() const {
-  return state_->parts.correction;
+  return state_->parts().correction;
 }
 MembraneParams ReliefModel::membrane_at(double u) const {
   return state_->tuning.at(u);
@@ -123,14 +132,30 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 
+Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const View& view, Mode mode,
+                                         Progress* progress) {
+  if (!view.is_paper) {
+    RELIEVO_TRY(Surface surface, find_surface(measured, view, progress));
+    return prepare(std::move(surface), progress, mode);
+  }
+  RELIEVO_TRY(Surface surface, paper::find_surface(measured, view, progress));
+  const bool is_exact = resolve_mode(mode, surface) == Mode::exact;
+  RELIEVO_TRY(
+      PaperModel model,
+      PaperModel::prepare(surface, is_exact ? surface.points.size() : paper_control_points, progress));
+  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(model)}));
+}
+
 Result<ReliefModel> ReliefModel::prepare_like(const ReliefModel* other, Surface surface, Progress* progress) {
   RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
-  const MembraneTuning tuning = other ? other->state_->tuning : MembraneTuning();
+  const bool is_tuned = other && !other->paper();
+  const MembraneTuning tuning = is_tuned ? other->state_->tuning : MembraneTuning();
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 
 std::size_t ReliefModel::memory() const {
-  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->parts.solver);
+  if (const PaperModel* model = paper()) return model->memory() + surface().memory();
+  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->parts().solver);
   return solver + surface().memory() + layers().size_bytes() + correction().memory() +
          steps().z.size() * sizeof(float) + jump_lift().memory();
 }
@@ -149,17 +174,18 @@ std::vector<double> subspace_heights(const SubspaceModel& model, const Shape& sh
 }  // namespace
 
 std::vector<double> ReliefModel::State::solve(const Shape& shape, const SlopeInput& input) const {
-  if (const auto* model = std::get_if<SubspaceModel>(&parts.solver))
+  if (const auto* model = std::get_if<SubspaceModel>(&parts().solver))
     return subspace_heights(*model, shape, input.boundary_weight);
   std::vector<Vec2> slopes(surface.points.size());
   find_slopes(input, shape, slopes);
   std::vector<double> heights(slopes.size());
-  std::get<HeightSystem>(parts.solver).solve(slopes, heights);
+  std::get<HeightSystem>(parts().solver).solve(slopes, heights);
   return heights;
 }
 
 Shape ReliefModel::with_membrane(Shape shape) const {
-  if (shape.style == Style::layered && !shape.membrane) shape.membrane = membrane_at(shape.compression.u);
+  if (shape.style == Style::layered && !shape.membrane && !paper())
+    shape.membrane = membrane_at(shape.compression.u);
   return shape;
 }
 
@@ -208,6 +234,7 @@ class ReliefModel::Maker {
 };
 
 Relief ReliefModel::make(const Shape& shape) const {
+  if (const PaperModel* model = paper()) return make_paper_relief(*model, shape);
   Maker maker(*this, shape);
   Relief relief = maker.raise(shape);
   maker.finish(relief);
@@ -216,6 +243,10 @@ Relief ReliefModel::make(const Shape& shape) const {
 
 Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double unit_mm,
                                            Progress* progress) const {
+  if (const PaperModel* model = paper()) {
+    const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
+    return make_paper_relief_at(*model, height, shape, unit_mm, is_cancelled);
+  }
   Maker maker(*this, shape);
   Relief relief;
   bool is_cancelled = false;

@@ -20,6 +20,7 @@
 #include "scan/noise/noise.h"
 #include "scan/outlines/outline_points.h"
 #include "scan/outlines/small_patches.h"
+#include "scan/viewed_cloud.h"
 
 namespace relievo {
 namespace {
@@ -111,66 +112,7 @@ std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>
   return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
 }
 
-// Returns the points, normals and outlines of a cloud in a view. The colours are left out.
-Cloud turned(const Cloud& cloud, const Mat3& R) {
-  const Eigen::Matrix3f rotation = R.cast<float>();
-  Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};
-  parallel_for(cloud.size(), [&](std::size_t i) { out.points[i] = R * cloud.points[i]; });
-  parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
-  for (const OutlineSegment& s : cloud.outlines)
-    out.outlines.push_back({Vec3(R * s.from), Vec3(R * s.to), s.is_jump});
-  out.is_height_field = cloud.is_height_field && R == Mat3::Identity();
-  return out;
-}
-
-// The whole cloud as the view shows it, with signed normals and without noise.
-struct ViewCloud {
-  Cloud cloud;  // without its colours
-  const MeasuredCloud& measured;
-  double sign = 1;  // -1 if the measured normals were reversed, else 1
-
-  const Spacing& spacing() const { return measured.spacing(); }
-};
-
-// Estimates the normals again and keeps their signs. Uses more neighbours because of the noise.
-void estimate_again(Cloud& cloud, double noise) {
-  constexpr double neighbours = 16, more_neighbours = 48;
-  const std::vector<Vec3f> before = cloud.normals;
-  estimate_normals(cloud, static_cast<std::size_t>(neighbours + more_neighbours * noise));
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
-}
-
-// Gives estimated normals the signs that the view suggests. Only then can the noise be measured; removes it,
-// too.
-void sign_normals(ViewCloud& viewed, Surface& surface) {
-  give_signs(viewed.cloud, viewed.spacing());
-  surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());
-  surface.removed_noise = surface.view.noise_to_remove(surface.measured_noise);
-  if (surface.removed_noise == 0) return;
-  estimate_again(viewed.cloud, surface.removed_noise);
-  remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);
-}
-
-// Does stage 2: turns the cloud into the view, with signed normals and without noise.
-ViewCloud look_at(const MeasuredCloud& measured, Surface& surface) {
-  ViewCloud viewed{turned(measured.cloud(), surface.view.R_view_model), measured};
-  surface.rho = measured.spacing().rho;
-  surface.has_estimated_normals = measured.has_estimated_normals();
-  if (surface.has_estimated_normals) {
-    sign_normals(viewed, surface);
-    return viewed;
-  }
-  surface.measured_noise = measured.measured_noise();
-  surface.removed_noise = measured.removed_noise();
-  surface.has_flipped_normals = measured.do_normals_point_inward() && !all_face_viewer(viewed.cloud);
-  if (!surface.has_flipped_normals) return viewed;
-  flip_normals(viewed.cloud);
-  viewed.sign = -1;
-  return viewed;
-}
-
-std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index> visible,
+std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Index> visible,
                                  const Progress* progress) {
   if (viewed.measured.has_estimated_normals())
     return mean_curvature(viewed.cloud, viewed.spacing(), visible, {}, progress);
@@ -179,12 +121,8 @@ std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index>
   return k;
 }
 
-bool all_look_away(const Cloud& viewed) {
-  return std::ranges::all_of(viewed.normals, [](const Vec3f& n) { return n.z() < 0; });
-}
-
 // Does stages 3 and 4: sets the surface's points, normals and colours.
-Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress* progress) {
+Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "visible points", .3));
   Cloud& cloud = viewed.cloud;
   const Spacing& spacing = viewed.spacing();
@@ -194,13 +132,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
         cat("expected points that lie close together, found ", 100 * removed / (removed + visible.size()),
             " % of those that face the viewer in small groups far from others, without which "
             "most of the figure would be missing"));
-  if (visible.size() < 4)
-    return geometry_error(
-        cat("expected at least 4 points that face the viewer, found ", visible.size(),
-            all_look_away(cloud)
-                ? ": all normals point away from the viewer; look from the other side, or take the "
-                  "normals out of the file if they are wrong: they are then estimated"
-                : "; try another view"));
+  if (visible.size() < 4) return too_few_visible(cloud, visible.size());
   surface.removed_points = removed;
   RELIEVO_CHECK(check_cancelled(progress));
   std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible);
@@ -228,7 +160,7 @@ Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progre
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
   if (surface.triangulation.triangles.empty())
-    return geometry_error("expected visible points that enclose an area, found all of them on one line");
+    return no_area_error();
   surface.boundary = {inside_triangles(xy, surface.triangulation, surface.rho, measures.spacing), {}, {}, {}};
   return check_cancelled(progress);
 }
@@ -259,13 +191,8 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* pro
 }
 
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
-  Surface surface;
-  surface.view = view;
-  surface.centre = measured.centre();
-  surface.diagonal = measured.diagonal();
-  surface.input_points = measured.input_points();
-  surface.repeated_points = measured.repeated_points();
-  ViewCloud viewed = look_at(measured, surface);
+  Surface surface = surface_of_view(measured, view);
+  ViewedCloud viewed = look_at(measured, surface);
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
 
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));

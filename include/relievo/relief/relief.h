@@ -16,10 +16,13 @@ namespace relievo {
 class HeightCorrection;
 class HeightSystem;
 class JumpLift;
+class MeasuredCloud;
+class PaperModel;
 class SubspaceModel;
 struct PointLayers;
 struct StepHeights;
 struct Surface;
+struct View;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
@@ -43,9 +46,14 @@ class ReliefModel {
   // cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
+  // Returns the model of the surface that the view shows. For a view of Method::paper it has the system of
+  // paper() and no other. Errors: those of find_surface() and prepare().
+  static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view, Mode mode,
+                                     Progress* progress = nullptr);
+
   // Prepares a model for exact reliefs that are shown only briefly. Nothing is tuned: the height correction
   // has the parameters of `other`, a model of the same scan in another view, or the defaults if `other` is
-  // null.
+  // null or has no tuning.
   static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface,
                                           Progress* progress = nullptr);
 
@@ -54,6 +62,10 @@ class ReliefModel {
   ~ReliefModel();
 
   const Surface& surface() const;
+
+  // Returns the paper's own system; null for all other methods. If there is one, system() and subspace() are
+  // null, layers() is empty, and steps(), jump_lift() and correction() must not be called.
+  const PaperModel* paper() const;
 
   // Returns the layers of the surface's normals. They are empty in subspace mode, where the control points
   // have their own layers.

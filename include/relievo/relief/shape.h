@@ -53,6 +53,8 @@ struct Shape {
   // requested height, jumps supply the rest.
   double steps = 0;
   Style style = Style::paper;
+  // If true, the search for a height also chooses beta, by Algorithm 1. Used only by ReliefModel::paper().
+  bool is_beta_free = false;
   // Used only by the layered style. If not set, ReliefModel::membrane_at() of the model applies.
   std::optional<MembraneParams> membrane = {};
 

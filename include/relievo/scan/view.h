@@ -30,6 +30,8 @@ struct View {
   bool has_crumbs = false;             // shows small pieces of the surface (crumbs), see find_surface()
   bool has_plane = true;               // shows a table or background, see find_support_plane()
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
+  // True if the surface is found by the rules of Nie et al. alone, for Method::paper: see src/paper/surface.h.
+  bool is_paper = false;
   // True if the best side is to be chosen once the model is known: see chosen_view() in scene.h.
   bool is_best = false;
 

@@ -1,0 +1,44 @@
+// Normal space compression (section 3.3), equations (5) to (7).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "relievo/core/types.h"
+
+namespace relievo::paper {
+
+// The coefficients of height and saturation, and two constants.
+struct Coefficients {
+  // u = alpha^-beta replaces alpha in (6): it gives the same weights, and gives every height at beta = 0, too,
+  // where alpha has no effect. Infinity stands for alpha = 0.
+  double u = 1;
+  double beta = .01;
+  double max_slope = 4;       // steepest slope of an expected normal; 4 is 76 degrees
+  double boundary_width = 2;  // width of (7), in rho
+};
+
+// Equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of |k|; where it is 0,
+// all points get the weight of beta = 0.
+inline double curvature_weight(double k, double delta, const Coefficients& c) {
+  if (c.u == std::numeric_limits<double>::infinity()) return 1;
+  const double power = delta > 0 ? std::pow(std::abs(k) / delta, c.beta) : 1;
+  return 1 - std::exp(-c.u * power);
+}
+
+// Equation (7), for a boundary 2 rho wide: 1 - exp(-(distance / (2 rho))^2).
+inline double boundary_weight(double distance, double width) {
+  return 1 - std::exp(-(distance / width) * (distance / width));
+}
+
+// Equation (5): w n + (1 - w) (0, 0, 1) with w = w_k w_b, written as a slope (dz/dx, dz/dy). The text says that
+// the matrix of (9) is fixed; this is so if each of its rows is divided by the z of the expected normal, and
+// z would be 0 at silhouettes if slopes had no limit.
+inline Vec2 expected_slope(const Vec3& normal, double w, double max_slope) {
+  const Vec3 expected = w * normal + (1 - w) * Vec3::UnitZ();
+  const double length = expected.head<2>().norm();
+  if (!(length <= max_slope * expected.z())) return -max_slope / length * expected.head<2>();
+  return length > 0 ? Vec2(-expected.head<2>() / expected.z()) : Vec2(Vec2::Zero());
+}
+
+}  // namespace relievo::paper

@@ -1,0 +1,104 @@
+#include "paper/heights.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/disjoint_sets.h"
+#include "core/memory.h"
+#include "geometry/neighbours.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo::paper {
+namespace {
+
+constexpr std::size_t neighbours_of_each = 6;
+using Neighbours = std::vector<std::vector<Index>>;
+
+// Returns the points nearest to each point, itself not counted.
+Neighbours nearest_in_plane(std::span<const Vec2> points) {
+  const KdTree<Vec2> tree(points);
+  Neighbours neighbours(points.size());
+  parallel_for(points.size(), [&](std::size_t p) {
+    std::array<Index, neighbours_of_each + 1> found;
+    std::array<double, neighbours_of_each + 1> distances_sq;
+    const std::size_t count = tree.nearest(points[p], found.size(), found.data(), distances_sq.data());
+    std::vector<Index>& own = neighbours[p];
+    for (std::size_t i = 0; i < count && own.size() < neighbours_of_each; ++i)
+      if (found[i] != p) own.push_back(found[i]);
+  });
+  return neighbours;
+}
+
+// Returns the numbers of the points on the base: the boundary, and one point of each set without any.
+std::vector<Index> points_on_base(std::span<const std::uint8_t> is_boundary, const Neighbours& neighbours) {
+  DisjointSets sets(is_boundary.size());
+  for (Index p = 0; p < neighbours.size(); ++p)
+    for (const Index q : neighbours[p]) sets.join(p, q);
+  std::vector<std::uint8_t> has_base(is_boundary.size(), 0);
+  std::vector<Index> on_base;
+  for (Index p = 0; p < is_boundary.size(); ++p)
+    if (is_boundary[p]) on_base.push_back(p), has_base[sets.find(p)] = 1;
+  for (Index p = 0; p < is_boundary.size(); ++p)
+    if (!std::exchange(has_base[sets.find(p)], 1)) on_base.push_back(p);
+  return on_base;
+}
+
+// Returns A^T A.
+Eigen::SparseMatrix<double> normal_matrix(const Neighbours& neighbours, std::span<const Index> on_base) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(4 * neighbours_of_each * neighbours.size() + on_base.size());
+  for (const Index p : on_base) entries.emplace_back(p, p, 1);
+  for (Index p = 0; p < neighbours.size(); ++p)
+    for (const Index q : neighbours[p]) {
+      entries.emplace_back(p, p, 1);
+      entries.emplace_back(q, q, 1);
+      entries.emplace_back(p, q, -1);
+      entries.emplace_back(q, p, -1);
+    }
+  const auto n = static_cast<Eigen::Index>(neighbours.size());
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+}  // namespace
+
+Result<NormalEquations> NormalEquations::build(std::span<const Vec2> points,
+                                               std::span<const std::uint8_t> is_boundary) {
+  const Neighbours neighbours = nearest_in_plane(points);
+  const std::vector<Index> on_base = points_on_base(is_boundary, neighbours);
+  RELIEVO_TRY(auto factor, solver::Cholesky::factor(normal_matrix(neighbours, on_base), points));
+  NormalEquations made(std::move(factor));
+  made.own_.assign(points.size(), Vec2f::Zero());
+  made.begin_.assign(points.size() + 1, 0);
+  for (const std::vector<Index>& each : neighbours)
+    for (const Index q : each) ++made.begin_[q + 1];
+  std::partial_sum(made.begin_.begin(), made.begin_.end(), made.begin_.begin());
+  made.others_.resize(made.begin_.back());
+  std::vector<Index> next(made.begin_.begin(), made.begin_.end() - 1);
+  for (Index p = 0; p < points.size(); ++p)
+    for (const Index q : neighbours[p]) {
+      const Vec2f step = (points[q] - points[p]).cast<float>();
+      made.own_[p] -= step;
+      made.others_[next[q]++] = {p, step};
+    }
+  return made;
+}
+
+std::size_t NormalEquations::memory() const {
+  return factor_.memory() + bytes(own_) + bytes(begin_) + bytes(others_);
+}
+
+// The right-hand side is A^T b. Each row z_p - z_q = s_p . (p - q) adds s_p . (p - q) to the sum of p and takes
+// it from that of q.
+void NormalEquations::solve(std::span<const Vec2f> slopes, std::span<float> heights,
+                            Workspace& workspace) const {
+  parallel_for(size(), [&](std::size_t p) {
+    float sum = slopes[p].dot(own_[p]);
+    for (Index i = begin_[p]; i < begin_[p + 1]; ++i) sum += slopes[others_[i].other].dot(others_[i].step);
+    heights[p] = sum;
+  });
+  factor_.solve(heights, heights, workspace);
+}
+
+}  // namespace relievo::paper

@@ -1,0 +1,49 @@
+// The heights of the control points (section 3.4), equations (8) and (9).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+#include "relievo/solver/cholesky.h"
+
+namespace relievo::paper {
+
+// Equation (9) as A^T A z = A^T b, factored once. A has these rows:
+//   z_p = 0                                                 for each boundary point p,
+//   z_p - z_q = s_p . ((x, y)_p - (x, y)_q)                 for each point p and each of its neighbours q.
+// The neighbours Q of a point are the six points nearest to it in the view plane. The second row is (8),
+// n~_p . (p - q) = 0, divided by the z of n~_p; s_p is the slope of n~_p. Concurrent solves are safe, each with
+// a workspace of its own.
+class NormalEquations {
+ public:
+  using Workspace = solver::Cholesky::Workspace;
+
+  // Prepares the system of points in the view plane. A set of points that neighbours connect, but that has no
+  // boundary point, would have no definite height: the lowest index in it counts as one. Errors: those of
+  // solver::Cholesky::factor().
+  static Result<NormalEquations> build(std::span<const Vec2> points,
+                                       std::span<const std::uint8_t> is_boundary);
+
+  std::size_t size() const { return own_.size(); }
+  std::size_t memory() const;
+  Workspace make_workspace() const { return factor_.make_workspace(); }
+
+  // Writes the heights above the base for one slope per point, in single precision.
+  void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
+
+ private:
+  struct Row {
+    Index other;
+    Vec2f step;  // (x, y)_p - (x, y)_other
+  };
+
+  explicit NormalEquations(solver::Cholesky factor) : factor_(std::move(factor)) {}
+
+  solver::Cholesky factor_;
+  std::vector<Vec2f> own_;    // per point p, the sum of (x, y)_p - (x, y)_q over its neighbours q
+  std::vector<Index> begin_;  // p's part of others_ begins at begin_[p]
+  std::vector<Row> others_;   // the points of which p is a neighbour
+};
+
+}  // namespace relievo::paper

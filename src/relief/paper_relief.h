@@ -1,0 +1,94 @@
+// Reliefs of a model of Method::paper. src/paper/ has its equations.
+// Tested by tests/paper/paper_relief_test.cpp.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "paper/height_to_order.h"
+#include "paper/paper_model.h"
+#include "relief/height_search.h"
+#include "relief/height_span.h"
+#include "relievo/relief/relief.h"
+
+namespace relievo {
+
+// Makes the heights of one model, in single precision. Not for concurrent use.
+class PaperRelief {
+ public:
+  explicit PaperRelief(const PaperModel& model)
+      : model_(model),
+        solve_workspace_(model.make_solve_workspace()),
+        map_workspace_(model.make_map_workspace()),
+        control_heights_(model.control_points()) {}
+
+  // Solves (9) for the shape. What a shape has besides the paper's coefficients does not count.
+  void solve(const Shape& shape) {
+    const Compression& c = shape.compression;
+    model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, control_heights_);
+  }
+
+  // Writes the heights of all visible points for the last solve(), with detail.
+  void map(const Shape& shape, std::span<float> heights) {
+    model_.map(control_heights_, shape.gamma, map_workspace_, heights);
+  }
+
+  // Does both, and returns the height of the relief.
+  double raise(const Shape& shape, std::span<float> heights) {
+    solve(shape);
+    map(shape, heights);
+    return static_cast<double>(span_of(std::span<const float>(heights)).size());
+  }
+
+  std::size_t memory() const { return solve_workspace_.system.memory() + model_.size() * sizeof(float); }
+
+ private:
+  const PaperModel& model_;
+  PaperModel::SolveWorkspace solve_workspace_;
+  PaperModel::MapWorkspace map_workspace_;
+  std::vector<float> control_heights_;
+};
+
+// Finds the shape with the height asked for: by Algorithm 1 if its beta is free, else by its u alone. `raise`
+// makes the relief of `shape` and returns its height. Returns whether the height is met, to 1 % or to
+// `tolerance`; if not, the last relief is the highest one.
+template <typename Raise>
+bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& raise) {
+  if (shape.is_beta_free) {
+    const paper::HeightToOrder found = paper::adjust_to_height(height, [&](double alpha, double beta) {
+      shape.compression = Compression::from_alpha(alpha, beta);
+      return raise();
+    });
+    if (found.is_met) return true;
+  }
+  return HeightSearch(height, tolerance).bracket([&](double log_u) {
+    shape.compression.u = std::exp(log_u);
+    return raise();
+  });
+}
+
+// Returns the relief of that shape.
+inline Relief make_paper_relief(const PaperModel& model, const Shape& shape) {
+  std::vector<float> heights(model.size());
+  const double height = PaperRelief(model).raise(shape, heights);
+  return {{heights.begin(), heights.end()}, height, shape};
+}
+
+// Returns the relief of that height, see ReliefModel::make_at_height(). What the search leaves is scaled away.
+template <typename IsCancelled>
+Result<Relief> make_paper_relief_at(const PaperModel& model, double height, Shape shape, double unit_mm,
+                                    const IsCancelled& is_cancelled) {
+  PaperRelief maker(model);
+  std::vector<float> heights(model.size());
+  double reached = 0;
+  const bool is_met = search_paper_height(
+      height, 1e-5, shape, [&] { return is_cancelled() ? height : reached = maker.raise(shape, heights); });
+  if (is_cancelled()) return cancelled_error();
+  if (!is_met) return out_of_reach(reached * unit_mm, height * unit_mm);
+  Relief relief{{heights.begin(), heights.end()}, height, shape};
+  for (double& z : relief.heights) z *= height / reached;
+  return relief;
+}
+
+}  // namespace relievo

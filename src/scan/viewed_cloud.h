@@ -1,0 +1,29 @@
+// The cloud of a view, before its visible points are known (stage 2).
+// Tested by tests/scan/surface_test.cpp.
+#pragma once
+
+#include "scan/measured_cloud.h"
+
+namespace relievo {
+
+// The whole cloud as the view shows it, with signed normals and without noise.
+struct ViewedCloud {
+  Cloud cloud;  // without its colours
+  const MeasuredCloud& measured;
+  double sign = 1;  // -1 if the measured normals were reversed, else 1
+
+  const Spacing& spacing() const { return measured.spacing(); }
+};
+
+// Returns a surface without points, with what it takes over from the measurements and the view.
+Surface surface_of_view(const MeasuredCloud& measured, const View& view);
+
+// Turns the cloud into the view of the surface, with signed normals and without the noise that the view asks to
+// remove. Sets the surface's rho, its facts about normals, and those about noise.
+ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface);
+
+// Return the errors of a view in which only so many points face the viewer, and of visible points on one line.
+std::unexpected<Error> too_few_visible(const Cloud& viewed, std::size_t visible);
+std::unexpected<Error> no_area_error();
+
+}  // namespace relievo
