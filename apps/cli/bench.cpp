@@ -13,6 +13,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
+#include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
 
@@ -44,11 +45,11 @@ struct BenchResult {
   std::optional<ViewFigures> views;
 };
 
-// Prepares a model of the given mode and measures its frames, first with one thread, then with all.
-Result<void> measure_mode(const Surface& surface, Mode mode, int frames, BenchResult& result) {
-  const std::string name = mode == Mode::exact ? "exact" : "subspace";
+// Prepares a model by `make_model` and measures its frames, first with one thread, then with all.
+template <typename F>
+Result<void> measure_model(const std::string& name, int frames, F&& make_model, BenchResult& result) {
   Progress progress;
-  RELIEVO_TRY(const ReliefModel model, ReliefModel::prepare(surface, &progress, mode));
+  RELIEVO_TRY(const ReliefModel model, make_model(&progress));
   progress.finish();
   for (const StageTime& stage : progress.times())
     result.preparation.push_back({cat(name, ": ", stage.name), stage.seconds});
@@ -56,7 +57,6 @@ Result<void> measure_mode(const Surface& surface, Mode mode, int frames, BenchRe
   if (most_threads > 1) result.frames.push_back(measure_frames(model, {1, frames, false}));
   for (const bool is_locked : {false, true})
     result.frames.push_back(measure_frames(model, {most_threads, frames, is_locked}));
-  result.frames.push_back(measure_frames(model, {most_threads, frames, false, Style::paper}));
   result.memory.push_back({name, bytes_per_point(model)});
   return {};
 }
@@ -75,7 +75,16 @@ Result<BenchResult> measure(const BenchArguments& arguments) {
 
   BenchResult result{surface.input_points, surface.points.size(), progress.times(), {}, {}, {}};
   RELIEVO_TRY(const std::vector<Mode> modes, modes_of(arguments, surface));
-  for (const Mode mode : modes) RELIEVO_CHECK(measure_mode(surface, mode, arguments.frames, result));
+  for (const Mode mode : modes) {
+    const std::string name = mode == Mode::exact ? "exact" : "subspace";
+    RELIEVO_CHECK(measure_model(
+        name, arguments.frames, [&](Progress* stages) { return ReliefModel::prepare(surface, stages, mode); },
+        result));
+    RELIEVO_CHECK(measure_model(
+        name + ", paper", arguments.frames,
+        [&](Progress* stages) { return prepare(*seen.sample.cloud, seen.view.for_paper(), mode, stages); },
+        result));
+  }
   if (arguments.views == 0) return result;
   RELIEVO_TRY(result.views, measure_views({seen.sample.cloud, seen.view, modes.front(), arguments.views}));
   return result;
@@ -87,7 +96,7 @@ void print_table(const BenchResult& r) {
     std::printf("  %-28s %7.3f\n", stage.name.c_str(), stage.seconds);
   std::printf("\n");
   print_frame_head();
-  for (const FrameFigures& f : r.frames) print_frames(f, r.visible_points);
+  for (const FrameFigures& f : r.frames) print_frames(f);
   print_paper_rows();
   if (r.views) print_views(*r.views);
   std::printf("\nmemory after preparation, bytes per visible point\n");
@@ -101,6 +110,7 @@ void print_json(const BenchResult& r) {
   for (const auto& [mode, bytes] : r.memory) memory[mode] = bytes;
   for (const FrameFigures& f : r.frames)
     frames.push_back({{"mode", f.mode},
+                      {"visible_points", f.visible_points},
                       {"control_points", f.control_points},
                       {"threads", f.threads},
                       {"t1_ms", f.heights.percentile(.5)},

@@ -16,6 +16,7 @@
 #include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/render.h"
+#include "relievo/scan/resample.h"
 
 namespace relievo::app::cli {
 namespace {
@@ -81,9 +82,10 @@ class PlatePictures {
   RenderOptions options_;
 };
 
-// Makes reliefs of one model, measures them, and draws them if a page is wanted.
+// Makes reliefs of one scan, measures them on one surface, and draws them if a page is wanted.
 struct Comparer {
   std::shared_ptr<const ReliefModel> model;
+  std::optional<ReliefModel> paper;  // the model of Method::paper, if that is compared
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
 
@@ -92,8 +94,11 @@ struct Comparer {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;
     for (const Method method : comparison.methods) {
-      RELIEVO_TRY(const Relief relief,
-                  make_by_method(method, *model, share * width, default_shape(method), width_mm / width));
+      const ReliefModel& own = method == Method::paper ? *paper : *model;
+      RELIEVO_TRY(Relief relief,
+                  make_by_method(method, own, share * width, default_shape(method), width_mm / width));
+      if (method == Method::paper)
+        relief.heights = resampled(relief.heights, own.surface(), model->surface());
       reliefs.push_back({method, share, metrics.measure(relief.heights),
                          pictures ? pictures->of_relief(relief) : Image8{}});
     }
@@ -112,8 +117,11 @@ Result<Comparison> compare_all(const CompareArguments& arguments, const std::vec
                                Progress& progress) {
   RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
   RELIEVO_TRY(ReliefModel model, prepare(*seen.sample.cloud, seen.view, Mode::exact, &progress));
+  Comparer comparer{std::make_shared<const ReliefModel>(std::move(model)), {}};
+  if (std::ranges::find(chosen, Method::paper) != chosen.end()) {
+    RELIEVO_TRY(comparer.paper, prepare(*seen.sample.cloud, seen.view.for_paper(), Mode::exact, &progress));
+  }
   RELIEVO_CHECK(progress.stage("comparison", .85));
-  Comparer comparer{std::make_shared<const ReliefModel>(std::move(model))};
   if (!arguments.output.empty()) comparer.pictures.emplace(comparer.model);
   Comparison result{.scan = joined(arguments.scene.paths),
                     .methods = chosen,

@@ -21,15 +21,22 @@ double Series::percentile(double share) const {
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run) {
   const int threads_before = thread_count();
   set_thread_count(run.threads);
-  FrameFigures figures{model.subspace() ? "subspace" : "exact", 0, run.threads, {}, {}, {}, {}, 0};
-  if (run.style == Style::paper) figures.mode += ", the paper's style";
+  FrameFigures figures{model.control_points() > 0 ? "subspace" : "exact",
+                       model.surface().points.size(),
+                       model.control_points(),
+                       run.threads,
+                       {},
+                       {},
+                       {},
+                       {},
+                       0};
+  if (model.paper()) figures.mode += ", paper";
   if (run.is_locked) figures.mode += ", height locked";
-  if (model.subspace()) figures.control_points = model.subspace()->control_points().points.size();
   FrameMaker maker(model);
   Frame frame;
   FrameOptions options;
   options.shape = {{.5, .01}, .04};
-  options.shape.style = run.style;
+  options.shape.style = model.paper() ? Style::paper : Style::layered;
   maker.make(options, frame);
   if (run.is_locked) options.height = .8 * frame.height;
   if (run.is_locked) maker.make(options, frame);
@@ -58,11 +65,12 @@ void print_frame_head() {
               "threads", "t1", "t2", "t3", "p50", "p95", "frames/s", "solves");
 }
 
-void print_frames(const FrameFigures& f, std::size_t visible_points) {
+void print_frames(const FrameFigures& f) {
   const double p50 = f.whole.percentile(.5);
   std::printf("  %-28s %9zu %8zu %7d %6.2f %6.2f %6.2f %6.2f %6.2f %8.1f %6.2f\n", f.mode.c_str(),
-              visible_points, f.control_points, f.threads, f.heights.percentile(.5), f.detail.percentile(.5),
-              f.normals.percentile(.5), p50, f.whole.percentile(.95), p50 > 0 ? 1e3 / p50 : 0, f.solves);
+              f.visible_points, f.control_points, f.threads, f.heights.percentile(.5),
+              f.detail.percentile(.5), f.normals.percentile(.5), p50, f.whole.percentile(.95),
+              p50 > 0 ? 1e3 / p50 : 0, f.solves);
 }
 
 void print_paper_rows() {

@@ -22,6 +22,7 @@ struct Series {
 
 struct FrameFigures {
   std::string mode;
+  std::size_t visible_points = 0;
   std::size_t control_points = 0;  // 0: all visible points
   int threads = 1;
   Series heights, detail, normals, whole;  // t1, t2, t3 and the whole frame
@@ -32,7 +33,6 @@ struct FrameRun {
   int threads = 1;
   int frames = 60;
   bool is_locked = false;  // height locked
-  Style style = Style::layered;
 };
 
 // Makes frames as if a user dragged a slider: the slider of the detail or, with a locked height, the slider
@@ -69,7 +69,7 @@ inline constexpr std::array<PaperRow, 15> paper_table_1{{
 
 // Print a table like the paper's: its head, a line of measured times, and the lines that the paper printed.
 void print_frame_head();
-void print_frames(const FrameFigures& figures, std::size_t visible_points);
+void print_frames(const FrameFigures& figures);
 void print_paper_rows();
 
 struct ViewRun {

@@ -367,7 +367,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
   if (!model) return nothing_open();
   if (options.effective_view() != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
-  if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
+  if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->control_points() > 0))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
   // The options of pictures have the width that the plate leaves; those of exports may have none. With the
   // width, both ask for the same piece.

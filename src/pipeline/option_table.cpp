@@ -64,7 +64,7 @@ std::vector<OptionRow> shape_rows() {
        .help = "the paper's gamma, the strength of detail; with method layered, how much coarse shapes are attenuated",
        .is_stated = true,
        .access = number<&ReliefOptions::detail, &ReliefOptions::effective_detail>},
-      {.name = "method", .unit = "NAME", .stage = shape, .choices = names_of(methods),
+      {.name = "method", .unit = "NAME", .stage = model, .choices = names_of(methods),
        .help = "method that compresses the depths", .otherwise = "paper with an alpha, else layered",
        .in_studio = "layered", .is_stated = true, .access = text<&ReliefOptions::method, method_of>},
   };

@@ -141,12 +141,7 @@ std::optional<double> ReliefOptions::effective_height_mm() const {
 }
 
 View ReliefOptions::effective_view() const {
-  View seen = view;
-  if (effective_method() != Method::paper) return seen;
-  seen.is_paper = true;
-  seen.has_crumbs = true;
-  seen.denoise = 0;
-  return seen;
+  return effective_method() == Method::paper ? view.for_paper() : view;
 }
 
 double ReliefOptions::effective_saturation() const {

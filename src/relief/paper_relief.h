@@ -1,5 +1,5 @@
 // Reliefs of a model of Method::paper. src/paper/ has its equations.
-// Tested by tests/paper/paper_relief_test.cpp.
+// Tested by tests/paper/paper_model_test.cpp.
 #pragma once
 
 #include <cmath>

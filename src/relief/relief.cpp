@@ -62,6 +62,10 @@ const Surface& ReliefModel::surface() const {
 const PaperModel* ReliefModel::paper() const {
   return state_->paper();
 }
+std::size_t ReliefModel::control_points() const {
+  if (paper()) return paper()->is_subspace() ? paper()->control_points() : 0;
+  return subspace() ? subspace()->control_points().points.size() : 0;
+}
 std::span<const PointLayers> ReliefModel::layers() const {
   return paper() ? std::span<const PointLayers>() : state_->parts().layers;
 }

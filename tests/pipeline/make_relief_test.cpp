@@ -268,13 +268,14 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-// Two sheets, one before the other, have no slopes, so only the step between them can give the relief its
-// height.
+// Two sheets, one before the other, have no slopes. The paper's method gives them no height; by default the step
+// between them takes all of it.
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;
   options.method = Method::paper;
   expect_error(make_relief(sheets, options), "0 mm");
+  options.method.reset();
   options.height_mm = 2;
   const auto made = value_of(make_relief(sheets, options));
   EXPECT_TRUE(made.report.has_needed_steps);

@@ -67,6 +67,9 @@ class ReliefModel {
   // null, layers() is empty, and steps(), jump_lift() and correction() must not be called.
   const PaperModel* paper() const;
 
+  // Returns the number of control points in subspace mode, 0 in exact mode.
+  std::size_t control_points() const;
+
   // Returns the layers of the surface's normals. They are empty in subspace mode, where the control points
   // have their own layers.
   std::span<const PointLayers> layers() const;

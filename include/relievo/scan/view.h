@@ -37,6 +37,14 @@ struct View {
 
   bool operator==(const View&) const = default;
 
+  // Returns this view for Method::paper, which removes neither noise nor crumbs.
+  View for_paper() const {
+    View view = *this;
+    view.is_paper = view.has_crumbs = true;
+    view.denoise = 0;
+    return view;
+  }
+
   // Returns the noise to remove, given the measured noise.
   double noise_to_remove(double measured) const { return denoise.value_or(measured); }
 };
