@@ -31,14 +31,18 @@ inline double boundary_weight(double distance, double width) {
   return 1 - std::exp(-(distance / width) * (distance / width));
 }
 
-// Equation (5): w n + (1 - w) (0, 0, 1) with w = w_k w_b, written as a slope (dz/dx, dz/dy). The text says that
-// the matrix of (9) is fixed; this is so if each of its rows is divided by the z of the expected normal, and
-// z would be 0 at silhouettes if slopes had no limit.
-inline Vec2 expected_slope(const Vec3& normal, double w, double max_slope) {
-  const Vec3 expected = w * normal + (1 - w) * Vec3::UnitZ();
-  const double length = expected.head<2>().norm();
-  if (!(length <= max_slope * expected.z())) return -max_slope / length * expected.head<2>();
-  return length > 0 ? Vec2(-expected.head<2>() / expected.z()) : Vec2(Vec2::Zero());
+// Equation (5), with w = w_k w_b.
+inline Vec3 expected_normal(const Vec3& normal, double w) {
+  return w * normal + (1 - w) * Vec3::UnitZ();
+}
+
+// Returns the slope (dz/dx, dz/dy) of a surface with that normal, of any length; a steeper one is shortened to
+// `max_slope`. The text says that the matrix of (9) is fixed. This is so if each of its rows is divided by the
+// z of the expected normal, which is 0 at silhouettes: hence the limit.
+inline Vec2 slope_of(const Vec3& normal, double max_slope) {
+  const double length = normal.head<2>().norm();
+  if (!(length <= max_slope * normal.z())) return -max_slope / length * normal.head<2>();
+  return length > 0 ? Vec2(-normal.head<2>() / normal.z()) : Vec2(Vec2::Zero());
 }
 
 }  // namespace relievo::paper

@@ -8,7 +8,7 @@
 
 namespace relievo::paper {
 
-// Returns the indices of about `count` of the points, chosen by growing regions: each point that is no nearer
+// Returns the indices of about two thirds of `count` points, chosen by growing regions: each point that is no nearer
 // than r2 = sqrt(n1 / n2) r1 to those chosen before is chosen, where n1 is the number of points, n2 is
 // `count`, and r1 is rho. Boundary points are asked first, so that the boundary is sampled as densely as the
 // rest. All points are chosen if `count` is not less than their number.

@@ -1,5 +1,6 @@
 #include "paper/curvature.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/neighbours.h"
@@ -10,6 +11,7 @@ namespace relievo::paper {
 namespace {
 
 constexpr double h_in_rho = 3, radius_in_h = 3;
+constexpr double least_curvature = 1e-6;  // in 1 / rho
 
 struct Neighbour {
   Vec3 y;  // x - q
@@ -82,6 +84,8 @@ std::vector<double> mean_curvature(const Cloud& cloud, double rho, std::span<con
       k[i] = mean_curvature(surface_function(neighbours, h));
     }
   });
+  if (std::ranges::all_of(k, [&](double each) { return std::abs(each) * rho < least_curvature; }))
+    std::ranges::fill(k, 0.0);
   return k;
 }
 

@@ -36,9 +36,11 @@ HeightToOrder adjust_to_height(double wanted, F&& height_at) {
   };
   const auto doubled = [](int times) { return std::ldexp(.001, times); };
   for (found.beta = first_beta; found.beta <= last_beta; found.beta *= 2) {
-    const bool falls_below = is_below(doubled(most_doublings));
+    const bool is_low_enough = is_below(doubled(most_doublings));
     if (found.is_met) return found;
-    if (!falls_below || (is_below(doubled(0)) && !found.is_met)) continue;
+    const bool is_high_enough = !is_below(doubled(0));
+    if (found.is_met) return found;
+    if (!is_low_enough || !is_high_enough) continue;
     int above = 0, below = most_doublings;
     while (!found.is_met && below - above > 1) {
       const int middle = (above + below) / 2;

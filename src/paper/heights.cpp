@@ -56,9 +56,9 @@ Eigen::SparseMatrix<double> normal_matrix(const Neighbours& neighbours, std::spa
       entries.emplace_back(q, p, -1);
     }
   const auto n = static_cast<Eigen::Index>(neighbours.size());
-  Eigen::SparseMatrix<double> A(n, n);
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
+  Eigen::SparseMatrix<double> AtA(n, n);
+  AtA.setFromTriplets(entries.begin(), entries.end());
+  return AtA;
 }
 
 }  // namespace
@@ -69,34 +69,34 @@ Result<NormalEquations> NormalEquations::build(std::span<const Vec2> points,
   const std::vector<Index> on_base = points_on_base(is_boundary, neighbours);
   RELIEVO_TRY(auto factor, solver::Cholesky::factor(normal_matrix(neighbours, on_base), points));
   NormalEquations made(std::move(factor));
-  made.own_.assign(points.size(), Vec2f::Zero());
+  made.steps_.assign(points.size(), Vec2f::Zero());
   made.begin_.assign(points.size() + 1, 0);
   for (const std::vector<Index>& each : neighbours)
     for (const Index q : each) ++made.begin_[q + 1];
   std::partial_sum(made.begin_.begin(), made.begin_.end(), made.begin_.begin());
-  made.others_.resize(made.begin_.back());
+  made.rows_.resize(made.begin_.back());
   std::vector<Index> next(made.begin_.begin(), made.begin_.end() - 1);
   for (Index p = 0; p < points.size(); ++p)
     for (const Index q : neighbours[p]) {
-      const Vec2f step = (points[q] - points[p]).cast<float>();
-      made.own_[p] -= step;
-      made.others_[next[q]++] = {p, step};
+      const Vec2f step = (points[p] - points[q]).cast<float>();
+      made.steps_[p] += step;
+      made.rows_[next[q]++] = {p, step};
     }
   return made;
 }
 
 std::size_t NormalEquations::memory() const {
-  return factor_.memory() + bytes(own_) + bytes(begin_) + bytes(others_);
+  return factor_.memory() + bytes(steps_) + bytes(begin_) + bytes(rows_);
 }
 
 // The right-hand side is A^T b. Each row z_p - z_q = s_p . (p - q) adds s_p . (p - q) to the sum of p and takes
 // it from that of q.
 void NormalEquations::solve(std::span<const Vec2f> slopes, std::span<float> heights,
                             Workspace& workspace) const {
-  parallel_for(size(), [&](std::size_t p) {
-    float sum = slopes[p].dot(own_[p]);
-    for (Index i = begin_[p]; i < begin_[p + 1]; ++i) sum += slopes[others_[i].other].dot(others_[i].step);
-    heights[p] = sum;
+  parallel_for(size(), [&](std::size_t i) {
+    float sum = slopes[i].dot(steps_[i]);
+    for (Index row = begin_[i]; row < begin_[i + 1]; ++row) sum -= slopes[rows_[row].p].dot(rows_[row].step);
+    heights[i] = sum;
   });
   factor_.solve(heights, heights, workspace);
 }

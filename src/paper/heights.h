@@ -25,7 +25,7 @@ class NormalEquations {
   static Result<NormalEquations> build(std::span<const Vec2> points,
                                        std::span<const std::uint8_t> is_boundary);
 
-  std::size_t size() const { return own_.size(); }
+  std::size_t size() const { return steps_.size(); }
   std::size_t memory() const;
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
@@ -34,16 +34,16 @@ class NormalEquations {
 
  private:
   struct Row {
-    Index other;
-    Vec2f step;  // (x, y)_p - (x, y)_other
+    Index p;
+    Vec2f step;  // (x, y)_p - (x, y)_q
   };
 
   explicit NormalEquations(solver::Cholesky factor) : factor_(std::move(factor)) {}
 
   solver::Cholesky factor_;
-  std::vector<Vec2f> own_;    // per point p, the sum of (x, y)_p - (x, y)_q over its neighbours q
-  std::vector<Index> begin_;  // p's part of others_ begins at begin_[p]
-  std::vector<Row> others_;   // the points of which p is a neighbour
+  std::vector<Vec2f> steps_;  // per point p, the sum of the steps of its rows
+  std::vector<Index> begin_;  // the rows in which a point is the neighbour q begin at begin_[q] in rows_
+  std::vector<Row> rows_;     // the rows of (8), ordered by q
 };
 
 }  // namespace relievo::paper

@@ -70,13 +70,16 @@ PaperModel::MapWorkspace PaperModel::make_map_workspace() const {
 void PaperModel::solve(const paper::Coefficients& c, SolveWorkspace& workspace,
                        std::span<float> control_heights) const {
   const double width = c.boundary_width * rho_;
-  const auto slope_of = [&](const ControlPoint& p) -> Vec2 {
+  const auto expected_normal = [&](const ControlPoint& p) {
     const double w_k = paper::curvature_weight(static_cast<double>(p.k), delta_, c),
                  w_b = paper::boundary_weight(static_cast<double>(p.distance), width);
-    return paper::expected_slope(p.normal.cast<double>(), w_k * w_b, c.max_slope);
+    return paper::expected_normal(p.normal.cast<double>(), w_k * w_b);
   };
   parallel_for(
-      control_.size(), [&](std::size_t i) { workspace.slopes[i] = slope_of(control_[i]).cast<float>(); },
+      control_.size(),
+      [&](std::size_t i) {
+        workspace.slopes[i] = paper::slope_of(expected_normal(control_[i]), c.max_slope).cast<float>();
+      },
       512);
   system_.solve(workspace.slopes, control_heights, workspace.system);
 }

@@ -25,10 +25,9 @@ class PaperModel {
   };
   using MapWorkspace = paper::HeightMapping::Workspace;
 
-  // Factors the system of the surface of paper::find_surface(). `control_points` is their approximate
-  // number, the paper's n2; if it is not less than the number of visible points, all of these are control
-  // points. Errors: see NormalEquations::build();
-  // kind cancelled.
+  // Factors the system of the surface of paper::find_surface(). `control_points` is the paper's n2, see
+  // paper::control_points(); if it is not less than the number of visible points, all of these are control
+  // points. Errors: see NormalEquations::build(); kind cancelled.
   static Result<PaperModel> prepare(const Surface& surface, std::size_t control_points,
                                     Progress* progress = nullptr);
 

@@ -1,5 +1,5 @@
-// The surface of a view by the paper's rules alone (section 3.2): no noise is removed, no hole is filled, and no
-// point is added or left out.
+// The surface of a view by the paper's rules alone (section 3.2): no noise is removed, no hole is filled, no
+// point is added, and no visible point is left out.
 #pragma once
 
 #include "scan/measured_cloud.h"

@@ -212,8 +212,9 @@ class NormalRows {
   NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
-  // Adds the row of a point to `entries`. The row consists of the derivatives of N by heights, divided by the
-  // z of N. N is the sum of the cross products of the point's triangles; its z does not depend on heights.
+  // Adds the row of a point to `entries`. The normal is N / N_z, where N is the sum of the cross products of
+  // the point's triangles. N_z does not depend on heights, and N depends on them linearly: the row has the
+  // derivatives of N by the heights, divided by N_z.
   void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
     terms_.clear();
     double z = 0;

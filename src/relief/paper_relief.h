@@ -50,17 +50,20 @@ class PaperRelief {
   std::vector<float> control_heights_;
 };
 
-// Finds the shape with the height asked for: by Algorithm 1 if its beta is free, else by its u alone. `raise`
-// makes the relief of `shape` and returns its height. Returns whether the height is met, to 1 % or to
-// `tolerance`; if not, the last relief is the highest one.
+// Finds the shape with the height asked for, by Algorithm 1 if its beta is free. Otherwise, and if Algorithm 1
+// finds no alpha, the beta of the shape stays and u is searched. `raise` makes the relief of `shape` and returns
+// its height. Returns whether the height is met, to 1 % or to `tolerance`; if not, the last relief is the
+// highest one.
 template <typename Raise>
 bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& raise) {
   if (shape.is_beta_free) {
+    const Compression asked = shape.compression;
     const paper::HeightToOrder found = paper::adjust_to_height(height, [&](double alpha, double beta) {
       shape.compression = Compression::from_alpha(alpha, beta);
       return raise();
     });
     if (found.is_met) return true;
+    shape.compression = asked;
   }
   return HeightSearch(height, tolerance).bracket([&](double log_u) {
     shape.compression.u = std::exp(log_u);

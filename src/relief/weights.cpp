@@ -17,8 +17,8 @@ bool Compression::operator==(const Compression& other) const {
 }
 
 Compression Compression::from_alpha(double alpha, double beta) {
-  if (beta == 0) return {1, 0};
-  return {alpha > 0 ? std::exp(-beta * std::log(alpha)) : std::numeric_limits<double>::infinity(), beta};
+  if (alpha == 0) return {std::numeric_limits<double>::infinity(), beta};
+  return {beta == 0 ? 1 : std::exp(-beta * std::log(alpha)), beta};
 }
 
 double Compression::alpha() const {

@@ -36,15 +36,15 @@ TEST(PaperCompression, SlopeIsThatOfEquation5) {
   const Vec3 normal = Vec3(.3, -.5, .6).normalized();
   for (const double w : {0.0, .4, 1.0}) {
     const Vec3 expected = w * normal + (1 - w) * Vec3::UnitZ();
-    const Vec2 slope = expected_slope(normal, w, 4);
+    const Vec2 slope = slope_of(expected_normal(normal, w), 4);
     EXPECT_NEAR(expected.dot(Vec3(1, 0, slope.x())), 0, 1e-15);
     EXPECT_NEAR(expected.dot(Vec3(0, 1, slope.y())), 0, 1e-15);
   }
 }
 
 TEST(PaperCompression, SlopeHasALimit) {
-  EXPECT_LT((expected_slope(Vec3(1, 0, 0), 1, 4) - Vec2(-4, 0)).norm(), 1e-15);
-  EXPECT_LT((expected_slope(Vec3(0, .8, -.6), 1, 4) - Vec2(0, -4)).norm(), 1e-15);
+  EXPECT_LT((slope_of(Vec3(1, 0, 0), 4) - Vec2(-4, 0)).norm(), 1e-15);
+  EXPECT_LT((slope_of(Vec3(0, .8, -.6), 4) - Vec2(0, -4)).norm(), 1e-15);
 }
 
 }  // namespace

@@ -52,6 +52,25 @@ TEST(PaperMapping, CarriesASmoothRatio) {
   EXPECT_LT(std::sqrt(sum), .02);
 }
 
+// Where the heights without compression pass 0, the ratio is damped by z0^2 / (z0^2 + f^2), where f is 2 % of the
+// largest height. So the heights pass 0, too, and are right to 10 % of the largest everywhere.
+TEST(PaperMapping, PassesZeroWhereTheUncompressedHeightsDo) {
+  const Mapped m;
+  const auto slope = [](const Vec2& p) { return static_cast<float>(p.x() - .5); };
+  HeightMapping::Uncompressed uncompressed;
+  std::vector<float> compressed, mapped(m.visible.size());
+  for (const Vec2& p : m.control)
+    uncompressed.control.push_back(slope(p)), compressed.push_back(.4F * slope(p));
+  for (const Vec2& p : m.visible) uncompressed.visible.push_back(slope(p));
+  const HeightMapping mapping(m.control, m.visible, uncompressed);
+  auto workspace = mapping.make_workspace();
+  mapping.carry(compressed, workspace, mapped);
+  for (std::size_t i = 0; i < mapped.size(); ++i) {
+    EXPECT_NEAR(mapped[i], .4F * slope(m.visible[i]), .02F);
+    EXPECT_GE(mapped[i] * slope(m.visible[i]), 0);
+  }
+}
+
 TEST(PaperMapping, OfFlatHeightsIsFlat) {
   const Mapped m;
   const HeightMapping mapping(

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <set>
+
 #include "support/results.h"
 #include "support/shapes.h"
 
@@ -13,19 +17,24 @@ Result<Surface> surface_of(const Cloud& cloud, const View& view = View().for_pap
   return paper::find_surface(*measured, view);
 }
 
+// Each of 36 equal sectors of the rim has a boundary point.
 TEST(PaperSurface, OfABallIsItsFrontWithTheRimAsBoundary) {
   const Surface surface = value_of(surface_of(test::sphere(20000, 1)));
   EXPECT_EQ(surface.visible_points, surface.points.size());
   EXPECT_GT(surface.points.size(), 6000U);
+  std::set<int> sectors;
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     const double radius = surface.points[i].head<2>().norm();
     if (surface.boundary.is_boundary[i]) {
       EXPECT_GT(radius, .9);
+      const double turns = std::atan2(surface.points[i].y(), surface.points[i].x()) / (2 * std::numbers::pi);
+      sectors.insert(static_cast<int>(std::floor(36 * turns)));
     } else if (radius < .8) {
       EXPECT_GT(surface.boundary.distance[i], .1F);
     }
     EXPECT_GT(surface.normals[i].z(), 0);
   }
+  EXPECT_EQ(sectors.size(), 36U);
 }
 
 // The edge of a sheet before another one is no boundary: its points have neighbours on both sides.

@@ -27,7 +27,8 @@ TEST(CurvatureWeight, IsEquationSix) {
 }
 
 TEST(CurvatureWeight, KeepsEveryNormalAtAlphaZero) {
-  EXPECT_EQ(curvature_weight(.2, .25, Compression::from_alpha(0, .01)), 1);
+  for (const double beta : {0.0, .01, 5.0})
+    EXPECT_EQ(curvature_weight(.2, .25, Compression::from_alpha(0, beta)), 1);
   EXPECT_EQ(curvature_weight(.2, .25, {infinity, 0}), 1);
 }
 

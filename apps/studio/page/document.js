@@ -21,7 +21,7 @@ export const FIRST = Object.freeze({
 const MOST_STEPS = 200, MOST_U = 1e12; // the engine's limit of u
 
 // Returns the parameter u of the compression for the paper's alpha and beta.
-export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
+export const uOfAlpha = (alpha, beta) => (alpha === 0 ? MOST_U : Math.min(alpha ** -beta, MOST_U));
 
 const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
