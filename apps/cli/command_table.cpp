@@ -5,6 +5,7 @@
 
 #include "relievo/core/text.h"
 #include "relievo/option_table.h"
+#include "relievo/relief/baseline_grid.h"
 #include "relievo/samples/sample.h"
 
 namespace relievo::app::cli {
@@ -20,7 +21,10 @@ std::vector<std::string> all_names(const auto& infos) {
 std::vector<std::string> words_of(const std::string& command, const std::string& name) {
   if (command == "sample" && name == "name") return all_names(samples());
   if (name == "units") return {"mm", "in"};
-  if (name == "methods") return all_names(methods);
+  if (name == "methods") {
+    const std::vector<std::string_view> names = compared_methods();
+    return {names.begin(), names.end()};
+  }
   if (command == "bench" && name == "mode") return {"exact", "subspace", "auto", "all"};
   if (name == "view") return {"front", "back", "left", "right", "top", "bottom"};
   const OptionRow* const option = find_option(name);

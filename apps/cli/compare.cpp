@@ -16,6 +16,7 @@
 #include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/render.h"
+#include "relievo/relief/baseline_grid.h"
 #include "relievo/scan/resample.h"
 
 namespace relievo::app::cli {
@@ -35,13 +36,14 @@ struct CompareArguments {
 constexpr double width_mm = 100;
 constexpr int longer_side_px = 512;
 
-Result<std::vector<Method>> parse_methods(const std::vector<std::string>& names) {
-  std::vector<Method> chosen;
-  if (names.empty())
-    for (const MethodInfo& info : methods) chosen.push_back(info.method);
+Result<std::vector<std::string_view>> parse_methods(const std::vector<std::string>& names) {
+  const std::vector<std::string_view> all = compared_methods();
+  if (names.empty()) return all;
+  std::vector<std::string_view> chosen;
   for (const std::string& name : names) {
-    RELIEVO_TRY(const Method method, parse_method(name, "methods"));
-    chosen.push_back(method);
+    const auto found = std::ranges::find(all, name);
+    if (found == all.end()) return not_one_of("methods", all, name);
+    chosen.push_back(*found);
   }
   return chosen;
 }
@@ -86,21 +88,29 @@ class PlatePictures {
 struct Comparer {
   std::shared_ptr<const ReliefModel> model;
   std::optional<ReliefModel> paper;  // the model of Method::paper, if that is compared
+  BaselineGrid baselines;
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
+
+  // Returns the relief by a method with a shape, or by a baseline with its best parameters.
+  Result<TunedRelief> relief_by(std::string_view name, double height, double unit_mm) const {
+    if (std::ranges::find(baseline_names, name) != baseline_names.end())
+      return baselines.best(name, metrics, height, unit_mm);
+    RELIEVO_TRY(const Method method, parse_method(name));
+    const ReliefModel& own = method == Method::paper ? *paper : *model;
+    RELIEVO_TRY(Relief relief, make_by_method(method, own, height, default_shape(method), unit_mm));
+    if (method == Method::paper) relief.heights = resampled(relief.heights, own.surface(), model->surface());
+    return TunedRelief{std::move(relief), ""};
+  }
 
   // Appends one relief of that height per method, or no relief if a method fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;
-    for (const Method method : comparison.methods) {
-      const ReliefModel& own = method == Method::paper ? *paper : *model;
-      RELIEVO_TRY(Relief relief,
-                  make_by_method(method, own, share * width, default_shape(method), width_mm / width));
-      if (method == Method::paper)
-        relief.heights = resampled(relief.heights, own.surface(), model->surface());
-      reliefs.push_back({method, share, metrics.measure(relief.heights),
-                         pictures ? pictures->of_relief(relief) : Image8{}});
+    for (const std::string_view name : comparison.methods) {
+      RELIEVO_TRY(const TunedRelief made, relief_by(name, share * width, width_mm / width));
+      reliefs.push_back({name, share, made.parameters, metrics.measure(made.relief.heights),
+                         pictures ? pictures->of_relief(made.relief) : Image8{}});
     }
     std::ranges::move(reliefs, std::back_inserter(comparison.reliefs));
     return {};
@@ -113,12 +123,14 @@ std::string height_error(const std::string& text) {
   return cat("expected fractions of the width, 0.0001 to 1, found ", text);
 }
 
-Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<Method>& chosen,
+Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<std::string_view>& chosen,
                                Progress& progress) {
   RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
   RELIEVO_TRY(ReliefModel model, prepare(*seen.sample.cloud, seen.view, Mode::exact, &progress));
-  Comparer comparer{std::make_shared<const ReliefModel>(std::move(model)), {}};
-  if (std::ranges::find(chosen, Method::paper) != chosen.end()) {
+  const auto shared = std::make_shared<const ReliefModel>(std::move(model));
+  RELIEVO_TRY(BaselineGrid baselines, BaselineGrid::prepare(shared->surface()));
+  Comparer comparer{shared, {}, std::move(baselines)};
+  if (std::ranges::find(chosen, name_of(Method::paper)) != chosen.end()) {
     RELIEVO_TRY(comparer.paper, prepare(*seen.sample.cloud, seen.view.for_paper(), Mode::exact, &progress));
   }
   RELIEVO_CHECK(progress.stage("comparison", .85));
@@ -143,16 +155,16 @@ void print_table(const Comparison& comparison) {
   std::printf("%zu visible points, %zu pixels measured\n\n", comparison.visible_points,
               comparison.measured_pixels);
   std::printf(
-      "height  method    shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump   rim  "
+      "height  method         shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump   rim  "
       "fray: rim, jump  facet  longest\n");
   for (const ComparedRelief& e : comparison.reliefs) {
     const Measures& m = e.measures;
     std::printf(
-        "%5.4g%%  %-8s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f  %4.2f  %9.2f  "
+        "%5.4g%%  %-13s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f  %4.2f  %9.2f  "
         "%4.2f  "
         "%5.2f  %7.1f\n",
-        100 * e.height, std::string(name_of(e.method)).c_str(), m.shading, m.angle_deg, m.detail[0],
-        m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step, m.rim_step,
+        100 * e.height, std::string(e.method).c_str(), m.shading, m.angle_deg, m.detail[0], m.detail[1],
+        m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step, m.rim_step,
         m.silhouette_fray_deg, m.jump_fray_deg, m.facet_angle_deg, m.longest_side);
   }
   std::printf("\nLarger is better for shading, detail, order and used, smaller for the others.\n");
@@ -162,8 +174,9 @@ void print_json(const Comparison& comparison) {
   nlohmann::json entries = nlohmann::json::array();
   for (const ComparedRelief& e : comparison.reliefs) {
     const Measures& m = e.measures;
-    entries.push_back({{"method", name_of(e.method)},
+    entries.push_back({{"method", e.method},
                        {"height", e.height},
+                       {"parameters", e.parameters},
                        {"shading", m.shading},
                        {"angle_deg", m.angle_deg},
                        {"detail", m.detail},
@@ -187,7 +200,7 @@ void print_json(const Comparison& comparison) {
 Result<void> compare(const CompareArguments& arguments) {
   if (!arguments.output.empty())
     RELIEVO_CHECK(check_output(arguments.output, {".html"}, arguments.scene.paths));
-  RELIEVO_TRY(const std::vector<Method> chosen, parse_methods(arguments.methods));
+  RELIEVO_TRY(const std::vector<std::string_view> chosen, parse_methods(arguments.methods));
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
   Result<Comparison> comparison =
@@ -209,6 +222,7 @@ Result<void> compare(const CompareArguments& arguments) {
 void add_compare(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = *program.add_subcommand("compare", "Measure reliefs of one scan by several methods");
+  const std::vector<std::string_view> names = compared_methods();
   add_scene_flags(command, arguments->scene);
   command.add_option("-o,--output", arguments->output, "page with pictures and measures side by side")
       ->type_name("PAGE.html");
@@ -218,7 +232,9 @@ void add_compare(CLI::App& program, Result<void>& result) {
       ->delimiter(',')
       ->check(CLI::Validator(height_error, ""))
       ->type_name("FRACTION,...");
-  command.add_option("--methods", arguments->methods, cat("of ", method_names(), "; default all"))
+  command
+      .add_option("--methods", arguments->methods,
+                  cat("of ", joined({names.begin(), names.end()}), "; default all"))
       ->delimiter(',')
       ->type_name("NAME,...");
   add_number(command, "--threads", arguments->threads, CLI::Range(0, 256), "0 for all [0 to 256]");

@@ -42,19 +42,20 @@ std::string fixed(double value, int digits) {
 
 std::string cell(const ComparedRelief& relief) {
   const Measures& m = relief.measures;
-  const std::string name = cat("Relief by ", name_of(relief.method), ", ", 100 * relief.height, " % high");
+  const std::string name = cat("Relief by ", relief.method, ", ", 100 * relief.height, " % high");
   return cat("<td>", picture(relief.picture, name), "shading ", fixed(m.shading, 3), ", angle ",
              fixed(m.angle_deg, 1), "°<br>detail ", fixed(m.detail[0], 3), ", ", fixed(m.detail[1], 3), ", ",
              fixed(m.detail[2], 3), "<br>order ", fixed(m.order, 3), ", used ", fixed(m.height_used, 2),
              "<br>jump ", fixed(m.jump_step, 2), ", rim ", fixed(m.rim_step, 2), "<br>fray ",
              fixed(m.silhouette_fray_deg, 1), "°, at jumps ", fixed(m.jump_fray_deg, 1), "°, facets ",
-             fixed(m.facet_angle_deg, 1), "°, longest side ", fixed(m.longest_side, 1), "</td>\n");
+             fixed(m.facet_angle_deg, 1), "°, longest side ", fixed(m.longest_side, 1),
+             relief.parameters.empty() ? "" : "<br>", relief.parameters, "</td>\n");
 }
 
 std::string table(const Comparison& comparison) {
   const std::size_t columns = comparison.methods.size(), rows = comparison.reliefs.size() / columns;
   std::string html = "<table>\n<thead><tr><th>Height<th>Model";
-  for (const Method method : comparison.methods) html += cat("<th>", name_of(method));
+  for (const std::string_view method : comparison.methods) html += cat("<th>", method);
   html += "</thead>\n";
   for (std::size_t row = 0; row < rows; ++row) {
     const auto first = comparison.reliefs.begin() + static_cast<std::ptrdiff_t>(row * columns);

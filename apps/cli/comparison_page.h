@@ -2,24 +2,25 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "relievo/core/image.h"
 #include "relievo/quality/measures.h"
-#include "relievo/relief/method.h"
 
 namespace relievo::app::cli {
 
 struct ComparedRelief {
-  Method method;
-  double height = 0;  // as a fraction of the width
+  std::string_view method;
+  double height = 0;       // as a fraction of the width
+  std::string parameters;  // of a baseline, see TunedRelief
   Measures measures;
   Image8 picture;  // empty if no page is wanted, as is Comparison::model
 };
 
 struct Comparison {
   std::string scan;  // as the user named it
-  std::vector<Method> methods;
+  std::vector<std::string_view> methods;
   std::size_t visible_points = 0, measured_pixels = 0;
   Image8 model;
   std::vector<ComparedRelief> reliefs = {};  // by height, then in the order of the methods

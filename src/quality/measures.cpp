@@ -175,6 +175,11 @@ std::size_t ReliefMetrics::pixels() const {
   return reference_->measured.pixels.size();
 }
 
+double ReliefMetrics::shading(std::span<const double> heights) const {
+  if (pixels() == 0) return 0;
+  return reference_->shading(normals_of(reference_->heights_in_pixels(heights)));
+}
+
 Measures ReliefMetrics::measure(std::span<const double> heights) const {
   Measures m;
   if (pixels() == 0) return m;

@@ -9,6 +9,7 @@
 #include "relievo/io/write.h"
 #include "relievo/option_table.h"
 #include "relievo/picture/preview.h"
+#include "relievo/relief/baseline_grid.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 #include "support/read_solid.h"
@@ -237,7 +238,11 @@ TEST_F(Cli, ComparesMethods) {
   EXPECT_EQ(count(page, "<tr>"), 1 + 2);                                   // the heights below the heading
   EXPECT_EQ(count(page, "src=\"data:image/png;base64,iVBORw0KG"), 1 + 4);  // the model and the reliefs
   EXPECT_EQ(count(page, "alt=\"Relief by linear, 5 % high\""), 1);
-  EXPECT_NE(run("compare torus.ply --height 0.05").out.find("gradient"), std::string::npos);
+  const std::string table = run("compare torus.ply --height 0.05").out;
+  for (const std::string_view name : compared_methods())
+    EXPECT_NE(table.find(name), std::string::npos) << name;
+  EXPECT_NE(run("compare torus.ply --height 0.05 --methods bounded --json").out.find("\"weight 0."),
+            std::string::npos);
   expect_refusal("compare torus.ply -o c.png", "c.png: expected a file ending in .html");
   expect_refusal("compare torus.ply -o c.html --height 4",
                  "--height: expected fractions of the width, 0.0001 to 1, found 4");

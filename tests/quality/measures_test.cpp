@@ -47,6 +47,7 @@ TEST(Measures, OfTheModelItselfAreTheBest) {
   for (const double detail : m.detail) EXPECT_GT(detail, .98);
   EXPECT_EQ(m.order, 1);
   EXPECT_LT(m.jump_step, 1e-12);
+  EXPECT_EQ(ReliefMetrics(bumpy()).shading(depths(bumpy())), m.shading);
 }
 
 // The expected angle is the mean tilt of the points. They are uniform in x and y, so this is also the mean

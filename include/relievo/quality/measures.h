@@ -50,6 +50,9 @@ class ReliefMetrics {
   // enough from silhouette and jumps; correlations with a constant are 0.
   Measures measure(std::span<const double> heights) const;
 
+  // Returns Measures::shading alone, in a fraction of the time, also of level heights.
+  double shading(std::span<const double> heights) const;
+
   // Returns the number of pixels that are measured.
   std::size_t pixels() const;
 

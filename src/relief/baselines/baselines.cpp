@@ -14,18 +14,6 @@
 namespace relievo {
 namespace {
 
-// Returns the slopes of the normals, shortened to 76 degrees, the default of Shape::max_slope. Without that,
-// a few steeper slopes at silhouettes would take most of the height.
-std::vector<Vec2> moderate_slopes(const Surface& surface) {
-  constexpr double steepest = 4;
-  std::vector<Vec2> slopes(surface.points.size());
-  parallel_for(slopes.size(), [&](std::size_t i) {
-    const Vec2 slope = slope_of(surface.normals[i]);
-    slopes[i] = slope * std::min(1.0, steepest / std::max(slope.norm(), 1e-9));
-  });
-  return slopes;
-}
-
 // Blurs heights of (9) in the view plane, in which they have no jumps. The cells of a blur are as wide as its
 // Gaussian. Amplified detail would show them, so sixteen narrow blurs replace one wide blur.
 std::vector<Vec2f> smoothed(const std::vector<double>& heights, const Surface& surface, double sigma) {
@@ -56,16 +44,22 @@ void weigh_bands(std::vector<Vec2f>& field, const Surface& surface, const Gradie
 
 }  // namespace
 
-Relief base_and_detail_relief(const ReliefModel& model, double height, const DetailOptions& options) {
-  const Surface& surface = model.surface();
-  const std::vector<Vec2> slopes = moderate_slopes(surface);
+std::vector<double> base_and_detail_heights(const Surface& surface, const HeightSystem& system,
+                                            const DetailOptions& options) {
+  std::vector<Vec2> slopes(surface.points.size());
+  parallel_for(slopes.size(), [&](std::size_t i) { slopes[i] = moderate_slope(surface.normals[i]); });
   std::vector<double> heights(slopes.size());
-  model.system()->solve(slopes, heights);
+  system.solve(slopes, heights);
   const std::vector<Vec2f> smooth = smoothed(heights, surface, options.scale * surface.longer_side());
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
     z[i] += options.amplification * (heights[i] - static_cast<double>(smooth[i].x()));
-  return scaled_relief(std::move(z), surface, height);
+  return z;
+}
+
+Relief base_and_detail_relief(const ReliefModel& model, double height, const DetailOptions& options) {
+  return scaled_relief(base_and_detail_heights(model.surface(), *model.system(), options), model.surface(),
+                       height);
 }
 
 Relief base_and_detail_relief(const ReliefModel& model, double height) {
@@ -80,11 +74,16 @@ Relief linear_relief(const ReliefModel& model, double height) {
   return linear_relief(model.surface(), height);
 }
 
-Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options) {
-  const std::vector<Vec2> slopes = gradient_slopes(model.surface(), options);
+std::vector<double> gradient_heights(const Surface& surface, const HeightSystem& system,
+                                     const GradientOptions& options) {
+  const std::vector<Vec2> slopes = gradient_slopes(surface, options);
   std::vector<double> heights(slopes.size());
-  model.system()->solve(slopes, heights);
-  return scaled_relief(std::move(heights), model.surface(), height);
+  system.solve(slopes, heights);
+  return heights;
+}
+
+Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options) {
+  return scaled_relief(gradient_heights(model.surface(), *model.system(), options), model.surface(), height);
 }
 
 Relief gradient_relief(const ReliefModel& model, double height) {
@@ -112,6 +111,12 @@ std::vector<double> depths(const Surface& surface) {
 Vec2 slope_of(const Vec3f& normal) {
   const Vec3 n = normal.cast<double>();
   return -n.head<2>() / std::max(n.z(), 1e-3);
+}
+
+Vec2 moderate_slope(const Vec3f& normal) {
+  constexpr double steepest = 4;
+  const Vec2 slope = slope_of(normal);
+  return slope * std::min(1.0, steepest / std::max(slope.norm(), 1e-9));
 }
 
 Vec2 attenuated(const Vec2& gradient, double a) {

@@ -112,10 +112,10 @@ class CurveLattice {
 
 }  // namespace
 
-Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options) {
+std::vector<double> equalised_heights(const Surface& surface, const EqualiseOptions& options) {
   std::vector<double> z(surface.points.size(), 0.0);
   const BarycentricMap grid(surface.points, surface.triangulation, options.picture_px, 0);
-  if (grid.pixels() == 0) return scaled_relief(std::move(z), surface, height);
+  if (grid.pixels() == 0) return z;
   const Depths depths(surface, options.bins);
   const DepthPicture picture = draw(surface, grid, depths, options);
   for (int level = 0; level < options.windows; ++level) {
@@ -124,7 +124,11 @@ Relief equalised_relief(const Surface& surface, double height, const EqualiseOpt
       z[i] += lattice.at(grid.to_pixels(surface.points[i]), depths.place(surface.points[i].z()));
     });
   }
-  return scaled_relief(std::move(z), surface, height);
+  return z;
+}
+
+Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options) {
+  return scaled_relief(equalised_heights(surface, options), surface, height);
 }
 
 Relief equalised_relief(const ReliefModel& model, double height) {

@@ -1,18 +1,31 @@
-// The last step of all baselines: sets boundary points to 0 and scales the heights to the height asked for.
+// The parts that baselines share.
 #pragma once
 
 #include <span>
 
+#include "relievo/relief/baselines.h"
+#include "relievo/relief/heights.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
 
 // Returns the relief with these heights, one per point, after setting boundary points to 0 and scaling all to
-// `height`.
+// `height`. This is the last step of all baselines.
 Relief scaled_relief(std::vector<double> heights, const Surface& surface, double height);
 
 // Returns the depth of every point above the deepest one.
 std::vector<double> depths(const Surface& surface);
+
+// Returns the slope of a normal, shortened to 76 degrees, the default of Shape::max_slope. Without that, a
+// few steeper slopes at silhouettes would take most of the height.
+Vec2 moderate_slope(const Vec3f& normal);
+
+// Return heights before that last step. `system` may have jump weights or not.
+std::vector<double> gradient_heights(const Surface& surface, const HeightSystem& system,
+                                     const GradientOptions& options);
+std::vector<double> base_and_detail_heights(const Surface& surface, const HeightSystem& system,
+                                            const DetailOptions& options);
+std::vector<double> equalised_heights(const Surface& surface, const EqualiseOptions& options);
 
 }  // namespace relievo

@@ -1,0 +1,126 @@
+#include "relievo/relief/baseline_grid.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "relief/baselines/bounded_reliefs.h"
+#include "relief/baselines/normal_layers.h"
+#include "relief/baselines/scaled.h"
+#include "relief/height_search.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/quality/measures.h"
+
+namespace relievo {
+namespace {
+
+// The surface of the reliefs, their height, and the function to call with every parameters and their heights.
+struct GridInput {
+  const Surface& surface;
+  const HeightSystem& system;
+  double height;
+  const std::function<void(std::string, std::vector<double>)>& add;
+};
+
+Result<void> add_linear(const GridInput& in) {
+  in.add("", depths(in.surface));
+  return {};
+}
+
+Result<void> each_equalised(const GridInput& in) {
+  for (const double clip : {4.0, 12.0, 36.0, 108.0})
+    for (const int windows : {1, 2, 3})
+      in.add(cat("clip ", clip, ", windows ", windows),
+             equalised_heights(in.surface, {.windows = windows, .clip = clip}));
+  return {};
+}
+
+Result<void> each_gradient(const GridInput& in) {
+  const std::array<std::vector<double>, 5> bands{
+      {{1}, {1, 1, .8, .6}, {1, .8, .5, .3}, {1, .6, .3, .1}, {1, .4, .1, .05}}};
+  for (const double attenuation : {1.0, 2.5, 5.0, 10.0, 20.0, 40.0})
+    for (const std::vector<double>& weights : bands) {
+      std::string parameters = cat("attenuation ", attenuation, ", bands");
+      for (const double weight : weights) parameters += cat(" ", weight);
+      in.add(std::move(parameters),
+             gradient_heights(in.surface, in.system, {.attenuation = attenuation, .band_weights = weights}));
+    }
+  return {};
+}
+
+Result<void> each_detail(const GridInput& in) {
+  for (const double amplification : {5.0, 10.0, 20.0, 40.0})
+    for (const double scale : {.01, .02, .04, .08, .16})
+      in.add(
+          cat("amplification ", amplification, ", scale ", scale),
+          base_and_detail_heights(in.surface, in.system, {.amplification = amplification, .scale = scale}));
+  return {};
+}
+
+Result<void> add_mimicking(const GridInput& in) {
+  RELIEVO_TRY(std::vector<double> heights, mimicking_heights(in.surface, in.height));
+  in.add("", std::move(heights));
+  return {};
+}
+
+Result<void> each_of_normal_layers(const GridInput& in) {
+  std::vector<Vec2> slopes(in.surface.points.size());
+  std::vector<double> heights(slopes.size());
+  for (const double scale : {.01, .02, .04, .08}) {
+    const std::vector<Vec3f> bases = base_normals(in.surface, scale);
+    for (const double base : {0.0, .125, .25, .5}) {
+      parallel_for(slopes.size(), [&](std::size_t i) {
+        slopes[i] = moderate_slope(weighted_normal(in.surface.normals[i], bases[i], {.base = base}));
+      });
+      in.system.solve(slopes, heights);
+      in.add(cat("scale ", scale, ", base ", base), heights);
+    }
+  }
+  return {};
+}
+
+Result<void> each_bounded(const GridInput& in) {
+  for (const double weight : {.1, .2, .45, .7, 1.0}) {
+    RELIEVO_TRY(std::vector<double> heights, bounded_heights(in.surface, in.height, weight));
+    in.add(cat("weight ", weight), std::move(heights));
+  }
+  return {};
+}
+
+// In the order of baseline_names.
+constexpr std::array<Result<void> (*)(const GridInput&), baseline_names.size()> grids{
+    add_linear,    each_equalised,        each_gradient, each_detail,
+    add_mimicking, each_of_normal_layers, each_bounded};
+
+}  // namespace
+
+std::vector<std::string_view> compared_methods() {
+  std::vector<std::string_view> names;
+  for (const MethodInfo& info : methods)
+    if (!info.make) names.push_back(info.name);
+  names.insert(names.end(), baseline_names.begin(), baseline_names.end());
+  return names;
+}
+
+Result<BaselineGrid> BaselineGrid::prepare(const Surface& surface) {
+  RELIEVO_TRY(HeightSystem system,
+              HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
+  return BaselineGrid(surface, std::move(system));
+}
+
+Result<TunedRelief> BaselineGrid::best(std::string_view name, const ReliefMetrics& metrics, double height,
+                                       double unit_mm) const {
+  TunedRelief best{{}, {}, -2};  // less than any similarity
+  const std::function<void(std::string, std::vector<double>)> add = [&](std::string parameters,
+                                                                        std::vector<double> heights) {
+    Relief relief = scaled_relief(std::move(heights), *surface_, height);
+    const double shading = metrics.shading(relief.heights);
+    if (shading > best.shading) best = {std::move(relief), std::move(parameters), shading};
+  };
+  const auto row = std::ranges::find(baseline_names, name) - baseline_names.begin();
+  RELIEVO_CHECK(grids[static_cast<std::size_t>(row)]({*surface_, system_, height, add}));
+  if (!(best.relief.height > 0)) return out_of_reach(0, height * unit_mm);
+  return best;
+}
+
+}  // namespace relievo

@@ -1,0 +1,152 @@
+#include "solver/bounded_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/solver/cholesky.h"
+
+namespace relievo::solver {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+bool is_plate(const BoundedFit& fit) {
+  return fit.mass.size() > 0;
+}
+
+Vector laplacian(const BoundedFit& fit, const Vector& x) {
+  return fit.A.selfadjointView<Eigen::Lower>() * x;
+}
+
+// Returns the product of the energy's Hessian H with x. `misfit` is A x.
+Vector hessian(const BoundedFit& fit, const Vector& misfit) {
+  return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
+}
+
+// The matrix H + D of a Newton step, D being diagonal. Systems with it are solved by conjugate gradients.
+// Their preconditioner is A + D, or (A + E) M^-1 (A + E) with E = sqrt(M D), whose part without A and whose
+// part without D are those of the matrix (Pearson and Wathen, 2012): the number of iterations hardly grows
+// with the number of unknowns, and only A + E is factored, which is as sparse as A.
+class NewtonMatrix {
+ public:
+  static Result<NewtonMatrix> factor(const BoundedFit& fit, Vector D) {
+    Eigen::SparseMatrix<double> shifted = fit.A;
+    const Vector E = is_plate(fit) ? Vector(fit.mass.cwiseProduct(D).cwiseSqrt()) : D;
+    // Where nothing is near a bound, A is nearly singular. The shift is that of a spring over 300 edges.
+    constexpr double least_shift = 1e-5;
+    for (int i = 0; i < shifted.cols(); ++i) {
+      double& diagonal = shifted.coeffRef(i, i);
+      diagonal += std::max(E[i], least_shift * diagonal);
+    }
+    RELIEVO_TRY(Cholesky factor, Cholesky::factor(shifted, fit.positions));
+    return NewtonMatrix(fit, std::move(D), std::move(factor));
+  }
+
+  // Reduces the residual to a hundredth; the next step corrects the rest.
+  Vector solve(const Vector& b) {
+    constexpr int most_iterations = 200;
+    constexpr double reduction = 1e-2;
+    Vector x = Vector::Zero(b.size()), r = b, z = preconditioned(r), p = z;
+    double rz = r.dot(z);
+    const double enough = reduction * reduction * rz;
+    for (int i = 0; i < most_iterations && rz > enough; ++i) {
+      const Vector Ap = hessian(fit_, laplacian(fit_, p)) + D_.cwiseProduct(p);
+      const double alpha = rz / p.dot(Ap);
+      x += alpha * p, r -= alpha * Ap;
+      z = preconditioned(r);
+      const double before = rz;
+      rz = r.dot(z);
+      p = z + rz / before * p;
+    }
+    return x;
+  }
+
+ private:
+  NewtonMatrix(const BoundedFit& fit, Vector D, Cholesky factor)
+      : fit_(fit), D_(std::move(D)), factor_(std::move(factor)), workspace_(factor_.make_workspace()) {}
+
+  Vector preconditioned(const Vector& b) {
+    Eigen::VectorXf x = b.cast<float>();
+    substitute(x);
+    if (!is_plate(fit_)) return x.cast<double>();
+    x = x.cwiseProduct(fit_.mass.cast<float>()).eval();
+    substitute(x);
+    return x.cast<double>();
+  }
+  void substitute(Eigen::VectorXf& x) {
+    const auto n = static_cast<std::size_t>(x.size());
+    factor_.solve(std::span<const float>(x.data(), n), std::span<float>(x.data(), n), workspace_);
+  }
+
+  const BoundedFit& fit_;
+  Vector D_;
+  Cholesky factor_;
+  Cholesky::Workspace workspace_;
+};
+
+// Returns the largest step in [0, 1] that leaves at least a hundredth of all values.
+double step_that_keeps(const Vector& values, const Vector& change) {
+  double step = 1;
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    if (change[i] < 0) step = std::min(step, -.99 * values[i] / change[i]);
+  return step;
+}
+
+// The iterate: the field, and the multipliers of its lower and its upper bounds.
+class InteriorPoint {
+ public:
+  explicit InteriorPoint(const BoundedFit& fit) : fit_(fit), x_((fit.lowest + fit.highest) / 2) {
+    evaluate();
+    const double product = std::max(g_.cwiseAbs().dot(below_) / static_cast<double>(x_.size()), 1e-300);
+    lower_ = product * below_.cwiseInverse();
+    upper_ = product * above_.cwiseInverse();
+  }
+
+  double energy() const { return energy_; }
+  double gap() const { return below_.dot(g_.cwiseMax(0)) + above_.dot((-g_).cwiseMax(0)); }
+  const Vector& x() const { return x_; }
+
+  Result<void> step() {
+    const double product =
+        centring_ * (below_.dot(lower_) + above_.dot(upper_)) / (2 * static_cast<double>(x_.size()));
+    const Vector by_lower = lower_.cwiseQuotient(below_), by_upper = upper_.cwiseQuotient(above_);
+    RELIEVO_TRY(NewtonMatrix matrix, NewtonMatrix::factor(fit_, by_lower + by_upper));
+    const Vector change = matrix.solve(product * (below_.cwiseInverse() - above_.cwiseInverse()) - g_);
+    const Vector lower = product * below_.cwiseInverse() - lower_ - by_lower.cwiseProduct(change),
+                 upper = product * above_.cwiseInverse() - upper_ + by_upper.cwiseProduct(change);
+    const double primal = std::min(step_that_keeps(below_, change), step_that_keeps(above_, -change)),
+                 dual = std::min(step_that_keeps(lower_, lower), step_that_keeps(upper_, upper));
+    x_ += primal * change, lower_ += dual * lower, upper_ += dual * upper;
+    const double shorter = std::min(primal, dual);
+    centring_ = shorter > .9 ? .05 : shorter > .5 ? .2 : .5;
+    evaluate();
+    return {};
+  }
+
+ private:
+  void evaluate() {
+    below_ = x_ - fit_.lowest, above_ = fit_.highest - x_;
+    const Vector Ax = laplacian(fit_, x_), misfit = Ax - fit_.load;
+    g_ = hessian(fit_, misfit);
+    energy_ = is_plate(fit_) ? misfit.dot(misfit.cwiseQuotient(fit_.mass)) / 2 : x_.dot(Ax / 2 - fit_.load);
+  }
+
+  const BoundedFit& fit_;
+  Vector x_, below_, above_, g_, lower_, upper_;
+  double energy_ = 0;
+  double centring_ = .2;  // share of the mean product of distance and multiplier that the next step aims at
+};
+
+}  // namespace
+
+Result<BoundedFitResult> solve(const BoundedFit& fit, double tolerance) {
+  constexpr int most_steps = 100;
+  InteriorPoint point(fit);
+  const double energy = point.energy();
+  int steps = 0;
+  for (; steps < most_steps && point.gap() > tolerance * (energy - point.energy()); ++steps)
+    RELIEVO_CHECK(point.step());
+  return BoundedFitResult{point.x(), point.energy(), point.gap(), steps};
+}
+
+}  // namespace relievo::solver

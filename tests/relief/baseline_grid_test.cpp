@@ -1,0 +1,64 @@
+#include "relievo/relief/baseline_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "relief/baselines/scaled.h"
+#include "relievo/quality/measures.h"
+#include "support/surfaces.h"
+
+namespace relievo {
+namespace {
+
+TEST(BaselineGrid, HasTheHeightAskedAndLiesOnTheBase) {
+  const Surface surface = test::surface_of(test::bumps_behind_a_ring(8000));
+  const BaselineGrid grid = value_of(BaselineGrid::prepare(surface));
+  const ReliefMetrics metrics(surface);
+  for (const std::string_view name : baseline_names) {
+    const TunedRelief best = value_of(grid.best(name, metrics, .05, 1));
+    EXPECT_EQ(best.parameters.empty(), name == "linear" || name == "mimicking") << name;
+    EXPECT_EQ(best.shading, metrics.measure(best.relief.heights).shading) << name;
+    const auto [low, high] = std::ranges::minmax(best.relief.heights);
+    EXPECT_NEAR(std::max(high, 0.0) - std::min(low, 0.0), .05, 1e-12) << name;
+    for (std::size_t i = 0; i < surface.points.size(); ++i)
+      ASSERT_TRUE(!surface.boundary.is_boundary[i] || best.relief.heights[i] == 0) << name;
+  }
+}
+
+// The fixed parameters of the methods are in the grid.
+TEST(BaselineGrid, IsAtLeastAsGoodAsTheFixedParameters) {
+  const Surface surface = test::surface_of(test::bumps_behind_a_ring(8000));
+  const BaselineGrid grid = value_of(BaselineGrid::prepare(surface));
+  const ReliefMetrics metrics(surface);
+  const HeightSystem system =
+      value_of(HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
+  const auto expect_better = [&](std::string_view name, std::vector<double> fixed) {
+    const Relief relief = scaled_relief(std::move(fixed), surface, .1);
+    EXPECT_GE(value_of(grid.best(name, metrics, .1, 1)).shading, metrics.shading(relief.heights)) << name;
+  };
+  expect_better("gradient", gradient_heights(surface, system, {}));
+  expect_better("detail", base_and_detail_heights(surface, system, {}));
+  expect_better("equalise", equalised_heights(surface, {}));
+}
+
+TEST(BaselineGrid, RefusesAHeightThatNothingHas) {
+  const Surface surface = test::surface_of(test::sheet(2000, 1, 0));
+  const BaselineGrid grid = value_of(BaselineGrid::prepare(surface));
+  for (const std::string_view name : baseline_names) {
+    const Result<TunedRelief> made = grid.best(name, ReliefMetrics(surface), .1, 20);
+    ASSERT_FALSE(made) << name;
+    EXPECT_EQ(made.error().kind, ErrorKind::geometry);
+    EXPECT_TRUE(made.error().message().contains("this view shows a level face alone")) << name;
+  }
+}
+
+TEST(ComparedMethods, AreThoseWithAShapeAndTheBaselines) {
+  const std::vector<std::string_view> names = compared_methods();
+  EXPECT_EQ(names.size(), 2 + baseline_names.size());
+  for (const MethodInfo& info : methods)
+    EXPECT_NE(std::ranges::find(names, info.name), names.end()) << info.name;
+}
+
+}  // namespace
+}  // namespace relievo

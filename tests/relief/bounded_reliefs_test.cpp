@@ -1,0 +1,91 @@
+#include "relief/baselines/bounded_reliefs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/core/parallel.h"
+#include "relievo/relief/heights.h"
+#include "relievo/relief/weights.h"
+#include "support/differences.h"
+#include "support/surfaces.h"
+
+namespace relievo {
+namespace {
+
+// Returns a hill of that height around (x, 0) over a square, at that depth.
+Cloud hill(double height, double half, double z, std::uint64_t seed) {
+  const auto f = [=](double x, double y) { return height * std::exp(-8 * (x * x + y * y) / (half * half)); };
+  return test::height_field(
+      static_cast<std::size_t>(20000 * half * half), half, [=](double x, double y) { return z + f(x, y); },
+      [=](double x, double y) { return Vec2(-16 / (half * half) * f(x, y) * Vec2(x, y)); }, seed);
+}
+
+std::vector<double> mimicking(const Surface& surface, double height) {
+  return value_of(mimicking_heights(surface, height));
+}
+
+// Enough height leaves a model as it is whose silhouette is level.
+TEST(Mimicking, WithEnoughHeightIsTheModel) {
+  const Surface surface = test::surface_of(hill(.4, 1, 0, 5));
+  const std::vector<double> heights = mimicking(surface, .6);
+  const double ground = Box::of(surface.points).min.z();
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    ASSERT_NEAR(heights[i], surface.points[i].z() - ground, .01) << i;
+}
+
+TEST(Mimicking, UsesTheHeightAndNoMore) {
+  const Surface surface = test::surface_of(test::torus(20000, 1, .4));
+  const std::vector<double> heights = mimicking(surface, .05);
+  EXPECT_GE(std::ranges::min(heights), 0);
+  EXPECT_LE(std::ranges::max(heights), .05);
+  EXPECT_GT(std::ranges::max(heights), .0499);
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
+}
+
+// Pieces in front of others take all of the height, however far in front they are.
+TEST(Mimicking, MovesPiecesFreely) {
+  std::vector<std::vector<double>> heights;
+  for (const double distance : {1.0, 3.0}) {
+    const Surface surface =
+        test::surface_of(test::joined(hill(.4, 1, 0, 5), hill(.2, .5, distance, 9)), {.denoise = 0});
+    heights.push_back(mimicking(surface, .05));
+  }
+  EXPECT_LE(test::largest_difference(heights[0], heights[1]), 1e-3 * .05);
+}
+
+TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
+  const Surface surface = test::surface_of(test::bumps_behind_a_ring(10000));
+  set_thread_count(1);
+  const std::vector<double> expected = mimicking(surface, .05);
+  set_thread_count(3);
+  EXPECT_EQ(mimicking(surface, .05), expected);
+  set_thread_count(0);
+}
+
+// Where no bound is reached, the heights are those of (9) without jump weights.
+TEST(Bounded, WithEnoughHeightSolvesTheEquations) {
+  const Surface surface = test::surface_of(test::sphere(20000, 1));
+  const HeightSystem system =
+      value_of(HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
+  std::vector<Vec2> slopes;
+  for (const Vec3f& n : surface.normals) slopes.push_back(compressed_slope(Vec3(n.cast<double>()), .3, 4.0));
+  std::vector<double> expected(slopes.size());
+  system.solve(slopes, expected);
+  const double highest = std::ranges::max(expected);
+  const std::vector<double> heights = value_of(bounded_heights(surface, 2 * highest, .3));
+  EXPECT_LE(test::root_mean_square(heights, expected), .005 * highest);
+}
+
+TEST(Bounded, KeepsTheHeight) {
+  const Surface surface = test::surface_of(test::sphere(20000, 1));
+  const auto [low, high] = std::ranges::minmax(value_of(bounded_heights(surface, .05, 1)));
+  EXPECT_GE(low, 0);
+  EXPECT_LE(high, .05);
+  EXPECT_GT(high, .0499);
+}
+
+}  // namespace
+}  // namespace relievo
