@@ -141,10 +141,10 @@ class InteriorPoint {
 
 Result<BoundedFitResult> solve(const BoundedFit& fit, double tolerance) {
   constexpr int most_steps = 100;
+  const double at_zero = is_plate(fit) ? fit.load.dot(fit.load.cwiseQuotient(fit.mass)) / 2 : 0;
   InteriorPoint point(fit);
-  const double energy = point.energy();
   int steps = 0;
-  for (; steps < most_steps && point.gap() > tolerance * (energy - point.energy()); ++steps)
+  for (; steps < most_steps && point.gap() > tolerance * std::max(std::abs(point.energy()), at_zero); ++steps)
     RELIEVO_CHECK(point.step());
   return BoundedFitResult{point.x(), point.energy(), point.gap(), steps};
 }

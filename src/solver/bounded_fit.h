@@ -1,5 +1,5 @@
-// Minimises a convex quadratic energy under bounds, by an interior-point method (Nocedal and Wright, Numerical
-// Optimization, 2006, chapter 16.6). Each step factors a matrix anew.
+// Minimises a convex quadratic energy under bounds, by an interior-point method (Nocedal and Wright,
+// Numerical Optimization, 2006, chapter 16.6). Each step factors a matrix anew.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -34,8 +34,8 @@ struct BoundedFitResult {
   int steps = 0;  // factorisations
 };
 
-// Ends when the gap is at most `tolerance` times the energy that the fit has lost since the middle between
-// the bounds, or after 100 steps. Errors: those of Cholesky::factor().
+// Ends when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100 steps. Errors:
+// those of Cholesky::factor(), also for a tolerance below the level of rounding.
 Result<BoundedFitResult> solve(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

@@ -80,8 +80,8 @@ TEST(BoundedFit, IsTheSolutionAmongAllSetsOfActiveBounds) {
       for (int choice = 0; choice < 19683 && !expected; ++choice)  // 3^9
         expected = solution_for(fit, energy, choice);
       ASSERT_TRUE(expected);
-      const BoundedFitResult found = value_of(solve(fit, 1e-12));
-      EXPECT_LE((found.x - *expected).cwiseAbs().maxCoeff(), 1e-5) << is_plate << ' ' << seed;
+      const BoundedFitResult found = value_of(solve(fit, 1e-9));
+      EXPECT_LE((found.x - *expected).cwiseAbs().maxCoeff(), 1e-4) << is_plate << ' ' << seed;
     }
 }
 
@@ -99,10 +99,11 @@ TEST(BoundedFit, KeepsItsBoundsAndItsTolerance) {
           (found.x - fit.lowest).dot(g.cwiseMax(0)) + (fit.highest - found.x).dot((-g).cwiseMax(0));
       EXPECT_NEAR(found.gap, gap, 1e-9 * std::abs(found.energy));
     }
-    const double lost = energy((fit.lowest + fit.highest) / 2) - energy(rough.x);
-    EXPECT_LE(rough.gap, 1e-2 * lost);
+    const double at_zero = is_plate ? fit.load.dot(fit.load.cwiseQuotient(fit.mass)) / 2 : 0;
+    const double scale = std::max(std::abs(rough.energy), at_zero);
+    EXPECT_LE(rough.gap, 1e-2 * scale);
     EXPECT_GT(rough.gap, fine.gap);
-    EXPECT_NEAR(rough.energy - fine.energy, energy(rough.x) - energy(fine.x), 1e-9 * lost);
+    EXPECT_NEAR(rough.energy - fine.energy, energy(rough.x) - energy(fine.x), 1e-9 * scale);
     EXPECT_LE(rough.energy - fine.energy, rough.gap);
     EXPECT_GE(rough.energy, fine.energy);
   }

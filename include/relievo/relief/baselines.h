@@ -1,6 +1,6 @@
-// Baselines: published methods of other authors, for comparison. Each follows its paper and runs on the same
-// visible points, normals and height system as layered reliefs, with the parameters that served it best on
-// our scans (docs/quality.md).
+// Baselines by which users make reliefs: published methods of other authors. Each follows its paper and runs
+// on the same visible points, normals and height system as layered reliefs, with fixed parameters that served
+// it well on our scans. baseline_grid.h compares them, and others, at their best.
 #pragma once
 
 #include <vector>

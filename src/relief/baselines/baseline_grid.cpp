@@ -114,6 +114,7 @@ Result<TunedRelief> BaselineGrid::best(std::string_view name, const ReliefMetric
   const std::function<void(std::string, std::vector<double>)> add = [&](std::string parameters,
                                                                         std::vector<double> heights) {
     Relief relief = scaled_relief(std::move(heights), *surface_, height);
+    if (!(relief.height > 0)) return;
     const double shading = metrics.shading(relief.heights);
     if (shading > best.shading) best = {std::move(relief), std::move(parameters), shading};
   };

@@ -1,9 +1,10 @@
 #include "relief/baselines/bounded_reliefs.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-
-#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
 
 #include "relief/baselines/scaled.h"
 #include "relief/edge_weight.h"
@@ -105,13 +106,16 @@ Result<std::vector<double>> solved(SheetFit sheet, double height) {
   return heights;
 }
 
-// Gives points in no triangle of the sheet the height of the corner beside them that is nearest in depth.
+// Gives free points in no triangle of the sheet the height of the corner beside them that is nearest in depth.
 void fill_between(const Surface& surface, const std::vector<Index>& unknown, std::vector<double>& heights) {
+  const std::vector<std::uint8_t>& is_fixed = surface.boundary.is_boundary;
   std::vector<double> nearest(heights.size(), std::numeric_limits<double>::infinity());
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
     for (const Index i : surface.triangulation.triangles[t])
       for (const Index other : surface.triangulation.triangles[t]) {
-        if (!surface.boundary.is_inside[t] || unknown[i] != no_index || unknown[other] == no_index) continue;
+        if (!surface.boundary.is_inside[t] || is_fixed[i] || unknown[i] != no_index ||
+            unknown[other] == no_index)
+          continue;
         const double distance = std::abs(surface.points[i].z() - surface.points[other].z());
         if (distance < nearest[i]) nearest[i] = distance, heights[i] = heights[other];
       }

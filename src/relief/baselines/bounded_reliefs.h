@@ -1,6 +1,6 @@
 // Baselines whose heights are kept between 0 and the relief's height by a convex quadratic problem with
-// bounds (solver::BoundedFit). Each is solved until no heights between the bounds have an energy that is
-// lower by more than 1e-4 of what the solver has gained. Tested by tests/relief/bounded_reliefs_test.cpp.
+// bounds (solver::BoundedFit), solved with a tolerance of 1e-4. Tested by
+// tests/relief/bounded_reliefs_test.cpp.
 #pragma once
 
 #include <vector>
