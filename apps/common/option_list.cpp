@@ -66,6 +66,7 @@ Json entry_of(const OptionRow& option) {
   if (const Json others = other_defaults(option); !others.empty()) entry["default_with"] = others;
   if (!option.in_studio.empty()) entry["in_studio"] = option.in_studio;
   if (option.is_stated) entry["is_stated"] = true;
+  if (option.is_hidden) entry["is_hidden"] = true;
   return entry;
 }
 

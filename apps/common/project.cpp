@@ -38,7 +38,9 @@ constexpr const char* base_image_name = "base-image";
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
-  if (given.contains("alpha")) own.erase("height"), own.erase("method");  // alpha implies the paper's method
+  const auto is_height = [](const auto& value) { return value.first.starts_with("height"); };
+  if (given.contains("alpha")) own.erase("method");  // alpha implies the paper's method
+  if (given.contains("alpha") || std::ranges::any_of(given, is_height)) std::erase_if(own, is_height);
   for (const auto& [name, value] : given) own.insert_or_assign(name, value);
   return own;
 }

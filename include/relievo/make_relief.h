@@ -97,10 +97,10 @@ struct MadeRelief {
 
 // Returns the surface that the points show in that view, with its factored system. Errors: those of
 // find_surface() and ReliefModel::prepare().
-Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode = Mode::exact,
+Result<ReliefModel> prepare(const Cloud& points, const View& view, const SolvedPoints& solved = {},
                             Progress* progress = nullptr);
 
-// Returns the plate with the relief of a prepared model; options.view, mode and points are ignored. Stages
+// Returns the plate with the relief of a prepared model; options.view, solved_points() and points are ignored. Stages
 // and their times are reported to `progress`; the caller ends the last stage by Progress::finish(). Errors:
 // those of check(), of ReliefModel::make_at_height() and of the plate's parts; kind cancelled.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
@@ -133,7 +133,8 @@ Shape shape_of(const ReliefOptions& options);
 
 // Returns the options with a width: the given width; without one, the largest width with which the relief,
 // margin and rim included, fits into a plate of the given size; without a size, the default. make_relief()
-// does this itself. Errors: kind option if the plate is too small.
+// does this itself. A height that is a share of the diagonal becomes a height in mm. Errors: kind option if
+// the plate is too small.
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
 
 // Returns millimetres per unit of the surface at the width of the options, see with_width().

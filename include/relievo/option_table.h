@@ -69,6 +69,7 @@ struct OptionRow {
   std::string_view otherwise = {};             // the default in words, if it is not a fixed value
   std::string_view in_studio = {};  // the value in a new document of the studio, if that is not the default
   bool is_stated = false;           // the studio writes it into projects even if it has its default
+  bool is_hidden = false;           // the studio's page has no control for it, but keeps it in projects
   OptionAccess access = {};
 
   bool is_number() const { return min <= max && max < std::numeric_limits<double>::infinity(); }

@@ -18,26 +18,28 @@ namespace relievo {
 
 // The options that are plain numbers; option_table() has their ranges. Most comments end with the default.
 struct NumericOptions {
-  std::optional<double> width_mm;      // longer side of the relief, without margin; see effective_width_mm()
-  std::optional<double> diameter_mm;   // diameter of a round plate; as small as the relief allows
-  std::optional<double> height_mm;     // lowest to highest point of the front; see effective_height_mm()
-  std::optional<double> alpha;         // the paper's height coefficient; 4
-  std::optional<double> saturation;    // the paper's beta; see effective_saturation()
-  std::optional<double> detail;        // the paper's gamma; see effective_detail()
-  std::optional<double> steepest_deg;  // largest target slope; 76
-  std::optional<double> draft_deg;     // least angle of every triangle to the vertical; any
-  std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
-  double steps = 0;                      // least share of the height for depth jumps, see Shape
-  double corner_mm = 5;                  // radius of the corners of Outline::round
-  std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
-  std::optional<double> thickness_mm;    // smallest thickness of the plate; see effective_thickness_mm()
-  std::optional<double> rim_mm;          // width of a raised edge along the outline; none
-  std::optional<double> rim_height_mm;   // height of the edge above ground; the relief's if its bevel fits
-  std::optional<double> rim_bevel_mm;    // width of the edge's slanting inner side; 0.3 of the edge's height
-  std::optional<double> points;          // number of visible points to sample; see usual_points()
-  std::optional<double> resolution_mm;   // finest step of samples; the smaller of width / 700 and rho
-  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; without it all points stay
-  std::optional<double> triangles;       // most triangles of the solid; any number
+  std::optional<double> width_mm;     // longer side of the relief, without margin; see effective_width_mm()
+  std::optional<double> diameter_mm;  // diameter of a round plate; as small as the relief allows
+  std::optional<double> height_mm;    // lowest to highest point of the front; see effective_height_mm()
+  std::optional<double> height_of_diagonal;  // the height as a share of L_d, in place of height_mm
+  std::optional<double> alpha;               // the paper's height coefficient; 4
+  std::optional<double> saturation;          // the paper's beta; see effective_saturation()
+  std::optional<double> detail;              // the paper's gamma; see effective_detail()
+  std::optional<double> steepest_deg;        // largest target slope; 76
+  std::optional<double> draft_deg;           // least angle of every triangle to the vertical; any
+  std::optional<double> boundary_width;      // width of (7), in units of rho; see effective_boundary_width()
+  double steps = 0;                          // least share of the height for depth jumps, see Shape
+  double control_points = static_cast<double>(usual_control_points);  // of the subspace, approximately
+  double corner_mm = 5;                 // radius of the corners of Outline::round
+  std::optional<double> margin_mm;      // least flat ground around the relief; see effective_margin_mm()
+  std::optional<double> thickness_mm;   // smallest thickness of the plate; see effective_thickness_mm()
+  std::optional<double> rim_mm;         // width of a raised edge along the outline; none
+  std::optional<double> rim_height_mm;  // height of the edge above ground; the relief's if its bevel fits
+  std::optional<double> rim_bevel_mm;   // width of the edge's slanting inner side; 0.3 of the edge's height
+  std::optional<double> points;         // number of visible points to sample; see usual_points()
+  std::optional<double> resolution_mm;  // finest step of samples; the smaller of width / 700 and rho
+  std::optional<double> tolerance_mm;   // largest error of the simplified mesh; without it all points stay
+  std::optional<double> triangles;      // most triangles of the solid; any number
 
   bool operator==(const NumericOptions&) const = default;
 };
@@ -91,10 +93,11 @@ struct ReliefOptions : NumericOptions {
   double effective_saturation() const;
   double effective_detail() const;
   double effective_boundary_width() const;
+  SolvedPoints solved_points() const { return {mode, static_cast<std::size_t>(control_points)}; }
 };
 
-// Checks every range, and that options do not contradict each other. Contradictions are: height and alpha;
-// alpha and a method other than the paper's; saturation or detail for a method that has none; a tone curve or
+// Checks every range, and that options do not contradict each other. Contradictions are: two of height, height
+// of the diagonal and alpha; control points without a subspace; alpha and a method other than the paper's; saturation or detail for a method that has none; a tone curve or
 // steps for the paper's method; a size of the plate that its outline cannot have. Errors: kind option, naming
 // the option.
 Result<void> check(const ReliefOptions& options);

@@ -11,9 +11,6 @@
 
 namespace relievo {
 
-// The number of control points in the subspace mode, as in most rows of Table 1.
-inline constexpr std::size_t paper_control_points = 8000;
-
 // The system (9) of all visible points, or of the control points with the mapping to all visible points. Const
 // calls may run concurrently, each with a workspace of its own.
 class PaperModel {

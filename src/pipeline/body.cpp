@@ -166,16 +166,24 @@ Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const Rel
   return Body{std::move(bent), std::move(solid), wrap};
 }
 
+ReliefOptions with_height(const Surface& surface, ReliefOptions options) {
+  if (!options.height_of_diagonal) return options;
+  options.height_mm = *options.height_of_diagonal * surface.diagonal * mm_per_unit(surface, options);
+  options.height_of_diagonal.reset();
+  return options;
+}
+
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options) {
   ReliefOptions sized = options;
   if (plate_size_of(options).x() == 0) {
     sized.width_mm = options.effective_width_mm();
-    return sized;
+    return with_height(surface, std::move(sized));
   }
   const double largest = largest_width_mm(surface, options);
   sized.width_mm = options.width_mm.value_or(largest);
   constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a report
-  if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding) return sized;
+  if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding)
+    return with_height(surface, std::move(sized));
   return option_error(
       "width", cat("expected at most ", std::max(0.0, largest), " mm, which the plate leaves with its margin",
                    options.rim_mm ? " and rim" : "", ", found ", *sized.width_mm, " mm"));

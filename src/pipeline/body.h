@@ -33,6 +33,9 @@ SimplifyOptions simplest_front(const ReliefOptions& options);
 // front, and for the finish `reachable`. It is never so for the outline `none`.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
+// Returns options with a width with a height in mm in the place of one that is a share of the diagonal.
+ReliefOptions with_height(const Surface& surface, ReliefOptions options);
+
 // A solid, and the same solid before it was bent around a wrap.
 struct Body {
   Solid solid;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/body.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/io/read.h"
@@ -127,7 +128,7 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
   ReliefOptions sized = options;
   if (!options.diameter_mm && !options.plate_mm) {
     most_mm.reset();
-    return sized;
+    return with_height(model().surface(), std::move(sized));
   }
   std::vector<double> sizes = plate_sizes(options);
   if (sizes != state_->sizes || !most_mm) {
@@ -142,7 +143,7 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
   sized.width_mm = options.width_mm.value_or(*most_mm);
   if (*sized.width_mm > *most_mm)
     return relievo::with_width(model().surface(), sized);  // its error states why the width is refused
-  return sized;
+  return with_height(model().surface(), std::move(sized));
 }
 
 std::optional<double> LiveModel::most_width_mm() const {
@@ -223,7 +224,7 @@ Result<LiveModel> prepare(const Job& job, Progress* progress) {
   return within_memory([&]() -> Result<LiveModel> {
     const View view = chosen_view(job.inputs, job.options.effective_view());
     RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
-    RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.mode, progress));
+    RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.solved_points(), progress));
     return LiveModel({std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1},
                      std::move(sample.notes));
   });

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "pipeline/body.h"
+#include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/job.h"
 #include "relievo/plate/draft_in_file.h"
@@ -164,6 +165,19 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
+// Returns the relief of relief_of_height(). If a height that is a share of the diagonal is out of reach, the
+// error also says which share the normals alone reach.
+Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options, bool is_share,
+                         Progress* progress) {
+  Result<Relief> relief = relief_of_height(model, options, progress);
+  if (relief || relief.error().kind != ErrorKind::geometry || !is_share) return relief;
+  if (!has_shape(options.effective_method())) return relief;
+  const double highest = model.make(uncompressed(shape_of(options))).height;
+  relief.error().expected +=
+      cat("; normals alone reach ", highest / model.surface().diagonal, " of the diagonal");
+  return relief;
+}
+
 // Returns the number of points and the wanted resolution, which determine the memory that a body takes.
 MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
@@ -174,7 +188,8 @@ Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& a
   const Surface& surface = model.surface();
   RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
-  RELIEVO_TRY(const Relief relief, relief_of_height(model, options, progress));
+  const bool is_share = asked.height_of_diagonal.has_value();
+  RELIEVO_TRY(const Relief relief, relief_of(model, options, is_share, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .9));
   RELIEVO_TRY(FormedFront full, full_front(surface, relief, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
@@ -221,10 +236,11 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
   return options.effective_width_mm() / surface.longer_side();
 }
 
-Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {
+Result<ReliefModel> prepare(const Cloud& points, const View& view, const SolvedPoints& solved,
+                            Progress* progress) {
   return within_memory({.points = points.size()}, [&]() -> Result<ReliefModel> {
     RELIEVO_TRY(const auto measured, MeasuredCloud::measure(points, view, progress));
-    return ReliefModel::of_view(*measured, view, mode, progress);
+    return ReliefModel::of_view(*measured, view, solved, progress);
   });
 }
 

@@ -53,6 +53,9 @@ std::vector<OptionRow> shape_rows() {
                     "lithophane",
        .is_stated = true,
        .access = number<&ReliefOptions::height_mm, &ReliefOptions::usual_height_mm>},
+      {.name = "height-of-diagonal", .unit = "SHARE", .stage = shape, .min = .001, .max = 1,
+       .help = "the height as a share of the diagonal of the scan's box, the paper's L_d; in the place of height",
+       .otherwise = "none", .is_hidden = true, .access = number<&ReliefOptions::height_of_diagonal>},
       {.name = "alpha", .unit = "A", .stage = shape, .min = 0, .max = 1e9,
        .help = "the paper's height coefficient, more is flatter; not together with height",
        .access = number<&ReliefOptions::alpha, &ReliefOptions::effective_alpha>},
@@ -92,10 +95,13 @@ std::vector<OptionRow> limit_rows() {
        .help = "tone curve that replaces the saturation: share of the slope kept over the square root of the curvature",
        .otherwise = "none", .access = text<&ReliefOptions::tone, parse_tone_curve>},
       {.name = "mode", .unit = "MODE", .stage = model, .choices = names_of(mode_choices),
-       .help = "subspace solves for about 8,000 control points: half the memory, 1 to 4 % of the height off; auto does "
+       .help = "subspace solves for control points: half the memory, 1 to 4 % of the height off; auto does "
                "so above 1.5 million visible points",
        .initial = "exact", .in_studio = "auto", .is_stated = true,
        .access = word<&ReliefOptions::mode, mode_choices>},
+      {.name = "control-points", .unit = "N", .stage = model, .min = 100, .max = 1e6,
+       .help = "control points asked of the subspace, of which method paper gets about 0.6", .initial = NumericOptions{}.control_points,
+       .is_hidden = true, .access = number<&ReliefOptions::control_points>},
   };
 }
 

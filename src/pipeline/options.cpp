@@ -20,6 +20,13 @@ Result<void> check_ranges(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_height(const ReliefOptions& options) {
+  if (options.height_mm && options.height_of_diagonal)
+    return option_error("height-of-diagonal", "expected either height or height-of-diagonal, found both");
+  if (!options.alpha || !(options.height_mm || options.height_of_diagonal)) return {};
+  return option_error("alpha", "expected either height or alpha, found both");
+}
+
 Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
   if (method != Method::paper && options.alpha)
@@ -158,8 +165,9 @@ double ReliefOptions::effective_boundary_width() const {
 
 Result<void> check(const ReliefOptions& options) {
   RELIEVO_CHECK(check_ranges(options));
-  if (options.height_mm && options.alpha)
-    return option_error("alpha", "expected either height or alpha, found both");
+  RELIEVO_CHECK(check_height(options));
+  if (options.mode == Mode::exact && options.control_points != NumericOptions{}.control_points)
+    return option_error("control-points", "expected mode subspace or auto with it, found exact");
   if (options.finish == Finish::reachable && !options.tool)
     return option_error("finish", "expected a tool, which tells what is reachable");
   RELIEVO_CHECK(check_draft(options));

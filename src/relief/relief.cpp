@@ -88,22 +88,6 @@ MembraneParams ReliefModel::membrane_at(double u) const {
   return state_->tuning.at(u);
 }
 
-namespace {
-
-// Prepares the model of the control points. Consumes `system`, the system of all points.
-Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const PointLayers> layers,
-                                       HeightSystem system, Progress* progress) {
-  RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
-  const SubspaceOptions options;
-  const auto reference = [&] {
-    const HeightSystem all = std::move(system);  // freed at once, because it takes most of the memory
-    return reference_heights(surface, all, options.max_slope);
-  }();
-  return SubspaceModel::prepare(surface, options, {reference, layers}, progress);
-}
-
-}  // namespace
-
 Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surface& surface,
                                                                     Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "layers", .72));
@@ -123,30 +107,41 @@ Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surfac
                std::move(system)};
 }
 
-Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
+namespace {
+
+// Consumes the system of all points, which takes most of the memory.
+std::vector<double> last_heights_of(HeightSystem system, const Surface& surface, double max_slope) {
+  return reference_heights(surface, system, max_slope);
+}
+
+}  // namespace
+
+Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, const SolvedPoints& solved) {
   RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
   RELIEVO_CHECK(check_cancelled(progress));
   auto& system = std::get<HeightSystem>(parts.solver);
   RELIEVO_TRY(const MembraneTuning tuning,
               tune_membrane({surface, parts.layers, parts.correction, system, parts.jump_lift}, progress));
-  if (resolve_mode(mode, surface) == Mode::subspace) {
-    RELIEVO_TRY(parts.solver, prepare_subspace(surface, parts.layers, std::move(system), progress));
+  if (resolve_mode(solved.mode, surface) == Mode::subspace) {
+    RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
+    const SubspaceOptions options{.control = {.count = solved.control_points}};
+    const std::vector<double> reference = last_heights_of(std::move(system), surface, options.max_slope);
+    RELIEVO_TRY(parts.solver, SubspaceModel::prepare(surface, options, {reference, parts.layers}, progress));
     parts.layers = std::vector<PointLayers>();
   }
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 
-Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const View& view, Mode mode,
-                                         Progress* progress) {
+Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const View& view,
+                                         const SolvedPoints& solved, Progress* progress) {
   if (!view.is_paper) {
     RELIEVO_TRY(Surface surface, find_surface(measured, view, progress));
-    return prepare(std::move(surface), progress, mode);
+    return prepare(std::move(surface), progress, solved);
   }
   RELIEVO_TRY(Surface surface, paper::find_surface(measured, view, progress));
-  const bool is_exact = resolve_mode(mode, surface) == Mode::exact;
-  RELIEVO_TRY(
-      PaperModel model,
-      PaperModel::prepare(surface, is_exact ? surface.points.size() : paper_control_points, progress));
+  const bool is_exact = resolve_mode(solved.mode, surface) == Mode::exact;
+  const std::size_t control_points = is_exact ? surface.points.size() : solved.control_points;
+  RELIEVO_TRY(PaperModel model, PaperModel::prepare(surface, control_points, progress));
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(model)}));
 }
 

@@ -21,6 +21,10 @@ Cloud figure() {
   return test::joined(test::torus(30000, 1.5, .4), test::sphere(20000, .8));
 }
 
+Cloud small_figure() {
+  return test::joined(test::torus(8000, 1.5, .4), test::sphere(4000, .8));
+}
+
 Box box_of(const Solid& solid) {
   return Box::of(solid.points);
 }
@@ -38,6 +42,42 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   EXPECT_NEAR(box.size().z(), 1.5 + 2.5, 2.5e-3);
   EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
   EXPECT_NEAR(box.size().z(), 1.5 + made.report.height_mm, 1e-9);
+}
+
+TEST(MakeRelief, IsAsHighAsAShareOfTheDiagonal) {
+  const Cloud cloud = small_figure();
+  ReliefOptions options;
+  options.width_mm = 60;
+  options.resolution_mm = .5;
+  for (const Method method : {Method::layered, Method::paper}) {
+    options.method = method;
+    options.height_of_diagonal = .02;
+    const auto made = value_of(make_relief(cloud, options));
+    EXPECT_NEAR(*made.report.height_requested_mm, .02 * Box::of(cloud.points).diagonal() * made.report.scale,
+                1e-9);
+    ReliefOptions in_mm = options;
+    in_mm.height_of_diagonal.reset();
+    in_mm.height_mm = made.report.height_requested_mm;
+    EXPECT_EQ(write_stl(made.solid), write_stl(make_relief(cloud, in_mm)->solid));
+    options.height_of_diagonal = .9;
+    expect_error(make_relief(cloud, options), "; normals alone reach 0.");
+  }
+}
+
+TEST(MakeRelief, SolvesForControlPointsInProportionToTheNumberAsked) {
+  ReliefOptions options;
+  options.mode = Mode::subspace;
+  for (const View& view : {View(), View().for_paper()}) {
+    const auto points_for = [&](double count) {
+      options.control_points = count;
+      return static_cast<double>(
+          value_of(prepare(small_figure(), view, options.solved_points())).control_points());
+    };
+    const double few = points_for(500), many = points_for(1000);
+    EXPECT_NEAR(many / few, 2, .3);
+    EXPECT_GT(many, .5 * 1000);
+    EXPECT_LT(many, 1.1 * 1000);
+  }
 }
 
 // Expects that a relief in a plate of that size is as large as the margin allows: one point touches the
@@ -63,7 +103,7 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
 }
 
 TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
-  const auto model = prepare(test::joined(test::torus(8000, 1.5, .4), test::sphere(4000, .8)), View{});
+  const auto model = prepare(small_figure(), View{});
   ASSERT_TRUE(model) << model.error().message();
   ReliefOptions options;
   options.height_mm = 2;

@@ -91,6 +91,25 @@ TEST(Options, MethodsHaveWhatTheyNeed) {
   EXPECT_NE(complaint(options).find("detail"), std::string::npos);
 }
 
+TEST(Options, HaveOneHeightAtMost) {
+  ReliefOptions options;
+  options.height_of_diagonal = .05;
+  EXPECT_EQ(complaint(options), "");
+  options.alpha = 4;
+  EXPECT_EQ(complaint(options), "alpha: expected either height or alpha, found both");
+  options.height_mm = 3;
+  EXPECT_EQ(complaint(options),
+            "height-of-diagonal: expected either height or height-of-diagonal, found both");
+}
+
+TEST(Options, HaveControlPointsInASubspaceOnly) {
+  ReliefOptions options;
+  options.control_points = 4000;
+  EXPECT_EQ(complaint(options), "control-points: expected mode subspace or auto with it, found exact");
+  options.mode = Mode::automatic;
+  EXPECT_EQ(complaint(options), "");
+}
+
 TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
   ReliefOptions options;
   options.height_mm = 3;

@@ -19,7 +19,7 @@ async function ask() {
 
 export const about = await ask();
 
-// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated}. Numbers also
+// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated, is_hidden}. Numbers also
 // have min and max, and enumerations have choices.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 

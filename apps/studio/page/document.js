@@ -174,6 +174,7 @@ export function engineOptions(step) {
     if (isThere && (optionOf(name)?.is_stated || value !== FIRST.options[name])) options[name] = value;
   }
   options.height = Math.round(options.height * 1e4) / 1e4;
+  if ("height-of-diagonal" in options) delete options.height; // until the first picture has it in mm
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];

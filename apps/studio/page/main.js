@@ -175,6 +175,10 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
+  if (frame.options["height-of-diagonal"] && !opened.status.busy) {
+    doc.note({options: {height: frame.height_mm, "height-of-diagonal": null}});
+    sliders.all.height.show(frame.height_mm);
+  }
   const {u, options} = doc.now; // the picture may have been requested before u or the height was typed
   const isNewest = u === null ? frame.options.height === options.height : frame.u === u;
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {

@@ -102,7 +102,8 @@ export class PieceRows {
   // `say` shows a line to the user; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, entries, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, entries, say, shownWidth, rows: {}});
-    for (const {name} of about.options) if (!isLabelled(name)) LABELS[name] = sentence(name.replaceAll("-", " "));
+    for (const {name, is_hidden: isHidden} of about.options)
+      if (!isHidden && !isLabelled(name)) LABELS[name] = sentence(name.replaceAll("-", " "));
     for (const name of Object.keys(LABELS)) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
       $(PLACES[optionOf(name).stage] ?? "#piece").append(this.rows[name].element);

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "relievo/core/types.h"
+#include "relievo/relief/method.h"
 
 namespace relievo {
 
 struct ControlPointOptions {
-  std::size_t count = 8000;  // approximate number of control points, the paper's n2; > 0
-  double at_boundary = .5;   // spacing at the boundary, as a share of the spacing inside, (0, 1]
+  std::size_t count = usual_control_points;  // approximate number of control points, the paper's n2; > 0
+  double at_boundary = .5;  // spacing at the boundary, as a share of the spacing inside, (0, 1]
 };
 
 struct ControlPoints {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -77,5 +78,16 @@ enum class Mode {
 
 inline constexpr std::array<Choice<Mode>, 3> mode_choices{
     {{"exact", Mode::exact}, {"subspace", Mode::subspace}, {"auto", Mode::automatic}}};
+
+inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of the paper's Table 1
+
+// A mode, and the approximate number of control points if it is the subspace.
+struct SolvedPoints {
+  SolvedPoints(Mode chosen = Mode::exact, std::size_t count = usual_control_points)
+      : mode(chosen), control_points(count) {}
+
+  Mode mode;
+  std::size_t control_points;
+};
 
 }  // namespace relievo

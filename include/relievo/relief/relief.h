@@ -44,12 +44,13 @@ class ReliefModel {
   // Takes the surface, splits its normals into layers, factors its system and tunes the height correction; in
   // subspace mode it also builds the system of the control points. Errors: see HeightSystem::build(); kind
   // cancelled.
-  static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
+  static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr,
+                                     const SolvedPoints& solved = {});
 
   // Returns the model of the surface that the view shows. For a view of Method::paper it has the system of
   // paper() and no other. Errors: those of find_surface() and prepare().
-  static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view, Mode mode,
-                                     Progress* progress = nullptr);
+  static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view,
+                                     const SolvedPoints& solved, Progress* progress = nullptr);
 
   // Prepares a model for exact reliefs that are shown only briefly. Nothing is tuned: the height correction
   // has the parameters of `other`, a model of the same scan in another view, or the defaults if `other` is
