@@ -57,6 +57,7 @@ Result<void> measure_model(const std::string& name, int frames, F&& make_model, 
   if (most_threads > 1) result.frames.push_back(measure_frames(model, {1, frames, false}));
   for (const bool is_locked : {false, true})
     result.frames.push_back(measure_frames(model, {most_threads, frames, is_locked}));
+  if (model.paper()) result.frames.push_back(measure_frames(model, {most_threads, frames, false, true}));
   result.memory.push_back({name, bytes_per_point(model)});
   return {};
 }

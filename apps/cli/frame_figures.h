@@ -33,6 +33,7 @@ struct FrameRun {
   int threads = 1;
   int frames = 60;
   bool is_locked = false;  // height locked
+  bool is_ahead = false;   // by FrameMaker::make_ahead()
 };
 
 // Makes frames as if a user dragged a slider: the slider of the detail or, with a locked height, the slider

@@ -100,9 +100,9 @@ struct MadeRelief {
 Result<ReliefModel> prepare(const Cloud& points, const View& view, const SolvedPoints& solved = {},
                             Progress* progress = nullptr);
 
-// Returns the plate with the relief of a prepared model; options.view, solved_points() and points are ignored. Stages
-// and their times are reported to `progress`; the caller ends the last stage by Progress::finish(). Errors:
-// those of check(), of ReliefModel::make_at_height() and of the plate's parts; kind cancelled.
+// Returns the plate with the relief of a prepared model; options.view, mode, control points and points are
+// ignored. Stages and their times are reported to `progress`; the caller ends the last stage by
+// Progress::finish(). Errors: those of check(), of ReliefModel::make_at_height() and of the plate's parts; kind cancelled.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 

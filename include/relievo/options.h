@@ -97,9 +97,9 @@ struct ReliefOptions : NumericOptions {
 };
 
 // Checks every range, and that options do not contradict each other. Contradictions are: two of height, height
-// of the diagonal and alpha; control points without a subspace; alpha and a method other than the paper's; saturation or detail for a method that has none; a tone curve or
-// steps for the paper's method; a size of the plate that its outline cannot have. Errors: kind option, naming
-// the option.
+// of the diagonal and alpha; control points without a subspace; alpha and a method other than the paper's;
+// saturation or detail for a method that has none; a tone curve or steps for the paper's method; a size of the
+// plate that its outline cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

@@ -211,13 +211,15 @@ FrameMaker::FrameMaker(const ReliefModel& model) : state_(std::make_unique<State
 FrameMaker::FrameMaker(FrameMaker&&) noexcept = default;
 FrameMaker::~FrameMaker() = default;
 
+bool FrameMaker::make_ahead(const FrameOptions& options, Frame& frame) {
+  auto* const paper = std::get_if<PaperFrames>(&state_->frames);
+  if (paper && !options.height) return paper->make_ahead(options, frame);
+  make(options, frame);
+  return true;
+}
+
 void FrameMaker::make(const FrameOptions& options, Frame& frame) {
-  const std::size_t size = state_->model.surface().points.size();
-  frame.options = options;
-  frame.heights.resize(size);
-  frame.normals.resize(size);
-  frame.times = {};
-  frame.is_height_met = true;
+  begin_frame(options, state_->model.surface().points.size(), frame);
   std::visit([&](auto& frames) { frames.make(frame); }, state_->frames);
 }
 

@@ -1,6 +1,7 @@
 // Frames of a model of Method::paper, see FrameMaker.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/stopwatch.h"
@@ -11,6 +12,15 @@
 
 namespace relievo {
 
+// Gives a frame its options, and room for its points.
+inline void begin_frame(const FrameOptions& options, std::size_t points, Frame& frame) {
+  frame.options = options;
+  frame.heights.resize(points);
+  frame.normals.resize(points);
+  frame.times = {};
+  frame.is_height_met = true;
+}
+
 class PaperFrames {
  public:
   explicit PaperFrames(const ReliefModel& model)
@@ -20,6 +30,7 @@ class PaperFrames {
 
   // Makes the relief; `frame` has its options, and room for its points.
   void make(Frame& frame) {
+    frames_begun_ = 0;  // those of make_ahead() are given up
     const bool is_known = last_ && last_->wanted == frame.options;
     if (is_known) frame.options.shape = last_->found;
     if (!frame.options.height || is_known)
@@ -27,9 +38,26 @@ class PaperFrames {
     else
       raise_to(*frame.options.height, frame);
     finish(frame);
-    const Stopwatch watch;
-    normal_matrix_.normals(frame.heights, frame.normals);
-    frame.times.normals_s = watch.seconds();
+    find_normals(frame);
+  }
+
+  // One step ahead (section 3.5), see FrameMaker::make_ahead(). The stages of three frames run at once.
+  bool make_ahead(const FrameOptions& options, Frame& frame) {
+    std::swap(ahead_[1], ahead_[2]);
+    std::swap(ahead_[0], ahead_[1]);
+    relief_.hand_over();
+    begin_frame(options, relief_.size(), ahead_[0]);
+    frames_begun_ = std::min(frames_begun_ + 1, ahead_.size());
+    parallel_for(
+        frames_begun_,
+        [&](std::size_t stage) {
+          if (stage == 0) solve(ahead_[0]);
+          if (stage == 1) map(ahead_[1]), finish(ahead_[1]);
+          if (stage == 2) find_normals(ahead_[2]);
+        },
+        1);
+    if (frames_begun_ == ahead_.size()) std::swap(frame, ahead_[2]);
+    return frames_begun_ == ahead_.size();
   }
 
   std::size_t memory() const { return relief_.memory() + normal_matrix_.memory(); }
@@ -40,18 +68,34 @@ class PaperFrames {
     Shape found;
   };
 
-  double raise(Frame& frame) {
+  void solve(Frame& frame) {
     const Stopwatch watch;
     relief_.solve(frame.options.shape);
     frame.times.heights_s += watch.seconds();
-    const Stopwatch mapping;
+    ++frame.times.solves;
+  }
+
+  void map(Frame& frame) {
+    const Stopwatch watch;
     relief_.map(frame.options.shape, frame.heights);
     const HeightSpan<float> span = span_of(std::span<const float>(frame.heights));
-    frame.times.after_solve_s += mapping.seconds();
-    ++frame.times.solves;
+    frame.times.after_solve_s += watch.seconds();
     frame.lowest = span.lowest;
     frame.highest = span.highest;
-    return frame.height = static_cast<double>(span.size());
+    frame.height = static_cast<double>(span.size());
+  }
+
+  void find_normals(Frame& frame) const {
+    const Stopwatch watch;
+    normal_matrix_.normals(frame.heights, frame.normals);
+    frame.times.normals_s = watch.seconds();
+  }
+
+  double raise(Frame& frame) {
+    solve(frame);
+    relief_.hand_over();
+    map(frame);
+    return frame.height;
   }
 
   void raise_to(double height, Frame& frame) {
@@ -63,7 +107,8 @@ class PaperFrames {
   }
 
   // Scales the heights to the height asked for, and adds the base.
-  void finish(Frame& frame) {
+  static void finish(Frame& frame) {
+    if (!frame.options.height && !frame.options.base) return;
     const bool is_met = frame.options.height && frame.is_height_met;
     const auto scale = static_cast<float>(is_met ? *frame.options.height / frame.height : 1);
     if (is_met) frame.height = *frame.options.height;
@@ -78,7 +123,9 @@ class PaperFrames {
 
   PaperRelief relief_;
   SlicedEllMatrix normal_matrix_;
-  std::optional<Found> last_;  // the shape of the last locked height
+  std::optional<Found> last_;   // the shape of the last locked height
+  std::array<Frame, 3> ahead_;  // the frames that are solved, mapped and given their normals
+  std::size_t frames_begun_ = 0;
 };
 
 }  // namespace relievo

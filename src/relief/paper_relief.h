@@ -21,33 +21,39 @@ class PaperRelief {
       : model_(model),
         solve_workspace_(model.make_solve_workspace()),
         map_workspace_(model.make_map_workspace()),
-        control_heights_(model.control_points()) {}
+        solved_(model.control_points()),
+        mapped_(model.control_points()) {}
 
   // Solves (9) for the shape. What a shape has besides the paper's coefficients does not count.
   void solve(const Shape& shape) {
     const Compression& c = shape.compression;
-    model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, control_heights_);
+    model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, solved_);
   }
 
-  // Writes the heights of all visible points for the last solve(), with detail.
+  // Hands the result of the last solve() over to map(). A solve() and a map() may then run at the same time.
+  void hand_over() { std::swap(solved_, mapped_); }
+
+  // Writes the heights of all visible points for what was handed over, with detail.
   void map(const Shape& shape, std::span<float> heights) {
-    model_.map(control_heights_, shape.gamma, map_workspace_, heights);
+    model_.map(mapped_, shape.gamma, map_workspace_, heights);
   }
 
-  // Does both, and returns the height of the relief.
+  // Does all three, and returns the height of the relief.
   double raise(const Shape& shape, std::span<float> heights) {
     solve(shape);
+    hand_over();
     map(shape, heights);
     return static_cast<double>(span_of(std::span<const float>(heights)).size());
   }
 
+  std::size_t size() const { return model_.size(); }
   std::size_t memory() const { return solve_workspace_.system.memory() + model_.size() * sizeof(float); }
 
  private:
   const PaperModel& model_;
   PaperModel::SolveWorkspace solve_workspace_;
   PaperModel::MapWorkspace map_workspace_;
-  std::vector<float> control_heights_;
+  std::vector<float> solved_, mapped_;  // heights of the control points
 };
 
 // Finds the shape with the height asked for, by Algorithm 1 if its beta is free. Otherwise, and if Algorithm 1

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -130,6 +131,27 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
         EXPECT_EQ(frame.times.solves, 1);
       }
     }
+  }
+}
+
+// Section 3.5: the stages of three frames run at once, and give what one frame after the other gives.
+TEST(PaperRelief, OneStepAheadHasTheSameBits) {
+  const std::array shapes{Shape{{1, .2}, .05}, Shape{{.5, 1}, 0}, Shape{{.7, 0}, .1}, Shape{{.2, 3}, .02}};
+  for (const Mode mode : {Mode::exact, Mode::subspace}) {
+    const ReliefModel model = prepared(ball_before_a_sheet(), mode);
+    FrameMaker maker(model), plain(model);
+    Frame ahead, frame;
+    for (std::size_t i = 0; i < 2 * shapes.size(); ++i) {
+      ASSERT_EQ(maker.make_ahead({shapes[i % shapes.size()], {}, nullptr}, ahead), i >= 2);
+      if (i < 2) continue;
+      plain.make({shapes[(i - 2) % shapes.size()], {}, nullptr}, frame);
+      EXPECT_EQ(ahead.options, frame.options);
+      EXPECT_EQ(ahead.heights, frame.heights);
+      EXPECT_EQ(ahead.normals, frame.normals);
+      EXPECT_EQ(ahead.height, frame.height);
+    }
+    maker.make({shapes[0], {}, nullptr}, frame);
+    EXPECT_FALSE(maker.make_ahead({shapes[0], {}, nullptr}, frame));
   }
 }
 

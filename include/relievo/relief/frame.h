@@ -57,6 +57,13 @@ class FrameMaker {
   // because its search starts from the last u.
   void make(const FrameOptions& options, Frame& frame);
 
+  // Makes frames one step ahead, as section 3.5 of the paper does: each stage has a thread of its own. While
+  // the heights of the frame asked for are solved, the frame of the last call is mapped to all points, and the
+  // one before gets its normals and is written to `frame`. Returns false, and no frame, for the first two
+  // calls, and for the first two after make(). Frames have the bits of make(). This is for models of
+  // Method::paper and options without a height; other frames are made at once.
+  bool make_ahead(const FrameOptions& options, Frame& frame);
+
   // Writes a gain for each point of the last frame: the change of the relief's slope per change of the scan
   // normal's x and y. Gains apply to normals at a scale that the points do not resolve, see SurfaceDetail in
   // render.h.
