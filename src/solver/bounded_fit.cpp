@@ -139,7 +139,7 @@ class InteriorPoint {
 
 }  // namespace
 
-Result<BoundedFitResult> solve(const BoundedFit& fit, double tolerance) {
+Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance) {
   constexpr int most_steps = 100;
   const double at_zero = is_plate(fit) ? fit.load.dot(fit.load.cwiseQuotient(fit.mass)) / 2 : 0;
   InteriorPoint point(fit);

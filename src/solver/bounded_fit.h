@@ -36,6 +36,6 @@ struct BoundedFitResult {
 
 // Ends when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100 steps. Errors:
 // those of Cholesky::factor(), also for a tolerance below the level of rounding.
-Result<BoundedFitResult> solve(const BoundedFit& fit, double tolerance);
+Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

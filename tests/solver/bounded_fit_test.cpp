@@ -80,7 +80,7 @@ TEST(BoundedFit, IsTheSolutionAmongAllSetsOfActiveBounds) {
       for (int choice = 0; choice < 19683 && !expected; ++choice)  // 3^9
         expected = solution_for(fit, energy, choice);
       ASSERT_TRUE(expected);
-      const BoundedFitResult found = value_of(solve(fit, 1e-9));
+      const BoundedFitResult found = value_of(minimise(fit, 1e-9));
       EXPECT_LE((found.x - *expected).cwiseAbs().maxCoeff(), 1e-4) << is_plate << ' ' << seed;
     }
 }
@@ -90,7 +90,7 @@ TEST(BoundedFit, KeepsItsBoundsAndItsTolerance) {
   for (const bool is_plate : {false, true}) {
     const BoundedFit fit = problem(30, 20, is_plate, 5);
     const DenseEnergy energy(fit);
-    const BoundedFitResult rough = value_of(solve(fit, 1e-2)), fine = value_of(solve(fit, 1e-8));
+    const BoundedFitResult rough = value_of(minimise(fit, 1e-2)), fine = value_of(minimise(fit, 1e-8));
     for (const BoundedFitResult& found : {rough, fine}) {
       EXPECT_GT((found.x - fit.lowest).minCoeff(), 0);
       EXPECT_GT((fit.highest - found.x).minCoeff(), 0);
@@ -115,7 +115,7 @@ TEST(BoundedFit, WithDistantBoundsSolvesTheEquations) {
     fit.lowest *= 1000, fit.highest *= 1000;
     const Matrix A = dense(fit.A);
     const Vector expected = A.llt().solve(fit.load);
-    const BoundedFitResult found = value_of(solve(fit, 1e-12));
+    const BoundedFitResult found = value_of(minimise(fit, 1e-12));
     EXPECT_LE((found.x - expected).cwiseAbs().maxCoeff(), 1e-4 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -134,7 +134,7 @@ TEST(BoundedFit, OfAStringUnderACeilingIsItsClosedForm) {
   fit.A.setFromTriplets(entries.begin(), entries.end());
   fit.load = Vector::Constant(n, 8 * step);
   fit.lowest = Vector::Constant(n, -1), fit.highest = Vector::Constant(n, .25);
-  const BoundedFitResult found = value_of(solve(fit, 1e-10));
+  const BoundedFitResult found = value_of(minimise(fit, 1e-10));
   for (int i = 0; i < n; ++i) {
     const double from_end = step * (std::min(i, n - 1 - i) + 1);
     const double expected = from_end < .25 ? 4 * from_end * (.5 - from_end) : .25;

@@ -100,7 +100,7 @@ Result<std::vector<double>> solved(SheetFit sheet, double height) {
   // Level faces have no slopes. What the solver leaves of heights above 0 would be scaled up.
   if (n == 0 || sheet.fit.load.cwiseAbs().maxCoeff() <= 1e-9 * height) return heights;
   sheet.fit.lowest = Eigen::VectorXd::Zero(n), sheet.fit.highest = Eigen::VectorXd::Constant(n, height);
-  RELIEVO_TRY(const solver::BoundedFitResult found, solver::solve(sheet.fit, tolerance));
+  RELIEVO_TRY(const solver::BoundedFitResult found, solver::minimise(sheet.fit, tolerance));
   for (std::size_t i = 0; i < sheet.free_points.size(); ++i)
     heights[sheet.free_points[i]] = found.x[static_cast<Eigen::Index>(i)];
   return heights;
