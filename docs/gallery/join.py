@@ -1,4 +1,5 @@
-"""Joins the left halves (the fronts) of previews, or with --whole all of them, into one grey picture.
+"""Joins pictures into one grey one: the left halves (the fronts) of previews, or with --whole all of them. Pictures
+that are grey are no previews and are taken whole.
 
 Usage: join.py [--whole] OUT.png IN.png...
 """
@@ -11,28 +12,29 @@ HEIGHT = 400
 
 
 def read(path):
-    """Rows of bytes, three for each pixel, of an 8-bit RGB PNG."""
+    """Channels and rows of bytes of an 8-bit PNG, grey or RGB."""
     data, at, packed = open(path, "rb").read(), 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at : at + 8])
         body = data[at + 8 : at + 8 + size]
         if kind == b"IHDR":
             width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2), path
+            channels = {0: 1, 2: 3}[colour]
+            assert depth == 8, path
         packed += body if kind == b"IDAT" else b""
         at += 12 + size
-    raw, step, rows, last = zlib.decompress(packed), 3 * width, [], bytearray(3 * width)
+    raw, step, rows, last = zlib.decompress(packed), channels * width, [], bytearray(channels * width)
     for y in range(height):
         method, row = raw[y * (step + 1)], bytearray(raw[y * (step + 1) + 1 : (y + 1) * (step + 1)])
-        undo(method, row, last)
+        undo(method, row, last, channels)
         rows.append(row)
         last = row
-    return width, rows
+    return channels, rows
 
 
-def undo(method, row, above):
+def undo(method, row, above, step):
     for i in range(len(row)):
-        a, b, c = (row[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
+        a, b, c = (row[i - step] if i >= step else 0), above[i], (above[i - step] if i >= step else 0)
         if method == 1:
             row[i] = row[i] + a & 255
         elif method == 2:
@@ -46,15 +48,15 @@ def undo(method, row, above):
 
 def shrunk(path, parts):
     """Grey rows of the left half or of all, HEIGHT of them, averaged over boxes."""
-    width, rows = read(path)
-    half, out = width // parts, []
+    channels, rows = read(path)
+    half, out = len(rows[0]) // channels // (parts if channels == 3 else 1), []
     columns = max(1, half * HEIGHT // len(rows))
     for y in range(HEIGHT):
         band = rows[y * len(rows) // HEIGHT : (y + 1) * len(rows) // HEIGHT]
         line = bytearray()
         for x in range(columns):
             first, last = x * half // columns, (x + 1) * half // columns
-            values = [row[3 * i + 1] for row in band for i in range(first, last)]
+            values = [row[channels * i + channels // 2] for row in band for i in range(first, last)]
             line.append(sum(values) // len(values))
         out.append(line)
     return out
