@@ -25,13 +25,16 @@ def cells(values):
     return "| " + " | ".join(str(value) for value in values) + " |"
 
 
-print("| paper | visible | control | t1 | t2 | t3 | fps | ours | visible | control | t1 | t2 | t3 | fps | ahead | exact | ahead |")
-print(cells(["---"] * 17))
+figures = ["visible", "control", "t1", "t2", "t3", "fps"]
+head = ["paper", *figures, "ours", *figures, "ahead", "exact", "ahead"]
+print(cells(head))
+print(cells(["---"] * len(head)))
 for scan, row in PAPER.items():
     frames = json.loads((Path(sys.argv[1]) / f"{scan}.bench").read_text())["frames"]
     by_mode = {frame["mode"]: frame for frame in frames if frame["threads"] == max(f["threads"] for f in frames)}
     plain = by_mode["subspace, paper"]
-    rates = [1e3 / by_mode[mode]["p50_ms"] for of in ("subspace", "exact") for mode in (f"{of}, paper", f"{of}, paper, one step ahead")]
+    modes = [f"{of}, paper{how}" for of in ("subspace", "exact") for how in ("", ", one step ahead")]
+    rates = [1e3 / by_mode[mode]["p50_ms"] for mode in modes]
     times = [f"{plain[key]:.2f}" for key in ("t1_ms", "t2_ms", "t3_ms")]
     own = [scan, plain["visible_points"], plain["control_points"], *times, *(f"{rate:.0f}" for rate in rates)]
     print(cells(row.split() + own))

@@ -234,6 +234,19 @@ test("opens projects as make makes them, whose height, width or height coefficie
   assert.deepEqual([plate.options.width, both.options.width], [null, 30]);
 });
 
+test("opens a project whose height is a share of the diagonal, and has that height in mm from then on", async () => {
+  const file = path.join(folder, "share.relievo"), report = path.join(folder, "report.json");
+  const own = {"height-of-diagonal": 0.02, mode: "subspace", "control-points": 1000};
+  writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: own}));
+  run("make", file, "-o", path.join(folder, "r.stl"), "--report", report);
+  const {height_requested_mm: height} = JSON.parse(readFileSync(report));
+  await page.locator("#file").setInputFiles(file);
+  await reaches(({options}) => Math.abs(options.height / height - 1) < 1e-3 && !("height-of-diagonal" in options) &&
+    options["control-points"] === 1000);
+  await untilReady(page);
+  await soon.equal(async () => Number(await control("height").inputValue()).toFixed(1), height.toFixed(1));
+});
+
 test("opens a project whose light is as far as numbers go", async () => {
   const file = path.join(folder, "light.relievo"), pixels = async (light) => {
     writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: {}, studio: {light}}));
