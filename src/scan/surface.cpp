@@ -159,8 +159,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
-  if (surface.triangulation.triangles.empty())
-    return no_area_error();
+  if (surface.triangulation.triangles.empty()) return no_area_error();
   surface.boundary = {inside_triangles(xy, surface.triangulation, surface.rho, measures.spacing), {}, {}, {}};
   return check_cancelled(progress);
 }

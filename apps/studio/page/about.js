@@ -19,8 +19,8 @@ async function ask() {
 
 export const about = await ask();
 
-// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated, is_hidden}. Numbers also
-// have min and max, and enumerations have choices.
+// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated, is_hidden}.
+// Numbers also have min and max, and enumerations have choices.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
 // Returns the default of an option; null if it has none. `by` is the method, or a form or "diameter" that has a default
