@@ -38,7 +38,7 @@ FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run) {
   Frame frame;
   FrameOptions options;
   options.shape = {{.5, .01}, .04};
-  options.shape.style = model.paper() ? Style::paper : Style::layered;
+  options.shape.style = model.paper() ? Style::paper_weights : Style::layered;
   maker.make(options, frame);
   if (run.is_locked) options.height = .8 * frame.height;
   if (run.is_locked) maker.make(options, frame);

@@ -61,7 +61,7 @@ struct OwnFrames {
     });
   }
 
-  void write_slopes_of(const PaperStyle& style) { write_slopes<float>(input, style, weight, slopes); }
+  void write_slopes_of(const PaperWeightsStyle& style) { write_slopes<float>(input, style, weight, slopes); }
   void write_slopes_of(const LayeredStyle& style) { write_slopes_by_eight(input, style, weight, slopes); }
 
   void solve_system(const HeightSystem& system, Frame& frame) {

@@ -61,11 +61,11 @@ inline constexpr float least_gain_divisor = .25F;
 // (9) for the heights; then raise(), which determines the relief's height; and finish(), once this is the
 // wanted height.
 
-// The paper's style: equations (5) to (7), and the paper's second equation (9), which adds detail in
-// proportion to the curvature.
-class PaperStyle {
+// The paper's weights on our surface: equations (5) to (7), and the paper's second equation (9), which adds
+// detail in proportion to the curvature.
+class PaperWeightsStyle {
  public:
-  explicit PaperStyle(const Shape& shape) : shape_(shape) {}
+  explicit PaperWeightsStyle(const Shape& shape) : shape_(shape) {}
 
   // Returns the compression that gives the weights w_k of slope().
   Compression weighted() const { return shape_.compression; }
@@ -158,7 +158,7 @@ class LayeredStyle {
 // Returns f(style) for the style of the shape, which must outlive the call.
 template <typename F>
 decltype(auto) with_style(const Shape& shape, F&& f) {
-  return shape.style == Style::layered ? f(LayeredStyle(shape)) : f(PaperStyle(shape));
+  return shape.style == Style::layered ? f(LayeredStyle(shape)) : f(PaperWeightsStyle(shape));
 }
 
 // Writes the target slope of every point, with w_k = weight(k).

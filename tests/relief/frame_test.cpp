@@ -33,7 +33,7 @@ Frame frame_of(const FrameOptions& options) {
 }
 
 TEST(Frame, AgreesWithTheExactRelief) {
-  for (const auto& [style, tolerance] : {std::pair(Style::paper, 1e-5), {Style::layered, 1e-4}})
+  for (const auto& [style, tolerance] : {std::pair(Style::paper_weights, 1e-5), {Style::layered, 1e-4}})
     for (const double beta : {0.0, .01, 1.0, 2.0})
       for (const double u : {.3, .7, 2.0}) {
         FrameOptions options;
@@ -103,8 +103,8 @@ void expect_locked_heights(const ReliefModel& m, Style style, std::span<const do
 
 TEST(Frame, KeepsALockedHeightWhileOthersMove) {
   expect_locked_heights(model(), Style::layered, std::array{.05, .0125, .09});
-  expect_locked_heights(model(), Style::paper, std::array{.05, .0125, .1});
-  expect_locked_heights(subspace_model(), Style::paper, std::array{.05});
+  expect_locked_heights(model(), Style::paper_weights, std::array{.05, .0125, .1});
+  expect_locked_heights(subspace_model(), Style::paper_weights, std::array{.05});
 }
 
 TEST(Frame, FollowsASliderInTwoSolves) {

@@ -65,8 +65,8 @@ using StyleShareBeta = std::tuple<Style, double, double>;
 // Names a case by its style, its height, in millionths of the diagonal, and its beta, in hundredths.
 std::string name_of(const testing::TestParamInfo<StyleShareBeta>& test) {
   const auto [style, share, beta] = test.param;
-  return cat(style == Style::paper ? "Paper" : "Layered", "_Share", std::lround(share * 1e6), "ppm_Beta",
-             std::lround(beta * 100), "pct");
+  return cat(style == Style::paper_weights ? "Paper" : "Layered", "_Share", std::lround(share * 1e6),
+             "ppm_Beta", std::lround(beta * 100), "pct");
 }
 
 class ReliefAtHeight : public testing::TestWithParam<StyleShareBeta> {};
@@ -80,12 +80,12 @@ TEST_P(ReliefAtHeight, IsTheHeightAsked) {
   const Relief relief = value_of(model.make_at_height(height, shape, 1));
   const auto [lowest, highest] = std::ranges::minmax(relief.heights);
   EXPECT_DOUBLE_EQ(relief.height, std::max(highest, 0.0) - std::min(lowest, 0.0));
-  EXPECT_NEAR(relief.height / height, 1, style == Style::paper ? 1e-3 : 1e-9);
+  EXPECT_NEAR(relief.height / height, 1, style == Style::paper_weights ? 1e-3 : 1e-9);
 }
 
 constexpr auto shares = {.09, .05, .025, .0125, 1e-6};
 INSTANTIATE_TEST_SUITE_P(Grid, ReliefAtHeight,
-                         testing::Combine(testing::Values(Style::paper), testing::ValuesIn(shares),
+                         testing::Combine(testing::Values(Style::paper_weights), testing::ValuesIn(shares),
                                           testing::Values(0, .01, 1, 5, 50, 100)),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(LayeredGrid, ReliefAtHeight,

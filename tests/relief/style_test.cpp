@@ -20,12 +20,12 @@ std::vector<Real> with_detail(double gamma) {
   const SlopeInput input{normals, k, w_b};
   RaisedHeights<Real> heights{z, input, spans};
   const Shape shape{{}, gamma};
-  PaperStyle(shape).raise(heights);
+  PaperWeightsStyle(shape).raise(heights);
   EXPECT_EQ(heights.height, static_cast<double>(heights.measured().size()));
   return z;
 }
 
-TEST(PaperStyle, AddsGammaTimesCurvatureTimesHeight) {
+TEST(PaperWeightsStyle, AddsGammaTimesCurvatureTimesHeight) {
   const std::vector<double> z = with_detail<double>(.1);
   EXPECT_EQ(z[0], 0);  // the boundary stays on the base
   EXPECT_DOUBLE_EQ(z[1], 4 - .1 * .5 * 10);
@@ -51,7 +51,7 @@ TEST(Styles, GiveTheSameSlopesInSinglePrecision) {
   std::vector<PointLayers> layers(3);
   for (std::size_t i = 0; i < 3; ++i) layers[i].fine = Vec2f(-normals[i].head<2>());
   const SlopeInput input{normals, k, w_b, .5, layers};
-  for (const Style style : {Style::paper, Style::layered})
+  for (const Style style : {Style::paper_weights, Style::layered})
     for (const double beta : {0.0, .5}) {
       Shape shape{{.7, beta}, .04};
       shape.style = style;

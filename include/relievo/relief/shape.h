@@ -10,7 +10,11 @@ namespace relievo {
 class ToneCurve;
 
 enum class Style {
-  paper,   // equations (5) to (7), and detail added to the heights
+  // Equations (5) to (7), and detail added to the heights. On the surface of find_surface() this is the
+  // paper's rule on our points and edges; it serves coarse reliefs of a turned model and the reference
+  // heights of SubspaceModel. Models of Method::paper make its reliefs by ReliefModel::paper(), whatever
+  // the style.
+  paper_weights,
   layered  // normals compressed layer by layer, fine ones least; heights compressed by HeightCorrection
 };
 
@@ -52,7 +56,7 @@ struct Shape {
   // Least share of the height for depth jumps, [0, 0.95]; 0 removes the jumps. If slopes alone do not reach a
   // requested height, jumps supply the rest.
   double steps = 0;
-  Style style = Style::paper;
+  Style style = Style::paper_weights;
   // If true, the search for a height also chooses beta, by Algorithm 1. Used only by ReliefModel::paper().
   bool is_beta_free = false;
   // Used only by the layered style. If not set, ReliefModel::membrane_at() of the model applies.

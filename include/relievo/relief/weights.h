@@ -48,9 +48,9 @@ struct SlopeInput {
   std::span<const PointLayers> layers = {};  // used only by the layered style
 };
 
-// Writes the target slope of every point. In the paper's style it is compressed_slope() with w = w_k w_b. In
-// the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied by w_b
-// and by the factor of the saturation.
+// Writes the target slope of every point. With Style::paper_weights it is compressed_slope() with w = w_k
+// w_b. In the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied
+// by w_b and by the factor of the saturation.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // Returns the layer weights of a layered shape. If the shape has no membrane parameters, the height share is
