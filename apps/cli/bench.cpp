@@ -79,11 +79,11 @@ Result<BenchResult> measure(const BenchArguments& arguments) {
   for (const Mode mode : modes) {
     const std::string name = mode == Mode::exact ? "exact" : "subspace";
     RELIEVO_CHECK(measure_model(
-        name, arguments.frames, [&](Progress* stages) { return ReliefModel::prepare(surface, stages, mode); },
-        result));
+        name, arguments.frames,
+        [&](Progress* stages) { return ReliefModel::prepare(surface, stages, {mode}); }, result));
     RELIEVO_CHECK(measure_model(
         name + ", paper", arguments.frames,
-        [&](Progress* stages) { return prepare(*seen.sample.cloud, seen.view.for_paper(), mode, stages); },
+        [&](Progress* stages) { return prepare(*seen.sample.cloud, seen.view.for_paper(), {mode}, stages); },
         result));
   }
   if (arguments.views == 0) return result;

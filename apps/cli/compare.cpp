@@ -126,12 +126,16 @@ std::string height_error(const std::string& text) {
 Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<std::string_view>& chosen,
                                Progress& progress) {
   RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
-  RELIEVO_TRY(ReliefModel model, prepare(*seen.sample.cloud, seen.view, Mode::exact, &progress));
+  const auto is_chosen = [&](Method method) {
+    return std::ranges::find(chosen, name_of(method)) != chosen.end();
+  };
+  const ModelOptions options{.is_layered = is_chosen(Method::layered)};
+  RELIEVO_TRY(ReliefModel model, prepare(*seen.sample.cloud, seen.view, options, &progress));
   const auto shared = std::make_shared<const ReliefModel>(std::move(model));
   RELIEVO_TRY(BaselineGrid baselines, BaselineGrid::prepare(shared->surface()));
   Comparer comparer{shared, {}, std::move(baselines)};
-  if (std::ranges::find(chosen, name_of(Method::paper)) != chosen.end()) {
-    RELIEVO_TRY(comparer.paper, prepare(*seen.sample.cloud, seen.view.for_paper(), Mode::exact, &progress));
+  if (is_chosen(Method::paper)) {
+    RELIEVO_TRY(comparer.paper, prepare(*seen.sample.cloud, seen.view.for_paper(), {}, &progress));
   }
   RELIEVO_CHECK(progress.stage("comparison", .85));
   if (!arguments.output.empty()) comparer.pictures.emplace(comparer.model);

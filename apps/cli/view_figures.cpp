@@ -43,7 +43,7 @@ Result<void> prepare(Session& session, const ViewRun& run, const View& view) {
   Preparation preparation;
   preparation.points = [&](Progress&) -> Preparation::Points { return run.cloud; };
   preparation.view = view;
-  preparation.solved = run.mode;
+  preparation.model = {run.mode};
   session.open(std::move(preparation));
   while (!session.wait_until_idle(std::chrono::hours(1))) {
   }

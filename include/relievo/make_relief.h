@@ -97,7 +97,7 @@ struct MadeRelief {
 
 // Returns the surface that the points show in that view, with its factored system. Errors: those of
 // find_surface() and ReliefModel::prepare().
-Result<ReliefModel> prepare(const Cloud& points, const View& view, const SolvedPoints& solved = {},
+Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOptions& options = {},
                             Progress* progress = nullptr);
 
 // Returns the plate with the relief of a prepared model; options.view, mode, control points and points are
@@ -112,8 +112,8 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
-// Checks that the model was prepared for the method of the options: Method::paper has models of its own, and all
-// other methods share theirs. Errors: kind option.
+// Checks that the model was prepared for the method of the options, see ReliefModel::serves(). Errors: kind
+// option.
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
 
 // Checks that the bevel of the options' rim leans at least as much as the draft angle requires, for a relief

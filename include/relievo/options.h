@@ -90,10 +90,12 @@ struct ReliefOptions : NumericOptions {
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
   // Returns the view, for the paper's method without removal of noise and of crumbs.
   View effective_view() const;
+  ModelOptions effective_model() const {
+    return {mode, static_cast<std::size_t>(control_points), effective_method() == Method::layered};
+  }
   double effective_saturation() const;
   double effective_detail() const;
   double effective_boundary_width() const;
-  SolvedPoints solved_points() const { return {mode, static_cast<std::size_t>(control_points)}; }
 };
 
 // Checks every range, and that options do not contradict each other. Contradictions are: two of height, height

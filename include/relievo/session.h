@@ -31,7 +31,7 @@ struct Preparation {
 
   std::function<Points(Progress&)> points;  // returns the cloud; may read files and may take long
   View view = {};
-  SolvedPoints solved = Mode::automatic;
+  ModelOptions model = {Mode::automatic};
 
   // If set, it is called after points(), and returns a view that depends on the points.
   std::function<View()> chosen_view = {};

@@ -224,7 +224,7 @@ Result<LiveModel> prepare(const Job& job, Progress* progress) {
   return within_memory([&]() -> Result<LiveModel> {
     const View view = chosen_view(job.inputs, job.options.effective_view());
     RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
-    RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.solved_points(), progress));
+    RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.effective_model(), progress));
     return LiveModel({std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1},
                      std::move(sample.notes));
   });

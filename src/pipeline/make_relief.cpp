@@ -236,11 +236,11 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
   return options.effective_width_mm() / surface.longer_side();
 }
 
-Result<ReliefModel> prepare(const Cloud& points, const View& view, const SolvedPoints& solved,
+Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOptions& options,
                             Progress* progress) {
   return within_memory({.points = points.size()}, [&]() -> Result<ReliefModel> {
     RELIEVO_TRY(const auto measured, MeasuredCloud::measure(points, view, progress));
-    return ReliefModel::of_view(*measured, view, solved, progress);
+    return ReliefModel::of_view(*measured, view, options, progress);
   });
 }
 
@@ -256,10 +256,10 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
 }
 
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options) {
-  const bool is_paper = options.effective_method() == Method::paper;
-  if (is_paper == (model.paper() != nullptr)) return {};
+  const Method method = options.effective_method();
+  if (model.serves(method)) return {};
   return option_error("method",
-                      cat("expected ", is_paper ? "another than paper" : "paper",
+                      cat("expected ", model.paper() ? "paper" : cat("another than ", name_of(method)),
                           ", as the model was prepared for that; prepare it again with this method"));
 }
 

@@ -139,7 +139,7 @@ struct Session::State {
     });
     make_first(view);
     RELIEVO_CHECK(check_cancelled(&progress));
-    RELIEVO_TRY(ReliefModel model, ReliefModel::of_view(*measured, view, wanted.solved, &progress));
+    RELIEVO_TRY(ReliefModel model, ReliefModel::of_view(*measured, view, wanted.model, &progress));
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 

@@ -40,12 +40,12 @@ struct ReliefModel::State {
 
   Surface surface;
   std::variant<Parts, PaperModel> parts_or_paper;
-  MembraneTuning tuning = {};
+  std::optional<MembraneTuning> tuning = {};  // none if the model is not for layered reliefs
 
   const Parts& parts() const { return std::get<Parts>(parts_or_paper); }
   const PaperModel* paper() const { return std::get_if<PaperModel>(&parts_or_paper); }
 
-  static Result<Parts> prepare_parts(const Surface& surface, Progress* progress);
+  static Result<Parts> prepare_parts(const Surface& surface, bool is_layered, Progress* progress);
 
   // Returns the heights that (9) finds for the slopes of that shape.
   std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
@@ -61,6 +61,10 @@ const Surface& ReliefModel::surface() const {
 }
 const PaperModel* ReliefModel::paper() const {
   return state_->paper();
+}
+bool ReliefModel::serves(Method method) const {
+  return paper() ? method == Method::paper
+                 : method != Method::paper && (state_->tuning || method != Method::layered);
 }
 std::size_t ReliefModel::control_points() const {
   if (paper()) return paper()->is_subspace() ? paper()->control_points() : 0;
@@ -85,10 +89,26 @@ const HeightCorrection& ReliefModel::correction() const {
   return state_->parts().correction;
 }
 MembraneParams ReliefModel::membrane_at(double u) const {
-  return state_->tuning.at(u);
+  return state_->tuning.value_or(MembraneTuning()).at(u);
 }
 
-Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surface& surface,
+namespace {
+
+// Prepares the model of the control points. Consumes `system`, the system of all points.
+Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const PointLayers> layers,
+                                       HeightSystem system, std::size_t control_points, Progress* progress) {
+  RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
+  const SubspaceOptions options{.control = {.count = control_points}};
+  const auto reference = [&] {
+    const HeightSystem all = std::move(system);  // freed at once, because it takes most of the memory
+    return reference_heights(surface, all, options.max_slope);
+  }();
+  return SubspaceModel::prepare(surface, options, {reference, layers}, progress);
+}
+
+}  // namespace
+
+Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surface& surface, bool is_layered,
                                                                     Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "layers", .72));
   const std::vector<float> weights = jump_weights(surface);
@@ -101,54 +121,45 @@ Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surfac
                                                        surface.boundary, weights));
   RELIEVO_CHECK(check_cancelled(progress));
   StepHeights steps = find_step_heights(surface, weights, system);
-  JumpLift jump_lift = JumpLift::find({surface, layers, system});
-  RELIEVO_CHECK(begin_stage(progress, "tuning", .8));
+  JumpLift jump_lift = is_layered ? JumpLift::find({surface, layers, system}) : JumpLift();
   return Parts{std::move(layers), std::move(steps), std::move(jump_lift), std::move(*correction),
                std::move(system)};
 }
 
-namespace {
-
-// Consumes the system of all points, which takes most of the memory.
-std::vector<double> last_heights_of(HeightSystem system, const Surface& surface, double max_slope) {
-  return reference_heights(surface, system, max_slope);
-}
-
-}  // namespace
-
-Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, const SolvedPoints& solved) {
-  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
-  RELIEVO_CHECK(check_cancelled(progress));
+Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, const ModelOptions& options) {
+  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, options.is_layered, progress));
   auto& system = std::get<HeightSystem>(parts.solver);
-  RELIEVO_TRY(const MembraneTuning tuning,
-              tune_membrane({surface, parts.layers, parts.correction, system, parts.jump_lift}, progress));
-  if (resolve_mode(solved.mode, surface) == Mode::subspace) {
-    RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
-    const SubspaceOptions options{.control = {.count = solved.control_points}};
-    const std::vector<double> reference = last_heights_of(std::move(system), surface, options.max_slope);
-    RELIEVO_TRY(parts.solver, SubspaceModel::prepare(surface, options, {reference, parts.layers}, progress));
+  std::optional<MembraneTuning> tuning;
+  if (options.is_layered) {
+    RELIEVO_CHECK(begin_stage(progress, "tuning", .8));
+    RELIEVO_TRY(tuning,
+                tune_membrane({surface, parts.layers, parts.correction, system, parts.jump_lift}, progress));
+  }
+  if (resolve_mode(options.mode, surface) == Mode::subspace) {
+    RELIEVO_TRY(parts.solver,
+                prepare_subspace(surface, parts.layers, std::move(system), options.control_points, progress));
     parts.layers = std::vector<PointLayers>();
   }
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 
 Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const View& view,
-                                         const SolvedPoints& solved, Progress* progress) {
+                                         const ModelOptions& options, Progress* progress) {
   if (!view.is_paper) {
     RELIEVO_TRY(Surface surface, find_surface(measured, view, progress));
-    return prepare(std::move(surface), progress, solved);
+    return prepare(std::move(surface), progress, options);
   }
   RELIEVO_TRY(Surface surface, paper::find_surface(measured, view, progress));
-  const bool is_exact = resolve_mode(solved.mode, surface) == Mode::exact;
-  const std::size_t control_points = is_exact ? surface.points.size() : solved.control_points;
+  const bool is_exact = resolve_mode(options.mode, surface) == Mode::exact;
+  const std::size_t control_points = is_exact ? surface.points.size() : options.control_points;
   RELIEVO_TRY(PaperModel model, PaperModel::prepare(surface, control_points, progress));
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(model)}));
 }
 
 Result<ReliefModel> ReliefModel::prepare_like(const ReliefModel* other, Surface surface, Progress* progress) {
-  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
-  const bool is_tuned = other && !other->paper();
-  const MembraneTuning tuning = is_tuned ? other->state_->tuning : MembraneTuning();
+  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, true, progress));
+  const bool is_tuned = other && other->state_->tuning;
+  const MembraneTuning tuning = is_tuned ? *other->state_->tuning : MembraneTuning();
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 

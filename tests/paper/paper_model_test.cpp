@@ -18,7 +18,7 @@ namespace {
 
 ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
   const View view = View().for_paper();
-  return value_of(ReliefModel::of_view(*value_of(MeasuredCloud::measure(cloud, view)), view, mode));
+  return value_of(ReliefModel::of_view(*value_of(MeasuredCloud::measure(cloud, view)), view, {mode}));
 }
 
 Cloud ball_before_a_sheet(double distance = 2) {

@@ -71,7 +71,7 @@ TEST(MakeRelief, SolvesForControlPointsInProportionToTheNumberAsked) {
     const auto points_for = [&](double count) {
       options.control_points = count;
       return static_cast<double>(
-          value_of(prepare(small_figure(), view, options.solved_points())).control_points());
+          value_of(prepare(small_figure(), view, options.effective_model())).control_points());
     };
     const double few = points_for(500), many = points_for(1000);
     EXPECT_NEAR(many / few, 2, .3);
@@ -233,6 +233,23 @@ TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
   EXPECT_EQ(*highest_with_draft(*model, options), highest);  // whatever height is asked for
   options.height_mm = 1.001 * highest;
   expect_error(make_relief(*model, options), "draft: expected ");
+}
+
+TEST(MakeRelief, RefusesAModelThatIsPreparedForLess) {
+  const auto error_of = [](Method prepared, Method wanted) {
+    ReliefOptions options;
+    options.method = prepared;
+    const auto model =
+        value_of(prepare(test::torus(8000, 1.5, .4), options.effective_view(), options.effective_model()));
+    options.method = wanted;
+    return message_of(make_relief(model, options));
+  };
+  const std::string end = ", as the model was prepared for that; prepare it again with this method";
+  EXPECT_EQ(error_of(Method::layered, Method::gradient), "no error");
+  EXPECT_EQ(error_of(Method::gradient, Method::equalise), "no error");
+  EXPECT_EQ(error_of(Method::linear, Method::layered), "method: expected another than layered" + end);
+  EXPECT_EQ(error_of(Method::layered, Method::paper), "method: expected another than paper" + end);
+  EXPECT_EQ(error_of(Method::paper, Method::linear), "method: expected paper" + end);
 }
 
 TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {

@@ -21,7 +21,7 @@ const ReliefModel& model() {
 }
 
 const ReliefModel& subspace_model() {
-  static const ReliefModel made = ReliefModel::prepare(model().surface(), nullptr, Mode::subspace).value();
+  static const ReliefModel made = ReliefModel::prepare(model().surface(), nullptr, {Mode::subspace}).value();
   return made;
 }
 

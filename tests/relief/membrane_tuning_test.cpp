@@ -175,7 +175,7 @@ TEST(MembraneTuning, CanBeCancelled) {
       if (stage == "tuning") self->cancel();
     });
     self = &progress;
-    expect_error(ReliefModel::prepare(find_surface(figure(), {}).value(), &progress, mode),
+    expect_error(ReliefModel::prepare(find_surface(figure(), {}).value(), &progress, {mode}),
                  ErrorKind::cancelled);
   }
 }

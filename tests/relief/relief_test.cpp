@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "relief/jump_lift.h"
+#include "relief/membrane/membrane_tuning.h"
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/surfaces.h"
@@ -131,7 +133,7 @@ TEST(Relief, OfAFigureWithFloatingFragmentsExists) {
 TEST(Relief, OfTheSubspaceIsCloseAndAsHighAsAsked) {
   const Surface surface = find_surface(bumps_behind_a_ring(), {}).value();
   const auto relief = [&](Mode mode) {
-    return ReliefModel::prepare(surface, nullptr, mode)->make_at_height(.2, {{1, .01}, .04}, 1).value();
+    return ReliefModel::prepare(surface, nullptr, {mode})->make_at_height(.2, {{1, .01}, .04}, 1).value();
   };
   const Relief exact = relief(Mode::exact), close = relief(Mode::subspace);
   EXPECT_EQ(exact.heights, relief(Mode::automatic).heights);
@@ -144,6 +146,26 @@ TEST(Relief, OfTwoSheetsLosesTheJumpBetweenThem) {
     const Cloud both = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, distance, 9));
     const Relief relief = prepared(both).make({keep_all, 0});
     EXPECT_LT(relief.height, 1e-9) << distance;
+  }
+}
+
+// Baselines read neither the jump lift nor the tuning.
+TEST(Relief, OfABaselineNeedsNoModelOfLayeredReliefs) {
+  const Surface surface = test::surface_of(bumps_behind_a_ring());
+  std::vector<std::string> stages;
+  Progress progress([&](std::string_view stage, double) { stages.emplace_back(stage); });
+  const ReliefModel lean = value_of(ReliefModel::prepare(surface, &progress, {.is_layered = false})),
+                    whole = value_of(ReliefModel::prepare(surface));
+  EXPECT_EQ(std::ranges::count(stages, "tuning"), 0);
+  EXPECT_EQ(lean.jump_lift().memory(), 0U);
+  EXPECT_GT(whole.jump_lift().memory(), 0U);
+  EXPECT_EQ(lean.membrane_at(1), MembraneTuning().at(1));
+  for (const MethodInfo& info : methods) {
+    EXPECT_EQ(lean.serves(info.method), info.make != nullptr) << info.name;
+    EXPECT_EQ(whole.serves(info.method), info.method != Method::paper) << info.name;
+    if (info.make) {
+      EXPECT_EQ(info.make(lean, .1).heights, info.make(whole, .1).heights) << info.name;
+    }
   }
 }
 

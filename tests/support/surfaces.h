@@ -13,7 +13,7 @@ inline Surface surface_of(const Cloud& cloud, const View& view = {}) {
 }
 
 inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
-  return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, mode));
+  return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, {mode}));
 }
 
 // Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, and an inner hole.

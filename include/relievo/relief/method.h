@@ -81,13 +81,13 @@ inline constexpr std::array<Choice<Mode>, 3> mode_choices{
 
 inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of the paper's Table 1
 
-// A mode, and the approximate number of control points if it is the subspace.
-struct SolvedPoints {
-  SolvedPoints(Mode chosen = Mode::exact, std::size_t count = usual_control_points)
-      : mode(chosen), control_points(count) {}
-
-  Mode mode;
-  std::size_t control_points;
+// What a model is prepared for.
+struct ModelOptions {
+  Mode mode = Mode::exact;
+  std::size_t control_points = usual_control_points;  // approximate number in subspace mode
+  // If false, what Method::layered alone reads is left out: the jump lift and the tuning of the height
+  // correction, which take longer than the rest of the model.
+  bool is_layered = true;
 };
 
 }  // namespace relievo

@@ -41,16 +41,16 @@ Mode resolve_mode(Mode mode, const Surface& surface);
 // Movable. Const calls may run concurrently.
 class ReliefModel {
  public:
-  // Takes the surface, splits its normals into layers, factors its system and tunes the height correction; in
-  // subspace mode it also builds the system of the control points. Errors: see HeightSystem::build(); kind
-  // cancelled.
+  // Takes the surface, splits its normals into layers and factors its system; for layered reliefs, it tunes
+  // the height correction; in subspace mode it also builds the system of the control points. Errors: see
+  // HeightSystem::build(); kind cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr,
-                                     const SolvedPoints& solved = {});
+                                     const ModelOptions& options = {});
 
   // Returns the model of the surface that the view shows. For a view of Method::paper it has the system of
   // paper() and no other. Errors: those of find_surface() and prepare().
   static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view,
-                                     const SolvedPoints& solved, Progress* progress = nullptr);
+                                     const ModelOptions& options, Progress* progress = nullptr);
 
   // Prepares a model for exact reliefs that are shown only briefly. Nothing is tuned: the height correction
   // has the parameters of `other`, a model of the same scan in another view, or the defaults if `other` is
@@ -68,6 +68,11 @@ class ReliefModel {
   // null, layers() is empty, and steps(), jump_lift() and correction() must not be called.
   const PaperModel* paper() const;
 
+  // Returns whether the model was prepared for the method: Method::paper has models of its own, and
+  // Method::layered needs ModelOptions::is_layered. A layered relief of a model without that is made with the
+  // default parameters of the height correction, and without a jump lift.
+  bool serves(Method method) const;
+
   // Returns the number of control points in subspace mode, 0 in exact mode.
   std::size_t control_points() const;
 
@@ -83,13 +88,15 @@ class ReliefModel {
   // Returns the heights that Shape::steps adds at depth jumps.
   const StepHeights& steps() const;
 
-  // Returns the fields that keep the front sides of depth jumps in front in layered reliefs.
+  // Returns the fields that keep the front sides of depth jumps in front in layered reliefs; no fields if the
+  // model is not prepared for these.
   const JumpLift& jump_lift() const;
 
   // Returns the correction that compresses layered heights.
   const HeightCorrection& correction() const;
 
-  // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none. They are
+  // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none: the
+  // defaults if the model is not prepared for Method::layered. Otherwise they are
   // tuned to this surface: the strongest compression that keeps detail and depth order at least as good as
   // gradient-domain compression does, where that is possible.
   MembraneParams membrane_at(double u) const;
