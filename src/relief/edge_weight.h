@@ -1,6 +1,6 @@
 // The weight of an edge in equation (9). It is used by the systems of all points and of control points, and
 // for the steps at depth jumps. JumpLift and TriangleSlopes need weights of triangles without factors, so
-// they use half_edge_weight() and needle_share(). tests/relief/heights_test.cpp computes the weight
+// they use half_edge_weight() and needle_share(). tests/support/least_squares.h computes the weight
 // independently.
 #pragma once
 

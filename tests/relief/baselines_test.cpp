@@ -1,5 +1,4 @@
 #include "relievo/relief/baselines.h"
-#include "relievo/relief/heights.h"
 #include "relievo/relief/relief.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 
 #include "relievo/relief/method.h"
 #include "support/differences.h"
+#include "support/least_squares.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -89,8 +89,9 @@ TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
   EXPECT_EQ(attenuated(Vec2::Zero(), 5), Vec2(Vec2::Zero()));
 }
 
-// The expected heights are made as by Weyrich et al.: attenuated gradients are integrated, and the result is
-// scaled.
+// The expected heights are made as by Weyrich et al.: attenuated gradients are integrated, by another
+// solver than the library's, and the result is scaled. A sphere has no jumps, near which edges would have
+// weights.
 TEST(Gradient, IntegratesAttenuatedGradients) {
   const ReliefModel model = test::prepared(test::sphere(20000, 1));
   const GradientOptions options{.attenuation = 3, .steepest_kept = 50, .band_weights = {1}};
@@ -101,8 +102,9 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
     slopes.push_back(g.norm() > 50 ? Vec2(Vec2::Zero())
                                    : Vec2(g.normalized() * std::log(1 + 3 * g.norm()) / 3));
   }
-  std::vector<double> heights(slopes.size());
-  model.system()->solve(slopes, heights);
+  const Surface& surface = model.surface();
+  const std::vector<double> heights = test::least_squares_heights(
+      {in_plane(surface.points), surface.triangulation, surface.boundary}, slopes);
   const double highest = *std::ranges::max_element(heights);
   for (std::size_t i = 0; i < heights.size(); ++i)
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
@@ -136,12 +138,6 @@ TEST(Gradient, RemovesSilhouettes) {
   EXPECT_NEAR(
       gradient_relief(model, .1, {.attenuation = 5, .steepest_kept = 3.1, .band_weights = {1}}).height, .1,
       1e-12);
-}
-
-TEST(Gradient, LosesTheJumpBetweenTwoSheets) {
-  const ReliefModel model =
-      test::prepared(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
-  EXPECT_EQ(gradient_relief(model, .1).height, 0);
 }
 
 TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {

@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "relief/sliced_ell_matrix.h"
 #include "support/differences.h"
+#include "support/least_squares.h"
 #include "support/results.h"
 #include "support/shapes.h"
 
@@ -89,48 +88,24 @@ TEST(Heights, InSinglePrecisionAgreeWithDouble) {
   EXPECT_LE(test::largest_difference(z, truth), 1e-5 * (highest - lowest));
 }
 
-// Compares heights with those of the dense least-squares problem, assembled from equation (9) edge by edge.
-void expect_least_squares(const std::vector<float>& weights) {
-  const DiscCase disc(40, 20);
-  const auto weight_of = [&](Index p, Index q) {
-    return weights.empty() ? 1 : static_cast<double>(weights[p] + weights[q]) / 2;
-  };
+// Expects the heights of an independent solution of equation (9), and returns them.
+std::vector<double> expect_least_squares(const DiscCase& disc, const std::vector<float>& weights) {
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(p.y() + .3, p.x() * p.x()); });
-  const auto n = static_cast<Eigen::Index>(disc.points.size());
-  std::vector<Eigen::RowVectorXd> rows;
-  std::vector<double> right;
-  for (const Triangle& t : disc.mesh.triangles)
-    for (int corner = 0; corner < 3; ++corner) {
-      const Index apex = t[corner], p = t[(corner + 1) % 3], q = t[(corner + 2) % 3];
-      const Vec2 u = disc.points[p] - disc.points[apex], v = disc.points[q] - disc.points[apex];
-      // The weight of an edge is half the sum of the cotangents opposite to it, one from each of its
-      // triangles. As a weight may be negative, the normal equations A are formed directly.
-      const double weight = .5 * weight_of(p, q) * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
-      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n + 1);
-      row[p] = 1, row[q] = -1, row[n] = weight;
-      rows.push_back(row);
-      right.push_back(.5 * (slopes[p] + slopes[q]).dot(disc.points[p] - disc.points[q]));
-    }
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Eigen::RowVectorXd row = rows[r].head(n);
-    A += rows[r][n] * row.transpose() * row;
-    b += rows[r][n] * right[r] * row.transpose();
-  }
-  for (Eigen::Index i = 0; i < 20; ++i) {  // z = 0 on the boundary
-    A.row(i).setZero();
-    A(i, i) = 1;
-    b[i] = 0;
-  }
-  const Eigen::VectorXd truth = A.fullPivLu().solve(b);
-  const std::vector<double> z = heights_of(disc.system(weights), slopes);
-  for (Eigen::Index i = 0; i < n; ++i) EXPECT_NEAR(z[static_cast<std::size_t>(i)], truth[i], 1e-4);
+  std::vector<double> z = heights_of(disc.system(weights), slopes);
+  const test::EquationNine nine{disc.points, disc.mesh, disc.boundary, weights};
+  EXPECT_LE(test::largest_difference(z, test::least_squares_heights(nine, slopes)), 1e-6);
+  return z;
 }
 
 TEST(Heights, MinimiseEquationNine) {
-  expect_least_squares({});
-  expect_least_squares(DiscCase(40, 20).uneven());
+  DiscCase disc(400, 40);
+  expect_least_squares(disc, {});
+  const std::vector<double> without_wall = expect_least_squares(disc, disc.uneven());
+  for (const Vec2& p : disc.points)
+    disc.boundary.wall_side.push_back(std::abs(p.x()) > .2 ? WallSide::none
+                                      : p.x() > 0          ? WallSide::front
+                                                           : WallSide::back);
+  EXPECT_GT(test::largest_difference(expect_least_squares(disc, disc.uneven()), without_wall), 1e-3);
 }
 
 // Two discs side by side. The triangles that join both discs are marked as outside.

@@ -1,7 +1,6 @@
 #include "relief/jump_lift.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +15,6 @@
 
 namespace relievo {
 namespace {
-
-constexpr double half_width = .5;  // half the width of the flap
-
-// Returns a tilted square before a level one. Slopes do not contain the depth between the squares, so (9)
-// puts the middle of the tilted square at the height of the level one, and the lower half of the tilted
-// square below it.
-Cloud flap(std::size_t points = 8000) {
-  const double tilt = 25 * std::numbers::pi / 180;
-  Cloud square = test::sheet(points, half_width / std::cos(tilt), 0);
-  const Eigen::AngleAxisd turn(tilt, Vec3::UnitY());
-  for (Vec3& p : square.points) p = turn * p + Vec3(0, 0, 1);
-  for (Vec3f& n : square.normals) n = (turn * n.cast<double>()).cast<float>();
-  return test::joined(test::sheet(4 * points, 1.5, 0), square);
-}
 
 struct Prepared {
   explicit Prepared(const Cloud& cloud) : surface(find_surface(cloud, {}).value()) {}
@@ -61,18 +46,25 @@ Shape shape_at(double u, double gamma = layered_shape().gamma) {
   return shape;
 }
 
-// Returns how far the front side of the wall is below its back side, on average over the wall's edges. An
-// edge whose front side is higher counts as 0.
-double mean_inversion(const Surface& surface, std::span<const double> z) {
-  double sum = 0, edges = 0;
+// Returns for each edge across the wall how far its front end is above its back end.
+std::vector<double> wall_steps(const Surface& surface, std::span<const double> z) {
+  std::vector<double> steps;
   for (const Triangle& t : surface.triangulation.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = t[i], b = t[(i + 1) % 3];
       if (!surface.boundary.is_across_wall(a, b)) continue;
-      const double step = surface.boundary.wall_side[a] == WallSide::front ? z[b] - z[a] : z[a] - z[b];
-      sum += std::max(step, 0.0), ++edges;
+      steps.push_back(surface.boundary.wall_side[a] == WallSide::front ? z[a] - z[b] : z[b] - z[a]);
     }
-  return sum / edges;
+  return steps;
+}
+
+// Returns how far the front side of the wall is below its back side, on average over the wall's edges. An
+// edge whose front side is higher counts as 0.
+double mean_inversion(const Surface& surface, std::span<const double> z) {
+  const std::vector<double> steps = wall_steps(surface, z);
+  double sum = 0;
+  for (const double step : steps) sum += std::max(-step, 0.0);
+  return sum / static_cast<double>(steps.size());
 }
 
 // Returns the fraction of the inversion that remains after the lift for that shape.
@@ -85,14 +77,30 @@ double inversion_left(const Prepared& prepared, const Shape& shape) {
 }
 
 TEST(JumpLift, LevelsInvertedJumpsAtEveryHeight) {
-  const Prepared flap_before_sheet(flap());
+  const Prepared flap_before_sheet(test::flap_before_a_sheet());
   for (const double u : {.1, .25, .5, 2.0, 9.0, 16.0})
     EXPECT_LT(inversion_left(flap_before_sheet, shape_at(u)), .12) << u;
 }
 
+// Inverted edges become nearly level, and upright ones hardly steeper.
+TEST(JumpLift, BoundsTheStepsThatItMakes) {
+  const Prepared flap_before_sheet(test::flap_before_a_sheet());
+  for (const double u : {.25, 2.0, 16.0}) {
+    std::vector<double> z = flap_before_sheet.heights(shape_at(u));
+    const double height = *std::ranges::max_element(z) - *std::ranges::min_element(z);
+    const std::vector<double> before = wall_steps(flap_before_sheet.surface, z);
+    flap_before_sheet.lift.add_to(std::span(z), shape_at(u));
+    const std::vector<double> after = wall_steps(flap_before_sheet.surface, z);
+    for (std::size_t e = 0; e < before.size(); ++e) {
+      ASSERT_GT(after[e], -.02 * height) << u;
+      ASSERT_LT(after[e], std::max(before[e], 0.0) + .04 * height) << u;
+    }
+  }
+}
+
 // The lift is computed for the default gamma. For other values of gamma it must still lessen inversions.
 TEST(JumpLift, LessensInversionsAtOtherDetails) {
-  const Prepared flap_before_sheet(flap());
+  const Prepared flap_before_sheet(test::flap_before_a_sheet());
   for (const double gamma : {0.0, .02, .06})
     EXPECT_LT(inversion_left(flap_before_sheet, shape_at(1, gamma)), .7) << gamma;
 }
@@ -106,7 +114,7 @@ double distance_to_wall(const Surface& surface, std::size_t i) {
 }
 
 TEST(JumpLift, MovesNothingFarFromJumpsNorOnTheSilhouette) {
-  const Prepared flap_before_sheet(flap());
+  const Prepared flap_before_sheet(test::flap_before_a_sheet());
   const Surface& surface = flap_before_sheet.surface;
   std::vector<double> z(surface.points.size(), 0);
   flap_before_sheet.lift.add_to(std::span(z), shape_at(1));
@@ -138,7 +146,7 @@ double roughness(const Surface& surface, std::span<const double> y, std::size_t 
 }
 
 TEST(JumpLift, IsSmoothOnUnevenTriangles) {
-  const Prepared flap_before_sheet(flap(32000));
+  const Prepared flap_before_sheet(test::flap_before_a_sheet(32000));
   const Surface& surface = flap_before_sheet.surface;
   std::vector<double> y(surface.points.size(), 0);
   flap_before_sheet.lift.add_to(std::span(y), shape_at(1));
@@ -157,7 +165,7 @@ TEST(JumpLift, IsSmoothOnUnevenTriangles) {
 
 TEST(JumpLift, ChangesNothingWithoutJumpsAndWhereHeightsAreNotCorrected) {
   const Prepared ball(test::sphere(20000, 1));
-  const Prepared flap_before_sheet(flap());
+  const Prepared flap_before_sheet(test::flap_before_a_sheet());
   const auto is_unchanged = [](const Prepared& prepared, const Shape& shape) {
     std::vector<double> z(prepared.surface.points.size(), 0);
     prepared.lift.add_to(std::span(z), shape);

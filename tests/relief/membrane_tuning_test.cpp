@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "relievo/quality/measures.h"
 #include "relievo/relief/baselines.h"
+#include "relievo/relief/frame.h"
 #include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/curvature.h"
+#include "relievo/scan/spacing.h"
 #include "support/same_bits.h"
 #include "support/surfaces.h"
 
@@ -62,6 +66,57 @@ TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
   const ReliefMetrics metrics(mask.surface());
   EXPECT_LT(metrics.measure(relief_of(mask, height, like_the_shell).heights).order,
             metrics.measure(gradient_relief(mask, height).heights).order);
+}
+
+// Returns the curvatures of a surface through the points, less their mean.
+Eigen::ArrayXd varying_curvature(const Cloud& cloud) {
+  std::vector<Index> all(cloud.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  const std::vector<double> k = mean_curvature(cloud, measure_spacing(cloud), all);
+  const Eigen::Map<const Eigen::ArrayXd> values(k.data(), std::ssize(k));
+  return values - values.mean();
+}
+
+// Returns the correlation of the curvatures of the relief and of the model.
+double kept_curvature(const Surface& surface, const std::vector<double>& heights) {
+  Cloud model{surface.points, surface.normals}, relief = model;
+  for (std::size_t i = 0; i < heights.size(); ++i) relief.points[i].z() = heights[i];
+  relief.normals = vertex_normals(surface, std::vector<float>(heights.begin(), heights.end()));
+  const Eigen::ArrayXd a = varying_curvature(model), b = varying_curvature(relief);
+  return (a * b).sum() / std::sqrt((a * a).sum() * (b * b).sum());
+}
+
+// Returns the share of random pairs of points, at most `reach` apart, of which the nearer one is the
+// higher one.
+double kept_order(const Surface& surface, const std::vector<double>& heights, double reach = infinity) {
+  constexpr double pairs = 20000;
+  const double least_depth = .002 * surface.longer_side(), points = static_cast<double>(heights.size());
+  test::Random random(11);
+  double kept = 0;
+  for (int found = 0; found < pairs;) {
+    const auto i = static_cast<std::size_t>(random.uniform(0, points)),
+               j = static_cast<std::size_t>(random.uniform(0, points));
+    const Vec3 step = surface.points[j] - surface.points[i];
+    if (step.head<2>().norm() > reach || std::abs(step.z()) < least_depth) continue;
+    kept += (heights[j] > heights[i]) == (step.z() > 0);
+    ++found;
+  }
+  return kept / pairs;
+}
+
+// These measures are not those of the tuning: they take points instead of pixels. The order of all pairs
+// of points is better than that of gradient-domain compression; that of close pairs and the curvature are
+// nearly as good.
+TEST(MembraneTuning, KeepsOrderAndCurvatureByOtherMeasures) {
+  const Surface& surface = model().surface();
+  const double side = surface.longer_side(), close = .06 * side;
+  for (const double share : {.0125, .025, .05}) {
+    const std::vector<double> ours = relief_of(model(), share * side).heights,
+                              baseline = gradient_relief(model(), share * side).heights;
+    EXPECT_GT(kept_order(surface, ours), kept_order(surface, baseline) + .02) << share;
+    EXPECT_GT(kept_order(surface, ours, close), kept_order(surface, baseline, close) - .01) << share;
+    EXPECT_GT(kept_curvature(surface, ours), kept_curvature(surface, baseline) - .05) << share;
+  }
 }
 
 // With a height share that is a fifth smaller, detail or order would be no better than with gradient-domain

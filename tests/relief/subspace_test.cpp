@@ -46,10 +46,11 @@ float span_of(const std::vector<float>& heights) {
 
 // Returns the largest root mean square error of several reliefs, as a fraction of their heights. The reliefs
 // are high to very low, and compressed evenly or unevenly.
-double worst_error(const Surface& surface, const SubspaceModel& subspace) {
-  const ReliefModel exact = ReliefModel::prepare(surface).value();
+double worst_error(const Surface& surface, const SubspaceModel& subspace,
+                   std::initializer_list<double> betas = {0, .01, 1}) {
+  const ReliefModel exact = ReliefModel::prepare(surface, nullptr, {.is_layered = false}).value();
   double worst = 0;
-  for (const double beta : {0.0, .01, 1.0}) {
+  for (const double beta : betas) {
     for (const double u : {1.0, .2, .05}) {
       const Shape shape{{u, beta}};
       const Relief relief = exact.make(shape);
@@ -123,7 +124,9 @@ class SubspaceSample : public testing::TestWithParam<const char*> {};
 
 TEST_P(SubspaceSample, IsCloseToTheExactRelief) {
   const Surface surface = surface_of(make_sample(GetParam(), {150000}).value());
-  EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .02);
+  const SubspaceModel subspace = subspace_of(surface, 8000);
+  EXPECT_LT(worst_error(surface, subspace), .02);
+  EXPECT_LT(worst_error(surface, subspace, {5}), .027);  // the weights then change most from point to point
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SubspaceSample, testing::Values("still_life", "green_man", "shell"),

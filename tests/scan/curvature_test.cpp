@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 #include "support/results.h"
@@ -157,6 +158,75 @@ TEST(Curvature, EndsEarlyWhenCancelled) {
   Cancelled progress;
   EXPECT_EQ(mean_curvature(cloud, measure_spacing(cloud), queries, usual, &progress),
             (std::vector<double>{0, 0, 0}));
+}
+
+// A triangular lattice in the view plane with an area of rho^2 per point; rho is 1. All its normals are
+// level.
+struct Lattice {
+  static constexpr Index side = 31, middle = side * side / 2;
+  static constexpr double spacing_sq = 2 * std::numbers::inv_sqrt3;
+
+  std::vector<Vec2> points;
+  std::vector<Vec3f> normals{side * side, Vec3f::UnitZ()};
+  Triangulation mesh;
+
+  Lattice() {
+    const double a = std::sqrt(spacing_sq);
+    for (Index row = 0; row < side; ++row)
+      for (Index column = 0; column < side; ++column)
+        points.emplace_back(a * (column + .5 * (row % 2)), a * std::sqrt(.75) * row);
+    mesh = delaunay(points);
+  }
+
+  std::vector<double> average(const std::vector<double>& values) const {
+    return average_in_plane(values, points, normals, mesh, 1);
+  }
+
+  // Returns the average of a value that is 1 at the middle and 0 elsewhere.
+  std::vector<double> spread_from_the_middle() const {
+    std::vector<double> one(points.size(), 0);
+    one[middle] = 1;
+    return average(one);
+  }
+};
+
+// One pass gives each of the six neighbours w = exp(-a^2 / rho^2) times the weight of the point itself,
+// where a is their distance. So its mean square distance is 6 w a^2 / (1 + 6 w), and that of three passes
+// is three times as much.
+TEST(AverageInPlane, SpreadsAValueByTheWidthOfThreePasses) {
+  const Lattice lattice;
+  const std::vector<double> spread = lattice.spread_from_the_middle();
+  double sum = 0, square = 0;
+  for (Index i = 0; i < spread.size(); ++i) {
+    sum += spread[i];
+    square += spread[i] * (lattice.points[i] - lattice.points[Lattice::middle]).squaredNorm();
+  }
+  const double w = std::exp(-Lattice::spacing_sq);
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_NEAR(square, 3 * 6 * w * Lattice::spacing_sq / (1 + 6 * w), 1e-9);
+}
+
+TEST(AverageInPlane, KeepsWhatIsTheSameEverywhere) {
+  for (const double k : Lattice().average(std::vector<double>(Lattice::side * Lattice::side, -.7)))
+    EXPECT_NEAR(k, -.7, 1e-12);
+}
+
+// At a depth jump, values of two surfaces alternate at random.
+TEST(AverageInPlane, LevelsValuesThatAlternate) {
+  test::Random random(3);
+  const Lattice lattice;
+  std::vector<double> values(lattice.points.size());
+  for (double& k : values) k = random.uniform() < .5 ? -1 : 1;
+  double square = 0;
+  for (const double k : lattice.average(values)) square += k * k / static_cast<double>(values.size());
+  EXPECT_LT(std::sqrt(square), .3);
+}
+
+// A point counts by its area in the view plane, so one that is seen edge on does not count.
+TEST(AverageInPlane, LeavesOutWhatIsSeenEdgeOn) {
+  Lattice lattice;
+  lattice.normals[Lattice::middle] = Vec3f::UnitX();
+  for (const double k : lattice.spread_from_the_middle()) EXPECT_EQ(k, 0);
 }
 
 TEST(Normalise, ClipsAtThe99thPercentile) {

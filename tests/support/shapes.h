@@ -2,6 +2,7 @@
 // machines.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -93,6 +94,13 @@ inline Cloud moved(Cloud cloud, const Vec3& by) {
   return cloud;
 }
 
+inline Cloud turned(Cloud cloud, double degrees, const Vec3& axis) {
+  const Mat3 R = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis).toRotationMatrix();
+  for (Vec3& p : cloud.points) p = R * p;
+  for (Vec3f& n : cloud.normals) n = (R * n.cast<double>()).cast<float>();
+  return cloud;
+}
+
 inline Cloud scaled(Cloud cloud, double factor) {
   for (Vec3& p : cloud.points) p *= factor;
   return cloud;
@@ -128,6 +136,16 @@ inline Cloud joined(Cloud a, const Cloud& b) {
   a.points.insert(a.points.end(), b.points.begin(), b.points.end());
   a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
   return a;
+}
+
+// Returns a square that is tilted by 25 degrees about the y axis, before a level sheet. Seen from the
+// front it is 2 * flap_half_width wide. The relief's slopes do not contain the depth between both, so the
+// middle of the flap comes to the height of the sheet, and its lower half would be below it.
+inline constexpr double flap_half_width = .5;
+inline Cloud flap_before_a_sheet(std::size_t points = 8000, double distance = 1) {
+  const double half = flap_half_width / std::cos(25 * std::numbers::pi / 180);
+  const Cloud flap = moved(turned(sheet(points, half, 0), 25, Vec3::UnitY()), Vec3(0, 0, distance));
+  return joined(sheet(4 * points, 1.5, 0), flap);
 }
 
 // Returns points distributed uniformly on a cube from -1 to 1.

@@ -28,10 +28,11 @@ struct CurvatureOptions {
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 
-// Returns each point's value averaged over its neighbours in the view plane, up to about 2 rho away, weighted
-// by the area that each neighbour represents there. At a depth jump, points of the front and of the surface
-// behind it alternate in the plane; without the average, their different curvatures would show as specks
-// along the edge.
+// Returns each point's value averaged over its neighbours in the view plane, weighted by the area that
+// each neighbour represents there. Three passes over the triangulation's edges, with weights of
+// exp(-(length / rho)^2), spread a value by 1.5 rho (root mean square). At a depth jump, points of the
+// front and of the surface behind it alternate in the plane; without the average, their different
+// curvatures would show as specks along the edge.
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho);
