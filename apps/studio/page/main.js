@@ -140,7 +140,9 @@ function showDocument() {
   showing.end();
   const {options, material, input} = doc.now;
   sliders.show();
-  curve.show({tone: options.tone});
+  const isPaper = options.method === "paper"; // it has no tone curve
+  $("#tone-curve").hidden = isPaper;
+  curve.show({tone: isPaper ? "" : options.tone});
   pieces.show();
   kinds.show();
   kindPanel.show();

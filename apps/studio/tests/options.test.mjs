@@ -248,6 +248,21 @@ test("opens a project whose height is a share of the diagonal, and has that heig
   await reaches(({options}) => !("height-of-diagonal" in options)); // the pictures of the kinds of work
 });
 
+test("keeps tone curve and steps, which the paper's method does not have, for the other method", async () => {
+  const file = path.join(folder, "tone.relievo"), tone = "0,0.2;1,0.9";
+  const hasBoth = ({options}) => options.tone === tone && options.steps === 0.2;
+  writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: {tone, steps: 0.2}}));
+  await page.locator("#file").setInputFiles(file);
+  await reaches(hasBoth);
+  await set("method", "paper");
+  await reaches(({options}) => options.method === "paper" && !("tone" in options) && !("steps" in options));
+  await untilReady(page);
+  assert.equal(await control("steps").isDisabled(), true);
+  assert.equal(await page.locator("#tone-curve").isVisible(), false);
+  await set("method", "layered");
+  await reaches(hasBoth);
+});
+
 test("opens a project whose light is as far as numbers go", async () => {
   const file = path.join(folder, "light.relievo"), pixels = async (light) => {
     writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: {}, studio: {light}}));
