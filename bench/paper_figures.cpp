@@ -256,7 +256,7 @@ std::string weight_curves() {
   for (const double degrees : {15., 30., 45., 60., 75.}) {
     const double angle = degrees * std::numbers::pi / 180;
     text += curve(3, 1, [&](double w) {
-      const Vec2 slope = paper::expected_slope({std::sin(angle), 0, std::cos(angle)}, w, 4);
+      const Vec2 slope = paper::slope_of(paper::expected_normal({std::sin(angle), 0, std::cos(angle)}, w), 4);
       return std::atan(slope.norm()) / (std::numbers::pi / 2);
     });
   }
