@@ -92,7 +92,7 @@ class Session:
     def frame(self, **options: Any) -> Frame:
         """Returns the relief that the options shape, as heights of the session's points.
 
-        A height is met to 0.1 %. The methods are layered and paper. Draft, form, base and plate are for make().
+        A height is met to 0.1 %. The method of the session is layered or paper. Draft, form, base and plate are for make().
         """
         _options.check("frame", options, _options.OF_FRAME)
         return Frame(self._native.frame({**self._options, **_options.texts(options)}))

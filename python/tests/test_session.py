@@ -45,9 +45,10 @@ class Frames(unittest.TestCase):
         self.assertAlmostEqual(np.ptp(self.session.points[:, :2], axis=0).max() * frame.mm_per_unit, 80)
 
     def test_grow_with_the_width_and_follow_the_options(self):
-        small, large = self.session.frame(width_mm=40, alpha=3), self.session.frame(alpha=3)
+        paper = relievo.Session(scan(), width_mm=80, method="paper")
+        small, large = paper.frame(width_mm=40, alpha=3), paper.frame(alpha=3)
         np.testing.assert_allclose(small.heights * 2, large.heights, rtol=1e-5, atol=1e-6)
-        self.assertGreater(self.session.frame(alpha=1, saturation=2).height_mm, self.session.frame(alpha=9, saturation=2).height_mm)
+        self.assertGreater(paper.frame(alpha=1, saturation=2).height_mm, paper.frame(alpha=9, saturation=2).height_mm)
         tones = [self.session.frame(height_mm=3, tone=t).heights for t in ([(0, 1), (1, 1)], [(0, 1), (1, 0.2)])]
         self.assertGreater(np.abs(tones[0] - tones[1]).max(), 0.01)
 
@@ -80,8 +81,10 @@ class Frames(unittest.TestCase):
             self.session.frame(draft_deg=15)
         with self.assertRaisesRegex(TypeError, "the nearest is 'height_mm'"):
             self.session.frame(height=4)
+        with self.assertRaisesRegex(TypeError, "'method': a session prepares it once"):
+            self.session.frame(height_mm=4, method="paper")
         with self.assertRaises(relievo.Error):
-            self.session.frame(height_mm=4, method="gradient")
+            relievo.Session(still_life(), method="gradient").frame(height_mm=4)
         with self.assertRaises(relievo.Error):
             self.session.frame(height_mm=-4)
 

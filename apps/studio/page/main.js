@@ -177,7 +177,8 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  if (frame.options["height-of-diagonal"] && !opened.status.busy) {
+  // A picture of the former model would have another diagonal.
+  if (frame.options["height-of-diagonal"] && !opened.asked && !opened.status.busy) {
     doc.note({options: {height: frame.height_mm, "height-of-diagonal": null}});
     sliders.all.height.show(frame.height_mm);
   }
