@@ -21,10 +21,13 @@ namespace {
 
 using app::studio::Drawing;
 
-std::shared_ptr<const ReliefModel> model() {
-  static const auto made =
-      std::make_shared<const ReliefModel>(*prepare(*make_sample("still_life", {.points = 20000}), View{}));
-  return made;
+// Returns the model that the options ask for, which is one for all methods but the paper's.
+std::shared_ptr<const ReliefModel> model_for(const ReliefOptions& options) {
+  const auto make = [](const View& view) {
+    return std::make_shared<const ReliefModel>(*prepare(*make_sample("still_life", {.points = 20000}), view));
+  };
+  static const auto made = make({});
+  return options.effective_view().is_paper ? make(options.effective_view()) : made;
 }
 
 // Returns a solid of the triangles in a file. Triangles that face upwards are its front.
@@ -125,15 +128,16 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   request.render.width = 720;
   request.render.height = 600;
   request.render.is_fine = request.is_finished = true;
-  Drawing drawing({model(), {}}, 0);
+  const auto model = model_for(options);
+  Drawing drawing({model, {}}, 0);
   const auto order = drawing.missing_piece(request);
   ASSERT_TRUE(order && *order);
-  drawing.take(std::make_shared<const MadeRelief>(*make_relief(*model(), **order)), **order);
+  drawing.take(std::make_shared<const MadeRelief>(*make_relief(*model, **order)), **order);
   const auto shown = drawing.picture(request);
   ASSERT_TRUE(shown) << shown.error().message();
   EXPECT_TRUE(shown->is_finished);
 
-  const auto made = make_relief(*model(), options);
+  const auto made = make_relief(*model, options);
   ASSERT_TRUE(made) << made.error().message();
   const std::string bytes = app::export_file(*made, **app::find_format("stl"), {}).bytes;
   const test::ReadSolid triangles = test::solid_in_stl(bytes);

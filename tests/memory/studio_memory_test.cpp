@@ -247,8 +247,7 @@ TEST_P(StudioMemory, Turns) {
 
 TEST_P(StudioMemory, DrawsFrames) {
   for (const char* kind : {"plain", "round", "original"}) {
-    Json request =
-        picture_request({{"method", "paper"}, {"outline", kind[0] == 'r' ? "ellipse" : "rectangle"}});
+    Json request = picture_request({{"height", 3}, {"outline", kind[0] == 'r' ? "ellipse" : "rectangle"}});
     request["original"] = kind[0] == 'o';
     survives([&] { return ask("frame", request); });
   }

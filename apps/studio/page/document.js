@@ -165,9 +165,6 @@ export class Document {
 // A lithophane, which is printed, has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
-// The paper's method has none of these options. A document keeps them for the other method.
-const NOT_IN_PAPER = ["tone", "steps"];
-
 // Returns the options for the engine and `relievo make`. Leaves out those with the value of a new document, unless the
 // engine wants them stated.
 export function engineOptions(step) {
@@ -181,7 +178,7 @@ export function engineOptions(step) {
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
-  if (options.method === "paper") for (const name of NOT_IN_PAPER) delete options[name];
+  if (options.method === "paper") delete options.tone, delete options.steps; // kept for the other method
   return options;
 }
 
