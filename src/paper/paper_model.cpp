@@ -3,6 +3,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/height_span.h"
 #include "core/lists.h"
 #include "core/memory.h"
 #include "paper/control_points.h"
@@ -17,13 +18,6 @@ std::vector<float> uncompressed_heights(const PaperModel& model) {
   std::vector<float> heights(model.control_points());
   model.solve({.u = std::numeric_limits<double>::infinity()}, workspace, heights);
   return heights;
-}
-
-// Returns highest minus lowest of the heights and 0.
-float span_of(std::span<const float> heights) {
-  float low = 0, high = 0;
-  for (const float z : heights) low = std::min(low, z), high = std::max(high, z);
-  return high - low;
 }
 
 }  // namespace
@@ -90,7 +84,7 @@ void PaperModel::map(std::span<const float> control_heights, double gamma, MapWo
     mapping_->carry(control_heights, workspace, heights);
   else
     std::ranges::copy(control_heights, heights.begin());
-  const float amount = static_cast<float>(gamma) * span_of(heights);
+  const float amount = static_cast<float>(gamma) * span_of(std::span<const float>(heights)).size();
   parallel_for(heights.size(), [&](std::size_t i) { heights[i] += amount * k_[i]; });
   for (const Index i : boundary_) heights[i] = 0;
 }

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "core/height_span.h"
 #include "geometry/slope_limit.h"
 #include "relief/height_search.h"
-#include "relief/height_span.h"
 #include "relief/nearest_draft.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"

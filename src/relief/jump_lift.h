@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "relief/height_span.h"
+#include "core/height_span.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/types.h"
 #include "relievo/relief/layers.h"

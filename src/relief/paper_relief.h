@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "core/height_span.h"
 #include "paper/height_to_order.h"
 #include "paper/paper_model.h"
 #include "relief/height_search.h"
-#include "relief/height_span.h"
 #include "relievo/relief/relief.h"
 
 namespace relievo {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <variant>
 
+#include "core/height_span.h"
 #include "paper/surface.h"
 #include "relief/height_search.h"
-#include "relief/height_span.h"
 #include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
 #include "relief/membrane/membrane_tuning.h"

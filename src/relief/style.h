@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "relief/height_span.h"
+#include "core/height_span.h"
 #include "relief/layered_slopes.h"
 #include "relief/membrane/height_correction.h"
 #include "relievo/core/parallel.h"

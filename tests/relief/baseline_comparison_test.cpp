@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "relief/height_span.h"
+#include "core/height_span.h"
 #include "relief/style.h"
 #include "relievo/quality/measures.h"
 #include "relievo/relief/baselines.h"

@@ -68,7 +68,7 @@ TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-// Where no bound is reached, the heights are those of (9) without jump weights.
+// Heights that reach no bound are those of (9) without jump weights.
 TEST(Bounded, WithEnoughHeightSolvesTheEquations) {
   const Surface surface = test::surface_of(test::sphere(20000, 1));
   const HeightSystem system =

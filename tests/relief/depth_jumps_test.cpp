@@ -1,4 +1,4 @@
-// What reliefs make of depth jumps between two parts (section 4.1 of the paper).
+// Measures the steps that reliefs keep at depth jumps between two parts (section 4.1 of the paper).
 #include <gtest/gtest.h>
 
 #include <algorithm>

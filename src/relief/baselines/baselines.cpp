@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "relief/height_span.h"
+#include "core/height_span.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/baselines.h"
 #include "relievo/relief/heights.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/height_span.h"
 #include "quality/image_measures.h"
-#include "relief/height_span.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
 #include "relievo/quality/measures.h"

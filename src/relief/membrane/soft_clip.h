@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "relief/height_span.h"
+#include "core/height_span.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {

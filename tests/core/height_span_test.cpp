@@ -1,4 +1,4 @@
-#include "relief/height_span.h"
+#include "core/height_span.h"
 
 #include <gtest/gtest.h>
 
