@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "relievo/core/types.h"
 
@@ -11,6 +13,14 @@ namespace relievo {
 // two edges of a triangle that leave the same corner it is twice the triangle's signed area.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+
+// Returns the radius of the circle through the corners of a triangle; infinity if it has no area.
+inline double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 u = b - a, v = c - a;
+  const double twice_area = std::abs(cross(u, v));
+  const double product = u.norm() * v.norm() * (c - b).norm();
+  return twice_area > 0 ? product / (2 * twice_area) : std::numeric_limits<double>::infinity();
 }
 
 struct Circle {

@@ -11,16 +11,12 @@
 namespace relievo::paper {
 namespace {
 
-bool is_inside(const Vec2& a, const Vec2& b, const Vec2& c, double rho) {
-  constexpr double largest_radius = 3;  // in rho
-  const double twice_area = cross(b - a, c - a);
-  return (b - a).norm() * (c - b).norm() * (a - c).norm() <= largest_radius * rho * 2 * twice_area;
-}
+constexpr double largest_radius = 3;  // of the empty circle of a triangle inside the relief, in rho
 
 Boundary boundary_of(std::span<const Vec2> points, const Triangulation& mesh, double rho) {
   Boundary boundary;
   for (const auto& [a, b, c] : mesh.triangles)
-    boundary.is_inside.push_back(is_inside(points[a], points[b], points[c], rho));
+    boundary.is_inside.push_back(circumradius(points[a], points[b], points[c]) <= largest_radius * rho);
   boundary.is_boundary = boundary_points(points.size(), mesh, boundary.is_inside);
   boundary.distance = distances_to(points, boundary.is_boundary);
   return boundary;

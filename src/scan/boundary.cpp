@@ -16,14 +16,6 @@ namespace {
 // In rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
 constexpr double gap = 3;
 
-// Returns infinity for a triangle without area.
-double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 u = b - a, v = c - a;
-  const double twice_area = std::abs(cross(u, v));
-  const double product = u.norm() * v.norm() * (c - b).norm();
-  return twice_area > 0 ? product / (2 * twice_area) : std::numeric_limits<double>::infinity();
-}
-
 // Returns the spacing by which gaps at a triangle are measured: the smallest spacing of its corners if all
 // are sparse, else rho.
 double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {

@@ -11,6 +11,13 @@ TEST(Plane, CrossProductIsPositiveToTheLeft) {
   EXPECT_EQ(cross({1, 3}, {2, 6}), 0);
 }
 
+// The circle around a right-angled triangle has the hypotenuse as its diameter.
+TEST(Plane, CircumradiusOfARightAngleIsHalfTheHypotenuse) {
+  EXPECT_DOUBLE_EQ(circumradius({0, 0}, {3, 0}, {0, 4}), 2.5);
+  EXPECT_DOUBLE_EQ(circumradius({0, 4}, {3, 0}, {0, 0}), 2.5);
+  EXPECT_EQ(circumradius({0, 0}, {1, 1}, {2, 2}), std::numeric_limits<double>::infinity());
+}
+
 TEST(Plane, HatFunctionsAreOneAtTheirCornerAndZeroAtTheOthers) {
   const std::array<Vec2, 3> corners{Vec2(1, 2), Vec2(4, 3), Vec2(2, 7)};
   const auto gradients = hat_gradients(corners, cross(corners[1] - corners[0], corners[2] - corners[0]));
