@@ -139,7 +139,7 @@ Image8 surface_picture(const Scan& scan, const Shown* shown) {
   return on_white(picture.image);
 }
 
-// How heights are mapped from the control points to all visible points: their ratio to known heights.
+// Chooses how heights are mapped from the control points to all visible points, as ratios to known heights.
 struct Mapping {
   bool is_gaussian = false;  // by Gaussian weights of the nearest control points, not by a B-spline
   enum class Known { none, depths, uncompressed } known = Known::uncompressed;
@@ -201,10 +201,10 @@ Result<Heights> mapped_heights(const Scan& scan, const Mapping& mapping, double 
     spline.carry(compressed, workspace, heights);
     return heights;
   }
-  const float faint = .02F * *std::ranges::max_element(of_control);  // as in HeightMapping
+  const float faint = paper::faint_share * *std::ranges::max_element(of_control);
   Heights ratios;
   for (std::size_t i = 0; i < control.size(); ++i)
-    ratios.push_back(compressed[i] * of_control[i] / (of_control[i] * of_control[i] + faint * faint));
+    ratios.push_back(paper::compression_ratio(compressed[i], of_control[i], faint));
   heights = gaussian_ratios(control, ratios, scan.visible);
   for (std::size_t i = 0; i < heights.size(); ++i) heights[i] *= known[i];
   return heights;

@@ -70,23 +70,16 @@ Result<NormalEquations> NormalEquations::build(std::span<const Vec2> points,
   RELIEVO_TRY(auto factor, solver::Cholesky::factor(normal_matrix(neighbours, on_base), points));
   NormalEquations made(std::move(factor));
   made.steps_.assign(points.size(), Vec2f::Zero());
-  made.begin_.assign(points.size() + 1, 0);
-  for (const std::vector<Index>& each : neighbours)
-    for (const Index q : each) ++made.begin_[q + 1];
-  std::partial_sum(made.begin_.begin(), made.begin_.end(), made.begin_.begin());
-  made.rows_.resize(made.begin_.back());
-  std::vector<Index> next(made.begin_.begin(), made.begin_.end() - 1);
-  for (Index p = 0; p < points.size(); ++p)
-    for (const Index q : neighbours[p]) {
-      const Vec2f step = (points[p] - points[q]).cast<float>();
-      made.steps_[p] += step;
-      made.rows_[next[q]++] = {p, step};
-    }
+  made.rows_ = grouped<Row>(points.size(), [&](auto&& add) {
+    for (Index p = 0; p < points.size(); ++p)
+      for (const Index q : neighbours[p]) add(q, Row{p, (points[p] - points[q]).cast<float>()});
+  });
+  for (const Row& row : made.rows_.items) made.steps_[row.p] += row.step;
   return made;
 }
 
 std::size_t NormalEquations::memory() const {
-  return factor_.memory() + bytes(steps_) + bytes(begin_) + bytes(rows_);
+  return factor_.memory() + bytes(steps_) + bytes(rows_.begin) + bytes(rows_.items);
 }
 
 // The right-hand side is A^T b. Each row z_p - z_q = s_p . (p - q) adds s_p . (p - q) to the sum of p and takes
@@ -95,7 +88,7 @@ void NormalEquations::solve(std::span<const Vec2f> slopes, std::span<float> heig
                             Workspace& workspace) const {
   parallel_for(size(), [&](std::size_t i) {
     float sum = slopes[i].dot(steps_[i]);
-    for (Index row = begin_[i]; row < begin_[i + 1]; ++row) sum -= slopes[rows_[row].p].dot(rows_[row].step);
+    for (const Row& row : rows_[i]) sum -= slopes[row.p].dot(row.step);
     heights[i] = sum;
   });
   factor_.solve(heights, heights, workspace);

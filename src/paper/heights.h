@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/groups.h"
 #include "relievo/core/types.h"
 #include "relievo/solver/cholesky.h"
 
@@ -42,8 +43,7 @@ class NormalEquations {
 
   solver::Cholesky factor_;
   std::vector<Vec2f> steps_;  // per point p, the sum of the steps of its rows
-  std::vector<Index> begin_;  // the rows in which a point is the neighbour q begin at begin_[q] in rows_
-  std::vector<Row> rows_;     // the rows of (8), ordered by q
+  Groups<Row> rows_;          // the rows of (8), grouped by q
 };
 
 }  // namespace relievo::paper

@@ -27,7 +27,7 @@ float largest(std::span<const float> heights) {
 HeightMapping::HeightMapping(std::span<const Vec2> control, std::span<const Vec2> visible,
                              Uncompressed uncompressed)
     : uncompressed_(std::move(uncompressed)),
-      faint_(.02F * largest(uncompressed_.control)),
+      faint_(faint_share * largest(uncompressed_.control)),
       spline_(control, std::vector<float>(control.size(), 1), lattices(visible)),
       places_(spline_.pack(visible)) {}
 
@@ -42,11 +42,8 @@ HeightMapping::Workspace HeightMapping::make_workspace() const {
 
 void HeightMapping::carry(std::span<const float> control_heights, Workspace& workspace,
                           std::span<float> heights) const {
-  for (std::size_t i = 0; i < control_heights.size(); ++i) {
-    const float z0 = uncompressed_.control[i];
-    // The ratio z / z0, which goes to 0 where z0 does.
-    workspace.ratio[i] = control_heights[i] * z0 / std::max(z0 * z0 + faint_ * faint_, 1e-30F);
-  }
+  for (std::size_t i = 0; i < control_heights.size(); ++i)
+    workspace.ratio[i] = compression_ratio(control_heights[i], uncompressed_.control[i], faint_);
   spline_.fit(workspace.ratio, workspace.function, workspace.fit);
   spline_.evaluate(workspace.function, places_, heights);
   parallel_for(heights.size(), [&](std::size_t i) { heights[i] *= uncompressed_.visible[i]; });

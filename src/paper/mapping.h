@@ -1,12 +1,21 @@
 // The mapping of heights from the control points to all visible points (section 3.5).
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "relievo/geometry/spline.h"
 
 namespace relievo::paper {
+
+// Heights below this share of the largest have no definite ratio.
+inline constexpr float faint_share = .02F;
+
+// Returns the compression ratio z / z0, which goes to 0 where z0 is below `faint`.
+inline float compression_ratio(float z, float z0, float faint) {
+  return z * z0 / std::max(z0 * z0 + faint * faint, 1e-30F);
+}
 
 // Carries the compression ratio of the control points, their height divided by the one without compression, to
 // all visible points by a multilevel B-spline, and multiplies it there by the heights without compression.
@@ -36,7 +45,7 @@ class HeightMapping {
 
  private:
   Uncompressed uncompressed_;
-  float faint_;  // heights below this have no definite ratio
+  float faint_;  // see compression_ratio()
   MultilevelSpline spline_;
   std::vector<SplinePlace> places_;
 };
