@@ -106,7 +106,10 @@ void print_table(const BenchResult& r) {
 }
 
 void print_json(const BenchResult& r) {
-  nlohmann::json preparation, frames = nlohmann::json::array(), memory;
+  nlohmann::json preparation, frames = nlohmann::json::array(), paper, memory;
+  for (const PaperRow& row : paper_table_1)
+    paper.push_back(
+        {row.model, row.visible_points, row.control_points, row.t1, row.t2, row.t3, row.frames_per_second});
   for (const StageTime& stage : r.preparation) preparation[stage.name] = stage.seconds;
   for (const auto& [mode, bytes] : r.memory) memory[mode] = bytes;
   for (const FrameFigures& f : r.frames)
@@ -125,6 +128,7 @@ void print_json(const BenchResult& r) {
                       {"visible_points", r.visible_points},
                       {"preparation_s", preparation},
                       {"frames", frames},
+                      {"paper_table_1", paper},
                       {"bytes_per_point", memory},
                       {"peak_mib", peak_memory_mib()}};
   if (r.views) {

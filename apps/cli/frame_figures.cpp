@@ -22,15 +22,10 @@ double Series::percentile(double share) const {
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run) {
   const int threads_before = thread_count();
   set_thread_count(run.threads);
-  FrameFigures figures{model.control_points() > 0 ? "subspace" : "exact",
-                       model.surface().points.size(),
-                       model.control_points(),
-                       run.threads,
-                       {},
-                       {},
-                       {},
-                       {},
-                       0};
+  FrameFigures figures{.mode = model.control_points() > 0 ? "subspace" : "exact",
+                       .visible_points = model.surface().points.size(),
+                       .control_points = model.control_points(),
+                       .threads = run.threads};
   if (model.paper()) figures.mode += ", paper";
   if (run.is_locked) figures.mode += ", height locked";
   if (run.is_ahead) figures.mode += ", one step ahead";
@@ -46,7 +41,10 @@ FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run) {
   for (int i = 0; i < run.frames; ++i) {
     (run.is_locked ? options.shape.compression.beta : options.shape.gamma) += .001;
     const auto start = std::chrono::steady_clock::now();
-    run.is_ahead ? void(maker.make_ahead(options, frame)) : maker.make(options, frame);
+    if (run.is_ahead)
+      maker.make_ahead(options, frame);
+    else
+      maker.make(options, frame);
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
     const FrameTimes& t = frame.times;
     figures.heights.ms.push_back(1e3 * t.heights_s);

@@ -15,7 +15,7 @@ namespace relievo::app::cli {
 
 // The times of one part of a frame, over many frames.
 struct Series {
-  std::vector<double> ms;
+  std::vector<double> ms = {};
 
   double percentile(double share) const;
 };
@@ -25,8 +25,8 @@ struct FrameFigures {
   std::size_t visible_points = 0;
   std::size_t control_points = 0;  // 0: all visible points
   int threads = 1;
-  Series heights, detail, normals, whole;  // t1, t2, t3 and the whole frame
-  double solves = 0;                       // solves per frame
+  Series heights = {}, detail = {}, normals = {}, whole = {};  // t1, t2, t3 and the whole frame
+  double solves = 0;                                           // solves per frame
 };
 
 struct FrameRun {
