@@ -38,6 +38,7 @@ constexpr const char* base_image_name = "base-image";
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
+  // The names of the options that give a height in different ways begin alike.
   const auto is_height = [](const auto& value) { return value.first.starts_with("height"); };
   if (given.contains("alpha")) own.erase("method");  // alpha implies the paper's method
   if (given.contains("alpha") || std::ranges::any_of(given, is_height)) std::erase_if(own, is_height);

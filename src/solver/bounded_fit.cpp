@@ -32,7 +32,8 @@ class NewtonMatrix {
   static Result<NewtonMatrix> factor(const BoundedFit& fit, Vector D) {
     Eigen::SparseMatrix<double> shifted = fit.A;
     const Vector E = is_plate(fit) ? Vector(fit.mass.cwiseProduct(D).cwiseSqrt()) : D;
-    // Where nothing is near a bound, A is nearly singular. The shift is that of a spring over 300 edges.
+    // A alone is nearly singular, and D is small where nothing is near a bound. The least shift holds a point
+    // like a spring over 300 edges.
     constexpr double least_shift = 1e-5;
     for (int i = 0; i < shifted.cols(); ++i) {
       double& diagonal = shifted.coeffRef(i, i);

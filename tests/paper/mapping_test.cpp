@@ -52,8 +52,8 @@ TEST(PaperMapping, CarriesASmoothRatio) {
   EXPECT_LT(std::sqrt(sum), .02);
 }
 
-// Where the heights without compression pass 0, the ratio is damped by z0^2 / (z0^2 + f^2), where f is 2 % of the
-// largest height. So the heights pass 0, too, and are right to 10 % of the largest everywhere.
+// The ratio is multiplied by z0^2 / (z0^2 + f^2), where f is 2 % of the largest height, because it is not defined at
+// z0 = 0. So heights pass 0 where z0 does, and are right to 10 % of the largest everywhere.
 TEST(PaperMapping, PassesZeroWhereTheUncompressedHeightsDo) {
   const Mapped m;
   const auto slope = [](const Vec2& p) { return static_cast<float>(p.x() - .5); };

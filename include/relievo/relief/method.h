@@ -81,7 +81,7 @@ inline constexpr std::array<Choice<Mode>, 3> mode_choices{
 
 inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of the paper's Table 1
 
-// What a model is prepared for.
+// The options of a model: they decide which reliefs can be made of it, and how fast.
 struct ModelOptions {
   Mode mode = Mode::exact;
   std::size_t control_points = usual_control_points;  // approximate number in subspace mode
