@@ -125,11 +125,10 @@ void mark_unfinished(const Descriptor& file) {
   ::fsetxattr(file.number(), mark, "", 0, 0);
 }
 
-// Removes the files that a killed process or a loss of power has left: marked files that no process has open.
-void remove_abandoned(const std::string& stem) {
-  const std::string begin = std::filesystem::path(stem).filename().string();
+// Removes the unfinished files in `folder` that no process has open and whose names begin like that.
+void remove_abandoned(const std::string& folder, const std::string& begin) {
   std::error_code failed;
-  for (std::filesystem::directory_iterator entry(folder_for(stem), failed), end; !failed && entry != end;
+  for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
        entry.increment(failed)) {
     if (!entry->path().filename().string().starts_with(begin)) continue;
     const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
@@ -139,9 +138,13 @@ void remove_abandoned(const std::string& stem) {
   }
 }
 
+void remove_abandoned_for(const std::string& stem) {
+  remove_abandoned(folder_for(stem), std::filesystem::path(stem).filename().string());
+}
+
 // Makes a file under an unused name.
 Descriptor make_named(TemporaryName& name, const std::string& stem, unsigned mode) {
-  remove_abandoned(stem);
+  remove_abandoned_for(stem);
   while (name.renew(stem)) {
     const FileChange change;
     Descriptor file(::open(name.text, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));
@@ -159,7 +162,7 @@ bool link_to(const std::string& own, const char* path) {
 // Replaces the file at `path`. For that the new file first gets a temporary name.
 bool name_in_place(const Descriptor& file, const std::string& own, const std::string& path) {
   const std::string stem = stem_for(path);
-  remove_abandoned(stem);
+  remove_abandoned_for(stem);
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
@@ -223,6 +226,10 @@ Result<void> TemporaryFile::keep(const std::string& path) {
   if (!is_kept) return system_error(ErrorKind::output, path, "expected a file that can be replaced");
   ::fremovexattr(file_.number(), mark);
   return {};
+}
+
+void remove_abandoned_files(const std::string& folder) {
+  remove_abandoned(folder, "");
 }
 
 void remove_temporary_files() {

@@ -41,6 +41,10 @@ class TemporaryFile {
   TemporaryName* name_ = nullptr;  // null while the file has no temporary name
 };
 
+// Removes the unfinished files in a folder that killed processes, or a loss of power, have left. They may
+// belong to any path in it.
+void remove_abandoned_files(const std::string& folder);
+
 // Removes all temporary files of this process that have names. From then on no thread can make or keep a
 // temporary file. It may be called in a signal handler, before the process ends.
 void remove_temporary_files();

@@ -224,8 +224,6 @@ def studio(workshop, kind, chance, number):
         state = json.loads(page.must("document", {"input": {"path": path}}))["kept"] or {"changed": 0, "text": ""}
         require(state["changed"] in (kept, kept + 1), "studio: kept", state["changed"], "after", kept)
         require(state["changed"] == 0 or state["text"] == "x" * ((state["changed"] - 1) % 5 * 9000), "studio: what it kept is not whole")
-        if kind == "kill":
-            page.keep(page.open("shell"))  # keeping work removes files that a killed program left
         require(not temporaries(place.state), "studio: left", temporaries(place.state))
         page.process.terminate()
         finish(page.process)

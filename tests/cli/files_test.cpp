@@ -1,6 +1,8 @@
 // Tests files of the programs: paths that are no files, temporary files, and pipes where they are allowed.
 #include "common/files.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/xattr.h>
@@ -102,6 +104,23 @@ TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   EXPECT_FALSE(fs::exists(path("a.stl.relievo-1-1")));
   EXPECT_TRUE(fs::exists(path("b.stl.relievo-1-1"))) << "of another output";
   EXPECT_LT(::getxattr(path("a.stl").c_str(), "user.relievo.unfinished", nullptr, 0), 0);
+}
+
+TEST_F(Files, WhatKilledRunsLeftInAFolderIsRemovedWhateverItsPath) {
+  const auto mark = [&](const char* name) {
+    write_all(path(name), "unfinished");
+    return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
+  };
+  if (!mark("a.stl.relievo-1-1") || !mark("b.stl.relievo-1-2") || !mark("open")) GTEST_SKIP() << "no attributes here";
+  write_all(path("c.stl.relievo-1-3"), "of others");
+  const app::Descriptor open(::open(path("open").c_str(), O_RDWR));
+  ASSERT_EQ(::flock(open.number(), LOCK_EX), 0);
+  app::remove_abandoned_files(folder_);
+  EXPECT_FALSE(fs::exists(path("a.stl.relievo-1-1")));
+  EXPECT_FALSE(fs::exists(path("b.stl.relievo-1-2")));
+  EXPECT_TRUE(fs::exists(path("open"))) << "a process still writes it";
+  EXPECT_TRUE(fs::exists(path("c.stl.relievo-1-3")));
+  app::remove_abandoned_files(path("no-such-folder"));
 }
 
 TEST_F(Files, AsManyTemporaryFilesAsAreWantedCanBeWritten) {

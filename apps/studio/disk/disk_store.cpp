@@ -87,6 +87,12 @@ std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
   return entries;
 }
 
+// Removes the unfinished files that a killed studio has left in a folder; none behind a link to a folder.
+void remove_left_files(const fs::path& folder) {
+  std::error_code failed;
+  if (fs::is_directory(fs::symlink_status(folder, failed))) remove_abandoned_files(folder.string());
+}
+
 std::uint64_t bytes_in(const fs::path& folder) {
   std::uint64_t bytes = 0;
   for (const fs::directory_entry& entry : entries_of(folder))
@@ -118,8 +124,12 @@ DiskStore::DiskStore(StateFolder folder)
       notice_(std::move(folder.notice)),
       lock_(std::move(folder.lock)) {
   std::set<std::string> kept;
-  for (const fs::directory_entry& entry : entries_of(fs::path(folder_) / scans))
+  remove_left_files(folder_);
+  remove_left_files(fs::path(folder_) / documents);
+  for (const fs::directory_entry& entry : entries_of(fs::path(folder_) / scans)) {
+    remove_left_files(entry.path());
     kept.insert(entry.path().filename().string());
+  }
   remove_unneeded(kept);
 }
 
