@@ -177,14 +177,14 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  // A picture of the former model would have another diagonal.
-  if (frame.options["height-of-diagonal"] && !opened.asked && !opened.status.busy) {
+  const isOfView = !frame.isTurned && !opened.asked && !opened.status.busy; // others have other diagonals and heights
+  if (isOfView && frame.options["height-of-diagonal"]) {
     doc.note({options: {height: frame.height_mm, "height-of-diagonal": null}});
     sliders.all.height.show(frame.height_mm);
   }
   const {u, options} = doc.now; // the picture may have been requested before u or the height was typed
   const isNewest = u === null ? frame.options.height === options.height : frame.u === u;
-  if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
+  if (!doc.now.isHeightLocked && isOfView && isNewest) {
     const slider = sliders.all.height, rounded = slider.rounded(frame.height_mm);
     // A computed height gets the slider's own decimals, unless it is so low that these would change it much.
     const height = rounded < 0.1 ? frame.height_mm : rounded;

@@ -145,10 +145,11 @@ export class Stage {
     return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
   }
 
-  // Returns a picture of the newest state, with the document's options among its facts.
+  // Returns a picture of the newest state. Its facts include the document's options, and whether it shows the coarse
+  // relief of a view that is not prepared yet, which has another size.
   async frame(request, signal) {
     const {options} = this.doc.now, {image, about} = await this.engine.frame(request, {signal});
-    return {image, about: {...about, options}};
+    return {image, about: {...about, options, isTurned: Boolean(request.turned)}};
   }
 
   // Draws the relief. While things move, the next picture is requested before this one is shown.
