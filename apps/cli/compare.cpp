@@ -87,15 +87,14 @@ class PlatePictures {
 // Makes reliefs of one scan, measures them on one surface, and draws them if a page is wanted.
 struct Comparer {
   std::shared_ptr<const ReliefModel> model;
-  std::optional<ReliefModel> paper;       // the model of Method::paper, if that is compared
-  std::optional<BaselineGrid> baselines;  // if any of them is compared
+  std::optional<ReliefModel> paper;  // the model of Method::paper, if that is compared
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
 
   // Returns the relief by a method with a shape, or by a baseline with its best parameters.
   Result<TunedRelief> relief_by(std::string_view name, double height, double unit_mm) const {
     if (std::ranges::find(baseline_names, name) != baseline_names.end())
-      return baselines->best(name, metrics, height, unit_mm);
+      return best_baseline(name, {model->surface(), *model->system(), metrics}, height, unit_mm);
     RELIEVO_TRY(const Method method, parse_method(name));
     const ReliefModel& own = method == Method::paper ? *paper : *model;
     RELIEVO_TRY(Relief relief, make_by_method(method, own, height, default_shape(method), unit_mm));
@@ -129,13 +128,9 @@ Result<Comparison> compare_all(const CompareArguments& arguments, const std::vec
   const auto is_chosen = [&](Method method) {
     return std::ranges::find(chosen, name_of(method)) != chosen.end();
   };
-  const ModelOptions options{.is_layered = is_chosen(Method::layered)};
-  RELIEVO_TRY(ReliefModel model, prepare(*seen.sample.cloud, seen.view, options, &progress));
+  RELIEVO_TRY(ReliefModel model, prepare(*seen.sample.cloud, seen.view, {}, &progress));
   const auto shared = std::make_shared<const ReliefModel>(std::move(model));
-  Comparer comparer{shared, {}, {}};
-  if (std::ranges::find_first_of(chosen, baseline_names) != chosen.end()) {
-    RELIEVO_TRY(comparer.baselines, BaselineGrid::prepare(shared->surface()));
-  }
+  Comparer comparer{shared, {}};
   if (is_chosen(Method::paper)) {
     RELIEVO_TRY(comparer.paper, prepare(*seen.sample.cloud, seen.view.for_paper(), {}, &progress));
   }

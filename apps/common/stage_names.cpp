@@ -38,7 +38,6 @@ constexpr std::array stage_names{
     StageName{"boundary", "Finding the outline"},
     StageName{"layers", "Splitting the normals in layers"},
     StageName{"factorisation", "Preparing live work"},
-    StageName{"tuning", "Tuning the relief"},
     StageName{"reference heights", "Computing reference reliefs"},
     StageName{"control points", "Placing control points"},
     StageName{"relief", "Computing the relief"},

@@ -96,7 +96,6 @@ struct Engine::State {
     };
     preparation.makes_first_relief = !changed;  // without threads the page requests no coarse relief
     preparation.model = options.effective_model();
-    preparation.model.is_layered = true;  // the next picture may be of another method
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
     };

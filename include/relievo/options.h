@@ -29,6 +29,7 @@ struct NumericOptions {
   std::optional<double> draft_deg;           // least angle of every triangle to the vertical; any
   std::optional<double> boundary_width;      // width of (7), in units of rho; see effective_boundary_width()
   double steps = 0;                          // least share of the height for depth jumps, see Shape
+  std::optional<double> planes;              // least step of parts, see Shape; effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // of the subspace, approximately
   double corner_mm = 5;                 // radius of the corners of Outline::round
   std::optional<double> margin_mm;      // least flat ground around the relief; see effective_margin_mm()
@@ -90,12 +91,11 @@ struct ReliefOptions : NumericOptions {
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
   // Returns the view, for the paper's method without removal of noise and of crumbs.
   View effective_view() const;
-  ModelOptions effective_model() const {
-    return {mode, static_cast<std::size_t>(control_points), effective_method() == Method::layered};
-  }
+  ModelOptions effective_model() const { return {mode, static_cast<std::size_t>(control_points)}; }
   double effective_saturation() const;
   double effective_detail() const;
   double effective_boundary_width() const;
+  double effective_planes() const;
 };
 
 // Checks every range, and that options do not contradict each other. Contradictions are: two of height, height

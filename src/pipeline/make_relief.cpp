@@ -228,6 +228,7 @@ Shape shape_of(const ReliefOptions& options) {
   if (options.steepest_deg) shape.max_slope = std::tan(to_radians(*options.steepest_deg));
   shape.boundary_width = options.effective_boundary_width();
   shape.steps = options.steps;
+  shape.planes = options.effective_planes();
   if (options.tone) shape.compression.curve = std::make_shared<const ToneCurve>(*options.tone);
   return shape;
 }

@@ -31,14 +31,15 @@ Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
   if (method != Method::paper && options.alpha)
     return option_error("alpha", cat("expected method paper with it, found ", name_of(method)));
-  if (method == Method::paper && (options.tone || options.steps > 0))
-    return option_error("method", "expected neither tone nor steps with method paper, found one");
+  if (method == Method::paper && (options.tone || options.steps > 0 || options.planes))
+    return option_error("method", "expected none of tone, steps and planes with method paper, found some");
   const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
-                         options.boundary_width || options.tone || options.steps > 0;
+                         options.boundary_width || options.tone || options.steps > 0 || options.planes;
   if (is_shaped && !has_shape(method))
     return option_error(
-        "method", cat("expected none of saturation, detail, steepest, boundary, tone and steps with method ",
-                      name_of(method), ", found some"));
+        "method",
+        cat("expected none of saturation, detail, steepest, boundary, tone, steps and planes with method ",
+            name_of(method), ", found some"));
   return {};
 }
 
@@ -161,6 +162,10 @@ double ReliefOptions::effective_detail() const {
 
 double ReliefOptions::effective_boundary_width() const {
   return boundary_width.value_or(default_shape(effective_method()).boundary_width);
+}
+
+double ReliefOptions::effective_planes() const {
+  return planes.value_or(default_shape(effective_method()).planes);
 }
 
 Result<void> check(const ReliefOptions& options) {

@@ -315,7 +315,7 @@ Result<TurnedRelief> Turntable::turn(const View& view, const ReliefModel* like, 
   TurnedRelief relief;
   relief.detail = std::make_shared<const SurfaceDetail>(detail_of(turned));
   relief.spacing_ratio = state_->scan.rho / turned.surface.rho;
-  RELIEVO_TRY(ReliefModel model, ReliefModel::prepare_like(like, std::move(turned.surface), progress));
+  RELIEVO_TRY(ReliefModel model, ReliefModel::prepare(std::move(turned.surface), progress));
   relief.model = std::make_shared<const ReliefModel>(std::move(model));
   return relief;
 }

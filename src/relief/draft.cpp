@@ -74,14 +74,15 @@ class Limiter {
     return whole;
   }
 
-  // Creates the least-squares solver at the first call. It cannot use the model's system, in which slopes at
-  // depth jumps have less weight: here all slopes count alike.
+  // Creates the least-squares solver at the first call, of the model's system if that has all points.
   Result<void> build_nearest() {
     if (nearest_) return {};
     const Surface& surface = model_->surface();
-    RELIEVO_TRY(HeightSystem system, HeightSystem::build(plane_, surface.triangulation, surface.boundary));
-    system_.emplace(std::move(system));
-    nearest_.emplace(surface, *system_, options_.base, solved_share * options_.max_slope);
+    if (!model_->system()) {
+      RELIEVO_TRY(own_system_, HeightSystem::build(plane_, surface.triangulation, surface.boundary));
+    }
+    const HeightSystem& system = own_system_ ? *own_system_ : *model_->system();
+    nearest_.emplace(surface, system, options_.base, solved_share * options_.max_slope);
     return {};
   }
 
@@ -93,7 +94,7 @@ class Limiter {
   DraftOptions options_;
   std::vector<Vec2> plane_;
   std::vector<Triangle> triangles_;  // all triangles inside the relief
-  std::optional<HeightSystem> system_;
+  std::optional<HeightSystem> own_system_;
   std::optional<NearestDraft> nearest_;
 };
 

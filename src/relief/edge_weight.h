@@ -1,6 +1,6 @@
 // The weight of an edge in equation (9). It is used by the systems of all points and of control points, and
-// for the steps at depth jumps. JumpLift and TriangleSlopes need weights of triangles without factors, so
-// they use half_edge_weight() and needle_share(). tests/support/least_squares.h computes the weight
+// for the steps at depth jumps. TriangleSlopes needs weights of triangles without factors, so it uses
+// half_edge_weight() and needle_share(). tests/support/least_squares.h computes the weight
 // independently.
 #pragma once
 
@@ -9,7 +9,6 @@
 
 #include "geometry/plane.h"
 #include "relievo/core/types.h"
-#include "relievo/scan/boundary.h"
 
 namespace relievo {
 
@@ -34,20 +33,11 @@ inline double needle_share(double stiffest) {
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
 }
 
-// Returns the factor of the edge from a to b: the mean of `weights` at its two ends, see jump_weights().
-// Edges across walls get a tenth of that. Walls at jumps are narrower than the sampling distance, so their
-// edges would tie both sides together more than edges between scattered points do.
-inline float edge_factor(const Boundary& boundary, std::span<const float> weights, Index a, Index b) {
-  const float factor = (weights[a] + weights[b]) / 2;
-  return boundary.is_across_wall(a, b) ? .1F * factor : factor;
-}
-
-// Returns the weight of the edge from a to b; `sum` is the sum of its half weights. If `weights` is empty,
-// the weight has no factor, like the right-hand side of TriangleSlopes.
-inline float edge_weight(float sum, const Boundary& boundary, std::span<const float> weights, Index a,
-                         Index b) {
+// Returns the weight of the edge from a to b; `sum` is the sum of its half weights. If `weights` is not empty,
+// it has a factor per point, and the edge has the mean of those of its two ends.
+inline float edge_weight(float sum, std::span<const float> weights, Index a, Index b) {
   const float weight = std::clamp(sum, least_edge_weight, largest_edge_weight);
-  return weights.empty() ? weight : weight * edge_factor(boundary, weights, a, b);
+  return weights.empty() ? weight : weight * (weights[a] + weights[b]) / 2;
 }
 
 }  // namespace relievo

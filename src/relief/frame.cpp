@@ -8,9 +8,9 @@
 #include "core/memory.h"
 #include "core/stopwatch.h"
 #include "relief/height_search.h"
-#include "relief/jump_lift.h"
 #include "relief/paper_frames.h"
 #include "relief/sliced_ell_matrix.h"
+#include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relief/weight_table.h"
 #include "relievo/core/parallel.h"
@@ -98,7 +98,7 @@ struct OwnFrames {
   // Makes the relief of that shape without the last step of its style. That step does not change
   // frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
-    frame.options.shape = made = model.with_membrane(shape);
+    frame.options.shape = made = shape;
     if (const HeightSystem* system = model.system())
       solve_system(*system, frame);
     else
@@ -106,7 +106,7 @@ struct OwnFrames {
     ++frame.times.solves;
     change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
       if (height) *height /= style.height_share();
-      model.jump_lift().add_to(heights.z, frame.options.shape);
+      add_planes(model.planes(), frame.options.shape, heights.z);
       add_steps(model.steps(), frame.options.shape.steps, height, heights.z);
       style.raise(heights);
       frame.height = heights.height;

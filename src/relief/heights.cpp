@@ -121,8 +121,7 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
         const std::size_t before = edges.size();
         rows.add(corners[i], edges);
         for (std::size_t e = before; e < edges.size(); ++e)
-          edges[e].weight =
-              edge_weight(edges[e].weight, boundary, weights, static_cast<Index>(i), edges[e].to);
+          edges[e].weight = edge_weight(edges[e].weight, weights, static_cast<Index>(i), edges[e].to);
       });
   });
 }

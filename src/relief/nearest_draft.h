@@ -29,8 +29,7 @@ class TriangleSlopes {
   }
 
   // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat
-  // function; 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without
-  // jump weights.
+  // function; 0 at boundary points. For a field of slopes that is the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:
@@ -57,7 +56,7 @@ class TriangleSlopes {
 // the last one. Not for concurrent use.
 class NearestDraft {
  public:
-  // `system` is the surface's system without jump weights; surface and system must outlive this object.
+  // `system` is the surface's system; surface and system must outlive this object.
   // `base` has a height per point, or is empty.
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);

@@ -7,17 +7,15 @@
 #include "core/height_span.h"
 #include "paper/surface.h"
 #include "relief/height_search.h"
-#include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
-#include "relief/membrane/membrane_tuning.h"
 #include "relief/paper_relief.h"
+#include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
 #include "relievo/relief/subspace.h"
 #include "relievo/scan/surface.h"
-#include "scan/jumps.h"
 #include "scan/measured_cloud.h"
 
 namespace relievo {
@@ -32,20 +30,18 @@ struct ReliefModel::State {
   // control points.
   struct Parts {
     std::vector<PointLayers> layers;
-    StepHeights steps;
-    JumpLift jump_lift;
+    StepHeights steps, planes;
     HeightCorrection correction;
     std::variant<HeightSystem, SubspaceModel> solver;
   };
 
   Surface surface;
   std::variant<Parts, PaperModel> parts_or_paper;
-  std::optional<MembraneTuning> tuning = {};  // none if the model is not for layered reliefs
 
   const Parts& parts() const { return std::get<Parts>(parts_or_paper); }
   const PaperModel* paper() const { return std::get_if<PaperModel>(&parts_or_paper); }
 
-  static Result<Parts> prepare_parts(const Surface& surface, bool is_layered, Progress* progress);
+  static Result<Parts> prepare_parts(const Surface& surface, Progress* progress);
 
   // Returns the heights that (9) finds for the slopes of that shape.
   std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
@@ -63,8 +59,7 @@ const PaperModel* ReliefModel::paper() const {
   return state_->paper();
 }
 bool ReliefModel::serves(Method method) const {
-  return paper() ? method == Method::paper
-                 : method != Method::paper && (state_->tuning || method != Method::layered);
+  return (method == Method::paper) == (paper() != nullptr);
 }
 std::size_t ReliefModel::control_points() const {
   if (paper()) return paper()->is_subspace() ? paper()->control_points() : 0;
@@ -82,14 +77,11 @@ const SubspaceModel* ReliefModel::subspace() const {
 const StepHeights& ReliefModel::steps() const {
   return state_->parts().steps;
 }
-const JumpLift& ReliefModel::jump_lift() const {
-  return state_->parts().jump_lift;
+const StepHeights& ReliefModel::planes() const {
+  return state_->parts().planes;
 }
 const HeightCorrection& ReliefModel::correction() const {
   return state_->parts().correction;
-}
-MembraneParams ReliefModel::membrane_at(double u) const {
-  return state_->tuning.value_or(MembraneTuning()).at(u);
 }
 
 namespace {
@@ -108,39 +100,33 @@ Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const P
 
 }  // namespace
 
-Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surface& surface, bool is_layered,
+Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surface& surface,
                                                                     Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "layers", .72));
-  const std::vector<float> weights = jump_weights(surface);
   std::vector<PointLayers> layers;
   std::optional<HeightCorrection> correction;
   parallel_both([&] { layers = normal_layers(surface.points, surface.normals); },
-                [&] { correction.emplace(surface, weights); });
+                [&] { correction.emplace(surface); });
   RELIEVO_CHECK(begin_stage(progress, "factorisation", .75));
-  RELIEVO_TRY(HeightSystem system, HeightSystem::build(in_plane(surface.points), surface.triangulation,
-                                                       surface.boundary, weights));
+  RELIEVO_TRY(HeightSystem system,
+              HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
   RELIEVO_CHECK(check_cancelled(progress));
-  StepHeights steps = find_step_heights(surface, weights, system);
-  JumpLift jump_lift = is_layered ? JumpLift::find({surface, layers, system}) : JumpLift();
-  return Parts{std::move(layers), std::move(steps), std::move(jump_lift), std::move(*correction),
+  StepHeights steps, planes;
+  parallel_both([&] { steps = find_step_heights(surface, system); },
+                [&] { planes = find_planes(surface, system); });
+  return Parts{std::move(layers), std::move(steps), std::move(planes), std::move(*correction),
                std::move(system)};
 }
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, const ModelOptions& options) {
-  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, options.is_layered, progress));
+  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
   auto& system = std::get<HeightSystem>(parts.solver);
-  std::optional<MembraneTuning> tuning;
-  if (options.is_layered) {
-    RELIEVO_CHECK(begin_stage(progress, "tuning", .8));
-    RELIEVO_TRY(tuning,
-                tune_membrane({surface, parts.layers, parts.correction, system, parts.jump_lift}, progress));
-  }
   if (resolve_mode(options.mode, surface) == Mode::subspace) {
     RELIEVO_TRY(parts.solver,
                 prepare_subspace(surface, parts.layers, std::move(system), options.control_points, progress));
     parts.layers = std::vector<PointLayers>();
   }
-  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
+  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts)}));
 }
 
 Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const View& view,
@@ -156,18 +142,11 @@ Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const Vi
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(model)}));
 }
 
-Result<ReliefModel> ReliefModel::prepare_like(const ReliefModel* other, Surface surface, Progress* progress) {
-  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, true, progress));
-  const bool is_tuned = other && other->state_->tuning;
-  const MembraneTuning tuning = is_tuned ? *other->state_->tuning : MembraneTuning();
-  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
-}
-
 std::size_t ReliefModel::memory() const {
   if (const PaperModel* model = paper()) return model->memory() + surface().memory();
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->parts().solver);
   return solver + surface().memory() + layers().size_bytes() + correction().memory() +
-         steps().z.size() * sizeof(float) + jump_lift().memory();
+         (steps().z.size() + planes().z.size()) * sizeof(float);
 }
 
 namespace {
@@ -193,12 +172,6 @@ std::vector<double> ReliefModel::State::solve(const Shape& shape, const SlopeInp
   return heights;
 }
 
-Shape ReliefModel::with_membrane(Shape shape) const {
-  if (shape.style == Style::layered && !shape.membrane && !paper())
-    shape.membrane = membrane_at(shape.compression.u);
-  return shape;
-}
-
 // Makes reliefs of one boundary width in two steps, because a search for a height needs only the first.
 class ReliefModel::Maker {
  public:
@@ -212,12 +185,12 @@ class ReliefModel::Maker {
   // Steps at depth jumps take their share of `height` or, if none is given, of the height of slopes and steps
   // together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
-    Relief relief{{}, 0, model_.with_membrane(asked)};
+    Relief relief{{}, 0, asked};
     relief.heights = model_.state_->solve(relief.shape, input_);
     RaisedHeights<double> heights{relief.heights, input_, spans_};
     with_style(relief.shape, [&](const auto& style) {
       if (height) *height /= style.height_share();
-      model_.jump_lift().add_to(heights.z, relief.shape);
+      add_planes(model_.planes(), relief.shape, heights.z);
       add_steps(model_.steps(), relief.shape.steps, height, heights.z);
       style.raise(heights);
     });

@@ -1,4 +1,4 @@
-#include "relief/jump_lift.h"
+#include "relief/step_heights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ struct JumpEdge {
 };
 
 // Returns the edges of triangles inside the relief across which the depth jumps, with their weights in (9).
-std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> weights) {
+std::vector<JumpEdge> jump_edges(const Surface& surface) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
   const auto plane = [&](Index i) { return Vec2(surface.points[i].head<2>()); };
   const auto is_wanted = [&](const TriangleSide& side) {
@@ -34,7 +34,7 @@ std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> 
     float sum = 0;
     for (const TriangleSide& s : sides)
       sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
-    edges.push_back({a, b, edge_weight(sum, surface.boundary, weights, a, b)});
+    edges.push_back({a, b, edge_weight(sum, {}, a, b)});
   });
   return edges;
 }
@@ -53,15 +53,15 @@ double step_between(const Surface& surface, Index a, Index b) {
   return jump * step.z() > 0 ? jump : 0;
 }
 
-}  // namespace
-
-StepHeights find_step_heights(const Surface& surface, std::span<const float> weights,
-                              const HeightSystem& system) {
-  const std::vector<JumpEdge> edges = jump_edges(surface, weights);
+// Returns the least-squares solution of (9) for a difference across each jump edge: difference(a, b) is by how
+// much the height of b should exceed that of a.
+template <typename Difference>
+StepHeights solve_steps(const Surface& surface, const HeightSystem& system, Difference difference) {
+  const std::vector<JumpEdge> edges = jump_edges(surface);
   if (edges.empty()) return {};
   std::vector<double> z(surface.points.size(), 0);
   for (const JumpEdge& e : edges) {
-    const double pull = static_cast<double>(e.weight) * step_between(surface, e.a, e.b);
+    const double pull = static_cast<double>(e.weight) * difference(e.a, e.b);
     z[e.a] -= pull;
     z[e.b] += pull;
   }
@@ -69,6 +69,20 @@ StepHeights find_step_heights(const Surface& surface, std::span<const float> wei
     if (surface.boundary.is_boundary[i]) z[i] = 0;
   system.solve_in_place(z);
   return {{z.begin(), z.end()}, height_span(z)};
+}
+
+}  // namespace
+
+StepHeights find_step_heights(const Surface& surface, const HeightSystem& system) {
+  return solve_steps(surface, system, [&](Index a, Index b) { return step_between(surface, a, b); });
+}
+
+StepHeights find_planes(const Surface& surface, const HeightSystem& system) {
+  constexpr double deep = .05;  // depth, as a share of the longer side, of which a jump counts as a deep one
+  const double scale = deep * surface.longer_side();
+  return solve_steps(surface, system, [&](Index a, Index b) {
+    return surface.boundary.is_across_wall(a, b) ? std::tanh(step_between(surface, a, b) / scale) : 0;
+  });
 }
 
 }  // namespace relievo

@@ -130,8 +130,7 @@ class LayeredStyle {
     return weight * weights_.fine / std::sqrt(std::max(1 - t * t * sine_sq, least_gain_divisor));
   }
 
-  // The shape's membrane must be set, as for raise().
-  double height_share() const { return shape_.membrane->height_share; }
+  double height_share() const { return relievo::height_share(shape_); }
 
   template <typename Real>
   void raise(RaisedHeights<Real>& heights) const {
@@ -142,8 +141,8 @@ class LayeredStyle {
   // Compresses the heights to the relief's height; workspace() returns the scratch memory for that.
   template <typename Real, typename Workspace>
   void finish(RaisedHeights<Real>& heights, const HeightCorrection& correction, Workspace&& workspace) const {
-    if (std::isinf(shape_.membrane->pull_length)) return;
-    const HeightLimits limits = HeightLimits::of(heights.height, *shape_.membrane);
+    if (!shape_.is_corrected) return;
+    const HeightLimits limits = HeightLimits::of(heights.height, shape_);
     correction.compress_heights<Real>({heights.z, heights.input.boundary_weight, limits}, workspace());
     heights.span = heights.measured();
     heights.height = static_cast<double>(heights.span.size());

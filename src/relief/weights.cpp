@@ -69,16 +69,25 @@ double saturation_scale(const Compression& compression) {
   return compression.curve ? 1 : -1 / std::expm1(-1.0);
 }
 
+double usual_height_share(double u) {
+  constexpr double least = .4, growth = .2;  // see docs/decisions/height-share.md
+  return 1 - (1 - least) * std::exp(-growth * u);
+}
+
+double height_share(const Shape& shape) {
+  return shape.height_share.value_or(usual_height_share(shape.compression.u));
+}
+
 Shape layered_shape() {
   Shape shape{{1, 0}, .04};
   shape.style = Style::layered;
+  shape.planes = .07;
   shape.boundary_width = .3;  // a wider one bends the surface at silhouettes, see docs/decisions/layers.md
   return shape;
 }
 
 LayerWeights layer_weights(const Shape& shape) {
-  return LayerWeights::of(shape.compression.u, shape.gamma,
-                          shape.membrane.value_or(MembraneParams{}).height_share);
+  return LayerWeights::of(shape.compression.u, shape.gamma, height_share(shape));
 }
 
 std::vector<float> boundary_weights(std::span<const float> distance, double rho) {

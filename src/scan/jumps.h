@@ -15,9 +15,4 @@ bool is_jump(const Surface& surface, Index a, Index b);
 // Returns for each triangle whether it is inside the relief and one of its edges is a depth jump.
 std::vector<std::uint8_t> jump_triangles(const Surface& surface);
 
-// Returns the weight of each point's edges in (9). It is 0.2 at a depth jump of at least 2 % of the surface's
-// longer side, and grows geometrically to 1 at a distance of 0.8 % from the jump. docs/decisions/jumps.md
-// gives the reason.
-std::vector<float> jump_weights(const Surface& surface);
-
 }  // namespace relievo

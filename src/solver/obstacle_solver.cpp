@@ -15,6 +15,9 @@ constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
 // Successive over-relaxation converges for factors in (0, 2). The best factor grows towards 2 with the number
 // of nodes per side; 1.6 suits the short waves that are left to the finer levels.
 constexpr float over_relaxation = 1.6F;
+// Sweeps between updates of the pull of pairs, per level from fine to coarse. More updates change nothing that
+// is measured: see docs/decisions/near-order.md.
+constexpr std::array<int, ObstacleSolver::levels> sweeps_per_update{8, 2, 2, 2};
 
 // Returns the weights of bilinear interpolation at a place within a cell, one per node of the cell, row by
 // row.
@@ -26,7 +29,8 @@ std::array<float, 4> weights(const Vec2f& at) {
 }  // namespace
 
 std::size_t ObstacleSolver::Fields::memory() const {
-  return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment) + bytes(at_ties);
+  return bytes(lowest) + bytes(highest) + bytes(load) + bytes(hold) + bytes(b) + bytes(heights) +
+         bytes(lack) + bytes(moment) + bytes(at_ties);
 }
 
 ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector<Tie> ties)
@@ -87,7 +91,8 @@ void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of)
 }
 
 std::size_t ObstacleSolver::Level::memory() const {
-  std::size_t sum = bytes(stiffness_.bending) + bytes(stiffness_.tension) + bytes(diagonal_) + bytes(ties_);
+  std::size_t sum = bytes(stiffness_.bending) + bytes(stiffness_.tension) + bytes(diagonal_) + bytes(ties_) +
+                    order_.memory();
   for (const Colour& colour : colours_) sum += bytes(colour.untied) + bytes(colour.tied);
   return sum;
 }
@@ -116,16 +121,17 @@ void ObstacleSolver::Level::restrict_from(const Level& finer, const Fields& from
   const std::size_t row = finer.width_;
   each_node([&](Index n) {
     const std::size_t m = 2 * (n % width_ + n / width_ * row);
-    float low = from.lowest[m], high = from.highest[m], wanted = from.wanted[m];
+    float low = from.lowest[m], high = from.highest[m], load = from.load[m], hold = from.hold[m];
     for (const std::size_t side : {m - 1, m + 1, m - row, m + row})
       if (finer.is_free(side)) {
         low = std::max(low, from.lowest[side]), high = std::min(high, from.highest[side]);
-        wanted += from.wanted[side] / 2;
+        load += from.load[side] / 2, hold += from.hold[side] / 2;
       }
     for (const std::size_t corner : {m - row - 1, m - row + 1, m + row - 1, m + row + 1})
-      if (finer.is_free(corner)) wanted += from.wanted[corner] / 4;
+      if (finer.is_free(corner)) load += from.load[corner] / 4, hold += from.hold[corner] / 4;
     if (low > high) low = high = (low + high) / 2;
-    to.lowest[n] = low, to.highest[n] = high, to.wanted[n] = wanted;
+    to.lowest[n] = low, to.highest[n] = high, to.load[n] = load, to.hold[n] = hold;
+    to.heights[n] = from.heights[m];
   });
 }
 
@@ -154,16 +160,15 @@ void ObstacleSolver::Level::start(Fields& f) const {
 // One step of projected over-relaxation. Changes b at a node by over_relaxation times the step to the minimum
 // of the energy, clamps it to its bounds and updates the moments of the node and its neighbours. Returns the
 // change.
-inline float ObstacleSolver::Level::move(Index n, const Springs& springs, const Slope& ties,
-                                         Fields& f) const {
+inline float ObstacleSolver::Level::move(Index n, const Slope& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
   const auto row = static_cast<std::ptrdiff_t>(width_);
   const auto pull = [&](std::ptrdiff_t side) { return (t[0] + t[side]) * (b[side] - b[0]); };
   const float tense = (pull(-1) + pull(1) + pull(-row) + pull(row)) / 2;
   const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
-  const float rise = lap_m - tense + springs.stiffness * b[0] - f.wanted[n] + ties.first;
-  const float diagonal = diagonal_[n] + springs.stiffness + ties.second;
+  const float rise = lap_m - tense + f.hold[n] * b[0] - f.load[n] + ties.first;
+  const float diagonal = diagonal_[n] + f.hold[n] + ties.second;
   const float next = std::clamp(b[0] - over_relaxation * rise / diagonal, f.lowest[n], f.highest[n]);
   const float change = next - b[0];
   b[0] = next;
@@ -182,28 +187,55 @@ inline void ObstacleSolver::Level::move_tied(const TiedNode& tied, const Springs
     slope.first += stiffness * (springs.tie_stiffness * value + springs.stop_stiffness * below);
     slope.second += stiffness * weight * (springs.tie_stiffness + (below < 0 ? springs.stop_stiffness : 0.F));
   }
-  const float change = move(tied.node, springs, slope, f);
+  const float change = move(tied.node, slope, f);
   for (const Share& share : tied.shares) at_ties[share.tie] += share.weight * change;
 }
 
-void ObstacleSolver::Level::relax(int times, const Springs& springs, Fields& f) const {
+void ObstacleSolver::Level::relax(int times, int every, const Springs& springs, Fields& f) const {
   start(f);
-  for (int sweep = 0; sweep < times; ++sweep)
+  for (int sweep = 0; sweep < times; ++sweep) {
+    if (!order_.empty() && sweep % every == 0)
+      order_.write_bound(f.b, f.heights, springs.order, {f.load, f.hold, f.lack});
     for (const Colour& colour : colours_) {
-      for (const Index n : colour.untied) move(n, springs, {}, f);
+      for (const Index n : colour.untied) move(n, {}, f);
       for (const TiedNode& tied : colour.tied) move_tied(tied, springs, f);
     }
+  }
 }
 
-ObstacleSolver::ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties) {
+std::vector<float> ObstacleSolver::Level::kept_by(const Level& coarser, std::span<const float> values) const {
+  std::vector<float> kept(coarser.size());
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    const std::size_t x = 2 * (n % coarser.width_), y = 2 * (n / coarser.width_);
+    if (x < width_ && x + y * width_ < values.size()) kept[n] = values[x + y * width_];
+  }
+  return kept;
+}
+
+ObstacleSolver::ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties,
+                               const OrderedPairs& pairs) {
   levels_[0] = Level(width, std::move(stiffness), {ties.begin(), ties.end()});
   for (std::size_t l = 1; l < levels; ++l) levels_[l] = levels_[l - 1].coarser();
+  if (pairs.depth.empty()) return;
+  std::vector<float> depth(pairs.depth.begin(), pairs.depth.end()),
+      share(pairs.share.begin(), pairs.share.end());
+  OrderedPairs here = pairs;
+  for (std::size_t l = 0; l < levels; ++l) {
+    if (l > 0)
+      depth = levels_[l - 1].kept_by(levels_[l], depth), share = levels_[l - 1].kept_by(levels_[l], share);
+    for (std::size_t n = 0; n < share.size(); ++n)
+      if (!levels_[l].is_free(n)) share[n] = 0;
+    here.depth = depth, here.share = share;
+    levels_[l].set_order(here);
+    for (float& distance : here.distances) distance /= 2;
+  }
 }
 
 ObstacleSolver::Workspace ObstacleSolver::make_workspace() const {
   Workspace w;
   for (std::size_t l = 0; l < levels; ++l) {
-    for (std::vector<float>* values : {&w[l].lowest, &w[l].highest, &w[l].wanted, &w[l].b, &w[l].moment})
+    for (std::vector<float>* values : {&w[l].lowest, &w[l].highest, &w[l].load, &w[l].hold, &w[l].b,
+                                       &w[l].heights, &w[l].lack, &w[l].moment})
       values->resize(levels_[l].size());
     w[l].at_ties.resize(levels_[l].tie_values());
   }
@@ -223,11 +255,11 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
     // A node of level l represents 4^l of the finest nodes.
     Springs here = springs;
-    here.stiffness *= static_cast<float>(1 << 2 * l);
+    here.order.stiffness *= static_cast<float>(1 << 2 * l);
     // The joined ties of a coarse cell would be too stiff for the sweeps to converge.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
-    levels_[l].relax(sweeps[l], here, w[l]);
+    levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);
   }
 }
 

@@ -7,17 +7,18 @@
 #include <vector>
 
 #include "relievo/core/types.h"
+#include "solver/order_pull.h"
 
 namespace relievo::solver {
 
-// Strengths of the terms that pull the field b towards zero, and at ties also back up to a least value. See
-// Tie below.
+// Strengths of the terms that pull the field b: at ties towards zero, and back up to a least value, see Tie
+// below; and between pairs of nodes, see OrderedPairs.
 struct Springs {
-  float stiffness = 0;      // factor of b^2 at each free node, >= 0
   float tie_stiffness = 1;  // factor of the ties, >= 0
   // A tie pulls b back to this value if b is lower there.
   float least_at_ties = -std::numeric_limits<float>::infinity();
   float stop_stiffness = 10;  // factor of that pull, >= 0
+  OrderLimits order = {};
 };
 
 // Ties the field to zero at a place within a cell, for curves that pass between the nodes.
@@ -34,9 +35,10 @@ struct Stiffness {
 };
 
 // Finds approximately the field b with lowest <= b <= highest that minimises
-//   1/2 sum bending (lap b)^2 + 1/2 sum tension (b_i - b_j)^2 + 1/2 sum springs b^2 - sum wanted b
+//   1/2 sum bending (lap b)^2 + 1/2 sum tension (b_i - b_j)^2 + 1/2 sum hold b^2 - sum load b
 //   + 1/2 sum ties (tie_stiffness b^2 + stop_stiffness min(b - least_at_ties, 0)^2),
-// a thin plate under tension on springs, with `wanted` as its load, tied down at places between its nodes.
+// a thin plate under tension on springs, with a load, tied down at places between its nodes. With pairs, hold
+// and load are those of OrderPull for the present b, again and again.
 // lap b is the sum of the four neighbours minus 4 b. Nodes on the lattice's rim must be fixed. The method is
 // projected successive over-relaxation on lattices with cells of 8, 4, 2 and 1, each starting from the
 // solution of the coarser one. Const calls may run concurrently, each with a workspace of its own.
@@ -46,9 +48,10 @@ class ObstacleSolver {
 
   // Data of one level. Each vector except at_ties has one element per node.
   struct Fields {
-    std::vector<float> lowest, highest, wanted, b;
-    std::vector<float> moment;   // bending times lap b
-    std::vector<float> at_ties;  // per tie, b at the tie; then a 0 per tied node, see TiedNode
+    std::vector<float> lowest, highest, load, hold, b;
+    std::vector<float> heights, lack;  // for the pairs: the heights to which b is added, and scratch memory
+    std::vector<float> moment;         // bending times lap b
+    std::vector<float> at_ties;        // per tie, b at the tie; then a 0 per tied node, see TiedNode
 
     std::size_t memory() const;
   };
@@ -57,8 +60,9 @@ class ObstacleSolver {
   using Workspace = std::array<Fields, levels>;
 
   // The lattice has `width` nodes per row and as many rows as the stiffness has elements for. A cell has at
-  // most one tie.
-  ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties = {});
+  // most one tie. Of the pairs, `depth` has an element per node, or none if there are no pairs.
+  ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties = {},
+                 const OrderedPairs& pairs = {});
 
   Workspace make_workspace() const;
 
@@ -71,8 +75,8 @@ class ObstacleSolver {
     levels_[0].each_node(f);
   }
 
-  // Writes the solution to b of workspace[0], given `wanted` and lowest <= highest in workspace[0]. The other
-  // levels are overwritten. Values at fixed nodes do not matter, but b and moment there must be 0, as
+  // Writes the solution to b of workspace[0], given lowest <= highest in workspace[0] and, with pairs, the
+  // heights there, or else load and hold. The other levels are overwritten. Values at fixed nodes do not matter, but b and moment there must be 0, as
   // make_workspace() leaves them.
   void solve(const Springs& springs, Workspace& workspace) const;
 
@@ -99,7 +103,11 @@ class ObstacleSolver {
     void restrict_from(const Level& finer, const Fields& from, Fields& to) const;
     // Interpolates b from the next coarser level, bilinearly.
     void prolong_from(const Level& coarser, const Fields& from, Fields& to) const;
-    void relax(int times, const Springs& springs, Fields& f) const;
+    // Between updates of the pull of the pairs are `every` sweeps.
+    void relax(int times, int every, const Springs& springs, Fields& f) const;
+    void set_order(const OrderedPairs& pairs) { order_ = OrderPull(width_, pairs); }
+    // Returns the values at the nodes that the next coarser level keeps.
+    std::vector<float> kept_by(const Level& coarser, std::span<const float> values) const;
 
    private:
     struct Slope {
@@ -126,7 +134,7 @@ class ObstacleSolver {
     void couple(std::size_t n, std::span<const Index> tie_of);
     std::vector<Tie> coarser_ties(std::size_t width) const;
     void start(Fields& f) const;
-    float move(Index n, const Springs& springs, const Slope& ties, Fields& f) const;
+    float move(Index n, const Slope& ties, Fields& f) const;
     void move_tied(const TiedNode& tied, const Springs& springs, Fields& f) const;
 
     std::size_t width_ = 0;
@@ -136,6 +144,7 @@ class ObstacleSolver {
     // The free nodes in five colours. Nodes of one colour are so far apart that none changes what another
     // reads, so the processor can overlap their updates: 2.6 times as fast as row by row.
     std::array<Colour, 5> colours_;
+    OrderPull order_;
     std::vector<float> diagonal_;  // per node: diagonal of the energy's Hessian without springs
   };
 

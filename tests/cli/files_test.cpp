@@ -111,7 +111,8 @@ TEST_F(Files, WhatKilledRunsLeftInAFolderIsRemovedWhateverItsPath) {
     write_all(path(name), "unfinished");
     return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
   };
-  if (!mark("a.stl.relievo-1-1") || !mark("b.stl.relievo-1-2") || !mark("open")) GTEST_SKIP() << "no attributes here";
+  if (!mark("a.stl.relievo-1-1") || !mark("b.stl.relievo-1-2") || !mark("open"))
+    GTEST_SKIP() << "no attributes here";
   write_all(path("c.stl.relievo-1-3"), "of others");
   const app::Descriptor open(::open(path("open").c_str(), O_RDWR));
   ASSERT_EQ(::flock(open.number(), LOCK_EX), 0);

@@ -247,7 +247,7 @@ TEST(MakeRelief, RefusesAModelThatIsPreparedForLess) {
   const std::string end = ", as the model was prepared for that; prepare it again with this method";
   EXPECT_EQ(error_of(Method::layered, Method::gradient), "no error");
   EXPECT_EQ(error_of(Method::gradient, Method::equalise), "no error");
-  EXPECT_EQ(error_of(Method::linear, Method::layered), "method: expected another than layered" + end);
+  EXPECT_EQ(error_of(Method::linear, Method::layered), "no error");
   EXPECT_EQ(error_of(Method::layered, Method::paper), "method: expected another than paper" + end);
   EXPECT_EQ(error_of(Method::paper, Method::linear), "method: expected paper" + end);
 }

@@ -29,7 +29,6 @@ TEST(Session, TurnsWhatWasPrepared) {
   const auto model = session.model();
   const auto turned = value_of(session.turn(view_to("1,1,1")));
   EXPECT_EQ(turned.model->surface().view, view_to("1,1,1"));
-  EXPECT_EQ(turned.model->membrane_at(1), model->membrane_at(1));
   EXPECT_EQ(session.model(), model);
 }
 
@@ -69,7 +68,6 @@ bool turns_once(bool makes_first_relief) {
   EXPECT_NE(turned_model(session, view_to("1,0,1")), first);
   held.may_go_on.release();
   EXPECT_TRUE(session.wait_until_idle(60s));
-  EXPECT_NE(turned_model(session), first);  // the turned model takes over the tuning of the first model now
   return first == second;
 }
 

@@ -68,7 +68,8 @@ struct ScanSize {
 class SmoothSolid : public testing::TestWithParam<ScanSize> {};
 
 // From one point to the next, the normal at the small button's edge turns by 14 degrees if there are 20,000
-// points, and by 3 if there are 250,000. A wide boundary weight bends the surface by 13 degrees all along the
+// points, and by 3 if there are 250,000. The step at the jump has the height that is asked, not the one that the slopes
+// beside it would have, which bends the rows next to it. A wide boundary weight bends the surface by 13 degrees all along the
 // silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
@@ -78,10 +79,10 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,
-                         testing::Values(ScanSize{20000, 5, 9}, ScanSize{100000, 2.5, 6},
-                                         ScanSize{250000, 2, 4}));
+                         testing::Values(ScanSize{20000, 5, 9}, ScanSize{100000, 2.6, 6},
+                                         ScanSize{250000, 2.8, 11}));
 // This takes long, so it runs only with --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2, 13}));
+INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2.4, 20}));
 
 }  // namespace
 }  // namespace relievo

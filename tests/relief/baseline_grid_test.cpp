@@ -11,12 +11,25 @@
 namespace relievo {
 namespace {
 
+// A surface with all that baselines need of it.
+struct Seen {
+  Surface surface;
+  HeightSystem system;
+  ReliefMetrics metrics;
+
+  explicit Seen(const Cloud& cloud)
+      : surface(test::surface_of(cloud)),
+        system(
+            value_of(HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary))),
+        metrics(surface) {}
+  BaselineInput input() const { return {surface, system, metrics}; }
+};
+
 TEST(BaselineGrid, HasTheHeightAskedAndLiesOnTheBase) {
-  const Surface surface = test::surface_of(test::bumps_behind_a_ring(8000));
-  const BaselineGrid grid = value_of(BaselineGrid::prepare(surface));
-  const ReliefMetrics metrics(surface);
+  const Seen seen(test::bumps_behind_a_ring(8000));
+  const auto& [surface, system, metrics] = seen;
   for (const std::string_view name : baseline_names) {
-    const TunedRelief best = value_of(grid.best(name, metrics, .05, 1));
+    const TunedRelief best = value_of(best_baseline(name, seen.input(), .05, 1));
     EXPECT_EQ(best.parameters.empty(), name == "linear" || name == "mimicking") << name;
     EXPECT_EQ(best.shading, metrics.measure(best.relief.heights).shading) << name;
     const auto [low, high] = std::ranges::minmax(best.relief.heights);
@@ -28,14 +41,12 @@ TEST(BaselineGrid, HasTheHeightAskedAndLiesOnTheBase) {
 
 // The fixed parameters of the methods are in the grid.
 TEST(BaselineGrid, IsAtLeastAsGoodAsTheFixedParameters) {
-  const Surface surface = test::surface_of(test::bumps_behind_a_ring(8000));
-  const BaselineGrid grid = value_of(BaselineGrid::prepare(surface));
-  const ReliefMetrics metrics(surface);
-  const HeightSystem system =
-      value_of(HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
+  const Seen seen(test::bumps_behind_a_ring(8000));
+  const auto& [surface, system, metrics] = seen;
   const auto expect_better = [&](std::string_view name, std::vector<double> fixed) {
     const Relief relief = scaled_relief(std::move(fixed), surface, .1);
-    EXPECT_GE(value_of(grid.best(name, metrics, .1, 1)).shading, metrics.shading(relief.heights)) << name;
+    EXPECT_GE(value_of(best_baseline(name, seen.input(), .1, 1)).shading, metrics.shading(relief.heights))
+        << name;
   };
   expect_better("gradient", gradient_heights(surface, system, {}));
   expect_better("detail", base_and_detail_heights(surface, system, {}));
@@ -43,11 +54,9 @@ TEST(BaselineGrid, IsAtLeastAsGoodAsTheFixedParameters) {
 }
 
 TEST(BaselineGrid, RefusesAHeightThatNothingHas) {
-  const Surface surface = test::surface_of(test::sheet(2000, 1, 0));
-  const BaselineGrid grid = value_of(BaselineGrid::prepare(surface));
-  const ReliefMetrics metrics(surface);
+  const Seen seen(test::sheet(2000, 1, 0));
   for (const std::string_view name : baseline_names) {
-    const Result<TunedRelief> made = grid.best(name, metrics, .1, 20);
+    const Result<TunedRelief> made = best_baseline(name, seen.input(), .1, 20);
     ASSERT_FALSE(made) << name;
     EXPECT_EQ(made.error().kind, ErrorKind::geometry);
     EXPECT_TRUE(made.error().message().contains("this view shows a level face alone")) << name;

@@ -68,7 +68,7 @@ TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-// Heights that reach no bound are those of (9) without jump weights.
+// Heights that reach no bound are those of (9).
 TEST(Bounded, WithEnoughHeightSolvesTheEquations) {
   const Surface surface = test::surface_of(test::sphere(20000, 1));
   const HeightSystem system =

@@ -71,9 +71,7 @@ TEST(DepthJumps, VanishByThePapersMethod) {
   }
 }
 
-// These are the bounds that the other methods really reach. The edges between both sides of a jump count
-// little in their (9), which leaves the tilts of both sides a step; the jump lift turns inverted ones of
-// layered reliefs.
+// These are the bounds that the other methods really reach. Layered reliefs keep steps on purpose.
 TEST(DepthJumps, LeaveBoundedStepsByOtherMethods) {
   for (const auto& [name, cloud] : scenes(15000)) {
     const ReliefModel model = test::prepared(cloud);

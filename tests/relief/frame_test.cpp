@@ -73,11 +73,9 @@ TEST(Frame, AreCompressedAsTheirShapeSays) {
   Frame frame;
   FrameOptions options;
   options.shape = layered_shape();
-  for (const std::optional<MembraneParams>& membrane :
-       {std::optional<MembraneParams>(), {{.6, .1}}, {{.9, .06}}, {}}) {
-    options.shape.membrane = membrane;
+  for (const std::optional<double>& share : {std::optional<double>(), {.6}, {.9}, {}}) {
+    options.shape.height_share = share;
     maker.make(options, frame);
-    EXPECT_EQ(frame.options.shape.membrane, membrane.value_or(model().membrane_at(1)));
     const Relief exact = model().make(options.shape);
     EXPECT_LE(largest_difference(frame.heights, exact.heights), 1e-4 * exact.height);
   }

@@ -1,13 +1,11 @@
 #include "relief/membrane/height_correction.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 #include "relievo/relief/weights.h"
-#include "scan/jumps.h"
 #include "support/differences.h"
 #include "support/surfaces.h"
 
@@ -41,62 +39,27 @@ std::vector<double> depths(const Surface& surface) {
   return z;
 }
 
-constexpr double pull_length = .085;
-
 template <typename Real>
 std::vector<Real> corrected(const Surface& surface, std::vector<Real> heights, double height) {
-  const HeightCorrection correction(surface, jump_weights(surface));
+  const HeightCorrection correction(surface);
   HeightCorrection::Workspace workspace = correction.make_workspace();
-  correction.fit(std::span<const Real>(heights), {height, pull_length}, workspace);
+  correction.fit(std::span<const Real>(heights), {height}, workspace);
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (!surface.boundary.is_boundary[i]) heights[i] += static_cast<Real>(correction.at(i, workspace));
   return heights;
 }
 
-// On a level surface the ranks of all depths are 0, so the correction b pulls heights to 0. Only its tie to 0
-// at the rim keeps the heights z + b up. Far from the limits 0 and h, u = z + b is a solution of
-//   l^2 u'''' - u'' + u / R^2 = 0,
-// with the bending length l and the pull length R. The even solutions are a cosh(k x) + c cosh(m x). The rim
-// determines a and c, which are fitted here.
-TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
-  constexpr double side = 2, z = .1, R = pull_length * side, l = HeightCorrection::bending_length * side;
-  const double root = std::sqrt(1 - 4 * l * l / (R * R));
-  const double k = std::sqrt((1 - root) / (2 * l * l)), m = std::sqrt((1 + root) / (2 * l * l));
-  const Surface level = strip(.4);
-  const std::vector<double> u = corrected(level, std::vector<double>(level.points.size(), z), 1);
-  const auto is_seen = [&](std::size_t i) {
-    return std::abs(level.points[i].y()) < .3 && std::abs(level.points[i].x()) < .35;
-  };
-  const auto basis = [&](std::size_t i) -> Vec2 {
-    return {std::cosh(k * level.points[i].x()), std::cosh(m * level.points[i].x())};
-  };
-  Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-  Vec2 rhs = Vec2::Zero();
-  for (std::size_t i = 0; i < u.size(); ++i)
-    if (is_seen(i)) A += basis(i) * basis(i).transpose(), rhs += u[i] * basis(i);
-  const Vec2 fit = A.inverse() * rhs;
-  double least = z, most = 0, worst = 0;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    if (!is_seen(i)) continue;
-    least = std::min(least, u[i]), most = std::max(most, u[i]);
-    worst = std::max(worst, std::abs(u[i] - fit.dot(basis(i))));
-  }
-  EXPECT_GT(most, 3 * least);
-  // The solver's sweeps leave a misfit of 6.9 %, and ten times as many would leave 2.1 %. With k and m wrong
-  // by a quarter, the misfit would be 14.5 %.
-  EXPECT_LT(worst, .08 * most);
-}
-
-// The correction is lifted inside. The less stiff its ties on the silhouette are, the more it is lifted
-// there, too.
+// The correction lifts the middle, where the heights are below the base. The less stiff its ties on the
+// silhouette are, the more it is lifted there, too.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
-  const HeightCorrection correction(surface, jump_weights(surface));
+  const HeightCorrection correction(surface);
   HeightCorrection::Workspace workspace = correction.make_workspace();
-  const std::vector<double> z(surface.points.size(), -.1);
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(-.1 * (1 - std::pow(p.x() / .4, 2)));
   double last = 0;
   for (const double stiffness : {1.0, .5, .1}) {
-    correction.fit(std::span<const double>(z), {1, pull_length, stiffness}, workspace);
+    correction.fit(std::span<const double>(z), {1, stiffness}, workspace);
     double off = 0;
     for (std::size_t i = 0; i < z.size(); ++i)
       if (surface.boundary.is_boundary[i]) off += static_cast<double>(correction.at(i, workspace));
@@ -109,7 +72,7 @@ TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
 // crosses the lattice at all angles.
 TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
-  const HeightCorrection correction(surface, jump_weights(surface));
+  const HeightCorrection correction(surface);
   HeightCorrection::Workspace workspace = correction.make_workspace();
   std::vector<double> z;
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
@@ -118,7 +81,7 @@ TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
   }
   for (const double stiffness : {1.0, .1}) {
     constexpr double height = .2;
-    correction.fit(std::span<const double>(z), {height, pull_length, stiffness}, workspace);
+    correction.fit(std::span<const double>(z), {height, stiffness}, workspace);
     double sum = 0, squares = 0, points = 0;
     for (std::size_t i = 0; i < z.size(); ++i) {
       if (!surface.boundary.is_boundary[i]) continue;
@@ -128,14 +91,17 @@ TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
     const double mean = sum / points;
     EXPECT_GT(mean, -.02) << stiffness;
     EXPECT_LT(mean, .1) << stiffness;
-    EXPECT_LT(std::sqrt(squares / points - mean * mean), .004) << stiffness;
+    EXPECT_LT(std::sqrt(squares / points - mean * mean), .012) << stiffness;
   }
 }
 
 TEST(HeightCorrection, TiesTheSilhouetteWhereCompressionIsWeak) {
-  EXPECT_EQ(HeightLimits::of(.1, {1, .2}).boundary_stiffness, 1);
-  EXPECT_NEAR(HeightLimits::of(.1, {.9, .2}).boundary_stiffness, .6, 1e-12);
-  EXPECT_EQ(HeightLimits::of(.1, {.3, .2}).boundary_stiffness, .1);
+  Shape shape = layered_shape();
+  for (const auto& [share, stiffness] : {std::pair(1., 1.), {.9, .6}, {.3, .3}}) {
+    shape.height_share = share;
+    EXPECT_NEAR(HeightLimits::of(.1, shape).boundary_stiffness, stiffness, 1e-12) << share;
+  }
+  EXPECT_EQ(HeightLimits::of(.1, shape).planes, shape.planes);
 }
 
 TEST(HeightCorrection, KeepsHeightsBetweenTheBaseAndTheirHeight) {
@@ -156,7 +122,7 @@ TEST(HeightCorrection, KeepsHeightsBetweenTheBaseAndTheirHeight) {
 }
 
 // With fewer points, the lattice's cells are wider, and cells without a point nearby are bridged. The heights
-// must stay about the same.
+// must stay about the same, although wide cells round the distances of the pairs.
 TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   const auto mean = [](std::size_t points) {
     const Surface surface = bumpy(points);
@@ -166,8 +132,8 @@ TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
     return sum / static_cast<double>(z.size());
   };
   const double whole = mean(60000);
-  EXPECT_NEAR(mean(15000) / whole, 1, .03);
-  EXPECT_NEAR(mean(2500) / whole, 1, .06);
+  EXPECT_NEAR(mean(15000) / whole, 1, .08);
+  EXPECT_NEAR(mean(2500) / whole, 1, .17);
 }
 
 // If the heights and the limit are doubled, the corrected heights must double, too.
@@ -194,27 +160,41 @@ TEST(HeightCorrection, KeepsFineDetail) {
   EXPECT_NEAR(product / square, 1, .03);
 }
 
-// The ranks of depths pull heights to .1 in front and to 0 behind. The shorter the pull length, the nearer
-// the heights come to these values.
-TEST(HeightCorrection, PullsHarderWithAShorterLength) {
+// A small sheet lies before a large one, and both have the same heights. The correction sets the near sheet
+// above the far one at their common edge; it leaves a level surface alone.
+TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
-  const HeightCorrection correction(sheets, jump_weights(sheets));
-  HeightCorrection::Workspace workspace = correction.make_workspace();
-  const std::vector<double> z(sheets.points.size(), .05);
-  double last = 1;
-  for (const double r : {.4, .1, .05, .02}) {
-    correction.fit(std::span(z), {.1, r}, workspace);
-    double square = 0, points = 0;
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      const double away = sheets.points[i].head<2>().cwiseAbs().maxCoeff();
-      if (away > .8 || (away > .3 && away < .5)) continue;
-      const double off = z[i] + static_cast<double>(correction.at(i, workspace)) - (away < .3 ? .1 : 0);
-      square += off * off, ++points;
-    }
-    EXPECT_LT(std::sqrt(square / points), last) << r;
-    last = std::sqrt(square / points);
+  const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
+  double inside = 0, outside = 0, insiders = 0, outsiders = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double away = sheets.points[i].head<2>().cwiseAbs().maxCoeff();
+    if (away > .3 && away < .38) inside += z[i], ++insiders;
+    if (away > .42 && away < .5) outside += z[i], ++outsiders;
   }
-  EXPECT_LT(last, .02);
+  EXPECT_GT(inside / insiders, outside / outsiders + .01);
+  const Surface level = surface_of(test::sheet(40000, 1, 0));
+  for (const double height : corrected(level, std::vector<double>(level.points.size(), .05), .1))
+    ASSERT_NEAR(height, .05, 1e-4);
+}
+
+// The field is pulled up to the planes at the silhouette, even where all heights are 0.
+TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
+  const Surface surface = surface_of(test::button(60000, 1, .15));
+  const HeightCorrection correction(surface);
+  HeightCorrection::Workspace workspace = correction.make_workspace();
+  const std::vector<double> z(surface.points.size(), 0);
+  double last = -1;
+  for (const double planes : {0., .05, .1, .2}) {
+    correction.fit(std::span<const double>(z), {.2, .3, planes}, workspace);
+    double sum = 0, points = 0;
+    for (std::size_t i = 0; i < z.size(); ++i)
+      if (surface.boundary.is_boundary[i]) sum += static_cast<double>(correction.at(i, workspace)), ++points;
+    const double mean = sum / points / .2;
+    EXPECT_GT(mean, .6 * planes - .001) << planes;
+    EXPECT_LT(mean, planes + .02) << planes;
+    EXPECT_GT(mean, last) << planes;
+    last = mean;
+  }
 }
 
 // The correction lifts the nearer sheet. It bends at the jump where this sheet ends, and hardly anywhere
@@ -251,13 +231,13 @@ TEST(HeightCorrection, IsTheSameInSinglePrecision) {
 // The boundary stays at 0, and the height is exactly the one asked for.
 TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const Surface surface = bumpy();
-  const HeightCorrection correction(surface, jump_weights(surface));
+  const HeightCorrection correction(surface);
   HeightCorrection::Workspace workspace = correction.make_workspace();
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
     if (surface.boundary.is_boundary[i]) z[i] = 0;  // as in (9)
-  correction.compress_heights<double>({z, weight, {.15, pull_length}}, workspace);
+  correction.compress_heights<double>({z, weight, {.15}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);
   for (std::size_t i = 0; i < z.size(); ++i)
@@ -268,14 +248,14 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
 
 TEST(HeightCorrection, LeavesWhatHasNoHeight) {
   const Surface surface = strip(.5);
-  const HeightCorrection correction(surface, jump_weights(surface));
+  const HeightCorrection correction(surface);
   HeightCorrection::Workspace workspace = correction.make_workspace();
   const std::vector<float> weight(surface.points.size(), 1);
   std::vector<float> flat(surface.points.size(), 0), some(surface.points.size(), .1F);
-  correction.compress_heights<float>({flat, weight, {.1, pull_length}}, workspace);
+  correction.compress_heights<float>({flat, weight, {.1}}, workspace);
   EXPECT_EQ(flat, std::vector<float>(flat.size(), 0));
   const std::vector<float> before = some;
-  correction.compress_heights<float>({some, weight, {0, pull_length}}, workspace);
+  correction.compress_heights<float>({some, weight, {0}}, workspace);
   EXPECT_EQ(some, before);
 }
 

@@ -53,8 +53,7 @@ void expect_slopes_of_single_points(const Shape& shape) {
 TEST(LayeredSlopes, AreThoseOfSinglePointsToTheLastBit) {
   Shape shape = layered_shape();
   for (const double share : {0., .7, 1.}) {
-    shape.membrane = MembraneParams{};
-    shape.membrane->height_share = share;
+    shape.height_share = share;
     expect_slopes_of_single_points(shape);
   }
   shape.compression = {.5, 1.5};

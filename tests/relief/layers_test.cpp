@@ -130,11 +130,11 @@ TEST(LayerWeights, AreEquationSixPerLayerTimesTwoMinusTheShare) {
   EXPECT_EQ(LayerWeights::of(2, .04, .5).height_share, .5F);
 }
 
-TEST(LayerWeights, OfAShapeAreThoseOfItsMembrane) {
+TEST(LayerWeights, OfAShapeAreThoseOfItsHeightShare) {
   Shape shape = layered_shape();
   shape.compression.u = 1.5;
   shape.gamma = .02;
-  shape.membrane = MembraneParams{.6, .3};
+  shape.height_share = .6;
   const LayerWeights weights = layer_weights(shape);
   const auto of_layer = [&](double attenuation) {
     return static_cast<float>((2 - .6) * (1 - std::exp(-1.5 * std::exp(-attenuation * .02))));
@@ -144,9 +144,8 @@ TEST(LayerWeights, OfAShapeAreThoseOfItsMembrane) {
   EXPECT_FLOAT_EQ(weights.coarse, of_layer(20.5));
   EXPECT_FLOAT_EQ(weights.broad, of_layer(55));
   EXPECT_FLOAT_EQ(weights.height_share, .6F);
-  shape.membrane.reset();  // the height share is 1 then
-  EXPECT_FLOAT_EQ(layer_weights(shape).fine, static_cast<float>(1 - std::exp(-1.5)));
-  EXPECT_EQ(layer_weights(shape).height_share, 1);
+  shape.height_share.reset();  // the usual one applies then
+  EXPECT_FLOAT_EQ(layer_weights(shape).height_share, static_cast<float>(1 - .6 * std::exp(-.2 * 1.5)));
 }
 
 // With weights of 1, the slope is that of the surface. With other weights, it is the slope of the normal

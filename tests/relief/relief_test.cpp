@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "relief/jump_lift.h"
-#include "relief/membrane/membrane_tuning.h"
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/surfaces.h"
@@ -155,23 +153,24 @@ TEST(Relief, OfATiltedFlapDoesNotDependOnItsDistance) {
   }
 }
 
-// Baselines read neither the jump lift nor the tuning.
-TEST(Relief, OfABaselineNeedsNoModelOfLayeredReliefs) {
-  const Surface surface = test::surface_of(bumps_behind_a_ring());
-  std::vector<std::string> stages;
-  Progress progress([&](std::string_view stage, double) { stages.emplace_back(stage); });
-  const ReliefModel lean = value_of(ReliefModel::prepare(surface, &progress, {.is_layered = false})),
-                    whole = value_of(ReliefModel::prepare(surface));
-  EXPECT_EQ(std::ranges::count(stages, "tuning"), 0);
-  EXPECT_EQ(lean.jump_lift().memory(), 0U);
-  EXPECT_GT(whole.jump_lift().memory(), 0U);
-  EXPECT_EQ(lean.membrane_at(1), MembraneTuning().at(1));
-  for (const MethodInfo& info : methods) {
-    EXPECT_EQ(lean.serves(info.method), info.make != nullptr) << info.name;
-    EXPECT_EQ(whole.serves(info.method), info.method != Method::paper) << info.name;
-    if (info.make) {
-      EXPECT_EQ(info.make(lean, .1).heights, info.make(whole, .1).heights) << info.name;
-    }
+TEST(Relief, HasAModelForAllMethodsButThePapers) {
+  const ReliefModel model = prepared(bumps_behind_a_ring());
+  for (const MethodInfo& info : methods)
+    EXPECT_EQ(model.serves(info.method), info.method != Method::paper) << info.name;
+}
+
+// A search for a height needs heights that grow with u.
+TEST(Relief, OfTheLayeredStyleGrowsWithU) {
+  const ReliefModel model = prepared(bumps_behind_a_ring());
+  EXPECT_DOUBLE_EQ(usual_height_share(0), .4);
+  EXPECT_EQ(usual_height_share(std::numeric_limits<double>::infinity()), 1);
+  double last = 0;
+  for (const double u : {.05, .2, .5, 1.0, 2.0, 5.0, 20.0, 100.0}) {
+    Shape shape = layered_shape();
+    shape.compression.u = u;
+    const double height = model.make(shape).height;
+    EXPECT_GT(height, 1.01 * last) << u;
+    last = height;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "relief/jump_lift.h"
+#include "relief/step_heights.h"
 
 #include <gtest/gtest.h>
 

@@ -40,7 +40,7 @@ TEST(LayeredStyle, RaisesHeightsToTheirShare) {
   const SlopeInput input{normals, k, w_b};
   RaisedHeights<double> heights{z, input, spans};
   Shape shape = layered_shape();
-  shape.membrane = {.3, .1};
+  shape.height_share = .3;
   LayeredStyle(shape).raise(heights);
   EXPECT_DOUBLE_EQ(heights.height, 3);
   EXPECT_EQ(z, (std::vector<double>{0, 4, 10}));

@@ -48,7 +48,7 @@ float span_of(const std::vector<float>& heights) {
 // are high to very low, and compressed evenly or unevenly.
 double worst_error(const Surface& surface, const SubspaceModel& subspace,
                    std::initializer_list<double> betas = {0, .01, 1}) {
-  const ReliefModel exact = ReliefModel::prepare(surface, nullptr, {.is_layered = false}).value();
+  const ReliefModel exact = ReliefModel::prepare(surface).value();
   double worst = 0;
   for (const double beta : betas) {
     for (const double u : {1.0, .2, .05}) {

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -42,16 +43,25 @@ float load(std::size_t n) {
   return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
 }
 
+// The parameters of a problem; `hold` is the stiffness of the springs at all nodes.
+struct Pulls {
+  float hold = 0, tie_stiffness = 1, least_at_ties = -std::numeric_limits<float>::infinity(),
+        stop_stiffness = 10;
+
+  Springs springs() const { return {tie_stiffness, least_at_ties, stop_stiffness}; }
+};
+
 struct Problem {
   Springs springs;
   ObstacleSolver sheet;
   ObstacleSolver::Workspace workspace = sheet.make_workspace();
 
-  Problem(Stiffness stiffness, const Springs& t, float lowest, float highest, std::span<const Tie> ties = {})
-      : springs(t), sheet(width, std::move(stiffness), ties) {
+  Problem(Stiffness stiffness, const Pulls& t, float lowest, float highest, std::span<const Tie> ties = {})
+      : springs(t.springs()), sheet(width, std::move(stiffness), ties) {
     ObstacleSolver::Fields& f = workspace[0];
     std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
-    for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
+    std::ranges::fill(f.hold, t.hold);
+    for (std::size_t n = 0; n < f.load.size(); ++n) f.load[n] = load(n);
   }
   const std::vector<float>& solved() {
     sheet.solve(springs, workspace);
@@ -61,13 +71,13 @@ struct Problem {
 
 // Returns the matrix of the energy, L' C L + tension + springs, with the Laplacian L and the bending
 // stiffness C. The rows of fixed nodes are rows of the identity.
-Eigen::MatrixXd matrix(const Stiffness& stiffness, const Springs& springs) {
+Eigen::MatrixXd matrix(const Stiffness& stiffness, const Pulls& springs) {
   const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
   Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!(bending[static_cast<std::size_t>(i)] > 0)) continue;
-    lap(i, i) = -4, a(i, i) = static_cast<double>(springs.stiffness);
+    lap(i, i) = -4, a(i, i) = static_cast<double>(springs.hold);
     for (const Eigen::Index side :
          {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
       const bool is_fixed = !(bending[static_cast<std::size_t>(i + side)] > 0);
@@ -100,7 +110,7 @@ double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vec
 }
 
 // Adds the energy of ties to the matrix.
-void add_ties(Eigen::MatrixXd& a, std::span<const Tie> ties, const Springs& springs) {
+void add_ties(Eigen::MatrixXd& a, std::span<const Tie> ties, const Pulls& springs) {
   for (const auto& [cell, at, own] : ties) {
     Eigen::VectorXd w = Eigen::VectorXd::Zero(a.rows());
     const auto x = static_cast<double>(at.x()), y = static_cast<double>(at.y());
@@ -126,7 +136,7 @@ std::vector<Tie> slanting_ties(double start, double slope) {
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;
-    Springs springs;
+    Pulls springs;
     double share;
     std::vector<Tie> ties = {};
   };
@@ -162,7 +172,7 @@ TEST(ObstacleSolver, StaysWithinItsLimits) {
 // Limits raise the energy. The solution still has less energy than the solution without limits, cut off at
 // the limits.
 TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
-  constexpr Springs springs{.02F};
+  constexpr Pulls springs{.02F};
   const Stiffness stiffness = even(4);
   const Eigen::MatrixXd a = matrix(stiffness, springs);
   const Eigen::VectorXd f = loads(stiffness);
@@ -186,7 +196,7 @@ TEST(ObstacleSolver, TakesLimitsThatMeet) {
 TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
-  for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
+  for (std::size_t n = 0; n < problem.workspace[0].load.size(); ++n) problem.workspace[0].load[n] = .01F;
   const std::vector<float>& b = problem.solved();
   const std::size_t n = middle + height / 2 * width;
   const auto bend = [&](std::size_t at) { return std::abs(b[at - 1] + b[at + 1] - 2 * b[at]); };
@@ -199,8 +209,8 @@ TEST(ObstacleSolver, KeepsApartWhatYields) {
   const auto step_at_middle = [](float tension) {
     constexpr std::size_t middle = width / 2;
     Problem problem(yielding(50, middle, .05F, tension), {}, -far, far);
-    std::vector<float>& wanted = problem.workspace[0].wanted;
-    for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n] = n % width < middle ? .01F : -.01F;
+    std::vector<float>& loads = problem.workspace[0].load;
+    for (std::size_t n = 0; n < loads.size(); ++n) loads[n] = n % width < middle ? .01F : -.01F;
     const float* b = problem.solved().data() + middle + height / 2 * width;
     return (b[-1] - b[2]) / (b[-6] - b[7]);
   };
@@ -226,7 +236,7 @@ TEST(ObstacleSolver, RestsEvenlyOnTies) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   const auto resting = [&](std::span<const Tie> held) {
     Problem problem(even(16), {.005F, 0, 0}, -far, far, held);
-    std::ranges::fill(problem.workspace[0].wanted, -.01F);
+    std::ranges::fill(problem.workspace[0].load, -.01F);
     return at_ties(problem.solved(), ties);
   };
   const auto [free, free_deviation] = resting({});

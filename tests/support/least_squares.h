@@ -21,8 +21,7 @@ struct EquationNine {
   std::vector<float> weights = {};
 
   // Returns the weight of each edge (p, q) with p < q: half the sum of the cotangents of the angles
-  // opposite to it, within 1e-4 and 1e3, times the mean of its ends' weights, and times 0.1 from one side
-  // of a wall to the other.
+  // opposite to it, within 1e-4 and 1e3, times the mean of its ends' weights.
   std::map<std::pair<Index, Index>, double> edges() const {
     std::map<std::pair<Index, Index>, double> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -38,10 +37,7 @@ struct EquationNine {
 
   double factor(Index p, Index q) const {
     if (weights.empty()) return 1;
-    const double mean = static_cast<double>(weights[p] + weights[q]) / 2;
-    if (boundary.wall_side.empty()) return mean;
-    const auto sides = std::minmax(boundary.wall_side[p], boundary.wall_side[q]);
-    return sides.first == WallSide::front && sides.second == WallSide::back ? .1 * mean : mean;
+    return static_cast<double>(weights[p] + weights[q]) / 2;
   }
 
  private:

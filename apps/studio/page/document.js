@@ -178,7 +178,7 @@ export function engineOptions(step) {
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
-  if (options.method === "paper") delete options.tone, delete options.steps; // kept for the other method
+  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for the other method
   return options;
 }
 

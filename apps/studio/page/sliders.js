@@ -103,7 +103,8 @@ export class Sliders {
     const noShape = isShaped ? "" : "A lithophane is made from light and colours, not from heights";
     for (const name of SHAPING) this.all[name].disable(noShape);
     const isPaper = options.method === "paper";
-    if (isShaped && isPaper) this.all.steps.disable("The paper's method keeps no steps");
+    if (isShaped && isPaper)
+      for (const name of ["steps", "planes"]) this.all[name].disable("The paper's method keeps no steps");
     if (isShaped && !isPaper && options.tone !== "") this.all.saturation.disable("The tone curve takes its place");
     this.all.corner.element.hidden = options.outline !== "round";
     this.all.margin.disable(options.outline === "none" ? "There is no plate around the relief" : "");

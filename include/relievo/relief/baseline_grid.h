@@ -1,5 +1,5 @@
-// Baselines as strong as their authors would run them: without jump weights, and with the parameters of a
-// grid that serve a relief best. `compare` and docs/quality.md show these. Methods of the same name have
+// Baselines as strong as their authors would run them: with the parameters of a grid that serve a relief
+// best. `compare` and docs/quality.md show these. Methods of the same name have
 // fixed parameters.
 #pragma once
 
@@ -29,24 +29,15 @@ struct TunedRelief {
   double shading = 0;      // Measures::shading
 };
 
-// Const calls may run concurrently.
-class BaselineGrid {
- public:
-  // Keeps a reference to the surface, which must outlive this object. Errors: those of HeightSystem::build().
-  static Result<BaselineGrid> prepare(const Surface& surface);
-
-  // Returns the relief of the grid with the best shading. `name` is one of baseline_names. Errors: kind
-  // geometry if the baseline has no height to scale; the message states heights in millimetres, `unit_mm` per
-  // unit.
-  Result<TunedRelief> best(std::string_view name, const ReliefMetrics& metrics, double height,
-                           double unit_mm) const;
-
- private:
-  BaselineGrid(const Surface& surface, HeightSystem system)
-      : surface_(&surface), system_(std::move(system)) {}
-
-  const Surface* surface_;
-  HeightSystem system_;
+// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names, and
+// `system` that of all points of the surface. Errors: kind geometry if the baseline has no height to scale;
+// the message states heights in millimetres, `unit_mm` per unit.
+struct BaselineInput {
+  const Surface& surface;
+  const HeightSystem& system;
+  const ReliefMetrics& metrics;
 };
+Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& input, double height,
+                                  double unit_mm);
 
 }  // namespace relievo

@@ -30,7 +30,7 @@ struct FrameTimes {
 };
 
 struct Frame {
-  FrameOptions options;  // the options used, including the u and the membrane parameters that were found
+  FrameOptions options;           // the options used, including the u that was found
   std::vector<float> heights;     // heights of the surface's points, in the cloud's units, base included
   std::vector<Vec3f> normals;     // unit normals: means over the triangles around a point, weighted by area
   double height = 0;              // highest minus lowest height without the base; 0 counts as a height

@@ -47,7 +47,7 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
 // The second factor compensates for the contrast that the height correction removes.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
-  float height_share = 1;  // MembraneParams::height_share
+  float height_share = 1;  // relievo::height_share()
 
   // Returns the weights at u in [0, infinity]. `detail` >= 0 is Shape::gamma. It multiplies the u of the
   // middle, coarse and broad layers by exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all

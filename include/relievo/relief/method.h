@@ -85,9 +85,6 @@ inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of
 struct ModelOptions {
   Mode mode = Mode::exact;
   std::size_t control_points = usual_control_points;  // approximate number in subspace mode
-  // If false, what Method::layered alone reads is left out: the jump lift and the tuning of the height
-  // correction, which take longer than the rest of the model.
-  bool is_layered = true;
 };
 
 }  // namespace relievo

@@ -15,7 +15,6 @@ namespace relievo {
 
 class HeightCorrection;
 class HeightSystem;
-class JumpLift;
 class MeasuredCloud;
 class PaperModel;
 class SubspaceModel;
@@ -52,12 +51,6 @@ class ReliefModel {
   static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view,
                                      const ModelOptions& options, Progress* progress = nullptr);
 
-  // Prepares a model for exact reliefs that are shown only briefly. Nothing is tuned: the height correction
-  // has the parameters of `other`, a model of the same scan in another view, or the defaults if `other` is
-  // null or has no tuning.
-  static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface,
-                                          Progress* progress = nullptr);
-
   ReliefModel(ReliefModel&&) noexcept;
   ReliefModel& operator=(ReliefModel&&) noexcept;
   ~ReliefModel();
@@ -65,12 +58,11 @@ class ReliefModel {
   const Surface& surface() const;
 
   // Returns the paper's own system; null for all other methods. If there is one, system() and subspace() are
-  // null, layers() is empty, and steps(), jump_lift() and correction() must not be called.
+  // null, layers() is empty, and steps(), planes() and correction() must not be called.
   const PaperModel* paper() const;
 
-  // Returns whether the model was prepared for the method: Method::paper has models of its own, and
-  // Method::layered needs ModelOptions::is_layered. A layered relief of a model without that is made with the
-  // default parameters of the height correction, and without a jump lift.
+  // Returns whether the model was prepared for the method: Method::paper has models of its own, and all other
+  // methods share one.
   bool serves(Method method) const;
 
   // Returns the number of control points in subspace mode, 0 in exact mode.
@@ -88,21 +80,11 @@ class ReliefModel {
   // Returns the heights that Shape::steps adds at depth jumps.
   const StepHeights& steps() const;
 
-  // Returns the fields that keep the front sides of depth jumps in front in layered reliefs; no fields if the
-  // model is not prepared for these.
-  const JumpLift& jump_lift() const;
+  // Returns the steps that Shape::planes adds in layered reliefs.
+  const StepHeights& planes() const;
 
   // Returns the correction that compresses layered heights.
   const HeightCorrection& correction() const;
-
-  // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none: the
-  // defaults if the model is not prepared for Method::layered. Otherwise they are
-  // tuned to this surface: the strongest compression that keeps detail and depth order at least as good as
-  // gradient-domain compression does, where that is possible.
-  MembraneParams membrane_at(double u) const;
-
-  // Returns the shape. A layered shape without membrane parameters gets those of membrane_at() for its u.
-  Shape with_membrane(Shape shape) const;
 
   // Returns the memory used, in bytes.
   std::size_t memory() const;

@@ -18,18 +18,6 @@ enum class Style {
   layered  // normals compressed layer by layer, fine ones least; heights compressed by HeightCorrection
 };
 
-// Parameters of HeightCorrection, which compresses layered heights.
-struct MembraneParams {
-  // Height of the relief, as a share of the height that (9) gives for its slopes, (0, 1].
-  double height_share = 1;
-  // Pull length, as a share of the longer side, > 0. A shorter pull length pulls each point harder to a
-  // height that is proportional to the rank of its depth among all points. Infinity switches the correction
-  // off.
-  double pull_length = .1;
-
-  bool operator==(const MembraneParams&) const = default;
-};
-
 // Height and saturation of a relief. The paper's height coefficient is alpha. For every beta > 0, u =
 // alpha^-beta is equivalent to alpha; u also gives every height at beta = 0, where alpha has no effect.
 struct Compression {
@@ -59,13 +47,23 @@ struct Shape {
   Style style = Style::paper_weights;
   // If true, the search for a height also chooses beta, by Algorithm 1. Used only by ReliefModel::paper().
   bool is_beta_free = false;
-  // Used only by the layered style. If not set, ReliefModel::membrane_at() of the model applies.
-  std::optional<MembraneParams> membrane = {};
+  // The others are used only by the layered style. The height of the relief, as a share of the height that (9)
+  // gives for its slopes, (0, 1]; if not set, it is usual_height_share(). A smaller share shows more.
+  std::optional<double> height_share = {};
+  bool is_corrected = true;  // whether HeightCorrection compresses the heights
+  // Least share of the height by which a part stands off what is behind it, and off the base, [0, 0.3].
+  double planes = 0;
 
   bool operator==(const Shape&) const = default;
 };
 
-// Returns the default parameters of the layered style: beta = 0 and a slight attenuation of coarse layers.
+// Returns the height share of layered shapes for u in [0, infinity]: 0.4 at u = 0; it goes to 1 as u grows,
+// so that high reliefs are compressed less.
+double usual_height_share(double u);
+// Returns the shape's height share, or the usual one if it sets none.
+double height_share(const Shape& shape);
+
+// Returns the default parameters of the layered style: planes of 7 %, beta = 0 and a slight attenuation of coarse layers.
 Shape layered_shape();
 
 }  // namespace relievo

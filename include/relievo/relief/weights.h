@@ -53,8 +53,7 @@ struct SlopeInput {
 // by w_b and by the factor of the saturation.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
-// Returns the layer weights of a layered shape. If the shape has no membrane parameters, the height share is
-// 1.
+// Returns the layer weights of a layered shape.
 LayerWeights layer_weights(const Shape& shape);
 
 // Splits the saturation off a compression c. The factor that saturation or tone curve apply to a layered

@@ -102,24 +102,18 @@ std::vector<std::string_view> compared_methods() {
   return names;
 }
 
-Result<BaselineGrid> BaselineGrid::prepare(const Surface& surface) {
-  RELIEVO_TRY(HeightSystem system,
-              HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
-  return BaselineGrid(surface, std::move(system));
-}
-
-Result<TunedRelief> BaselineGrid::best(std::string_view name, const ReliefMetrics& metrics, double height,
-                                       double unit_mm) const {
+Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& input, double height,
+                                  double unit_mm) {
   TunedRelief best{{}, {}, -2};  // less than any similarity
   const std::function<void(std::string, std::vector<double>)> add = [&](std::string parameters,
                                                                         std::vector<double> heights) {
-    Relief relief = scaled_relief(std::move(heights), *surface_, height);
+    Relief relief = scaled_relief(std::move(heights), input.surface, height);
     if (!(relief.height > 0)) return;
-    const double shading = metrics.shading(relief.heights);
+    const double shading = input.metrics.shading(relief.heights);
     if (shading > best.shading) best = {std::move(relief), std::move(parameters), shading};
   };
   const auto row = std::ranges::find(baseline_names, name) - baseline_names.begin();
-  RELIEVO_CHECK(grids[static_cast<std::size_t>(row)]({*surface_, system_, height, add}));
+  RELIEVO_CHECK(grids[static_cast<std::size_t>(row)]({input.surface, input.system, height, add}));
   if (!(best.relief.height > 0)) return out_of_reach(0, height * unit_mm);
   return best;
 }

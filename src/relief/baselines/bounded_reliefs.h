@@ -35,9 +35,8 @@ namespace relievo {
 Result<std::vector<double>> mimicking_heights(const Surface& surface, double height);
 
 // An ablation of the layered method, not a published one: even compression by (5) with the same weight w_k at
-// all points, and equation (9) without jump weights under the bounds of the height. Its gamma is 0: it has no
-// layers, no bending, no pull towards the order of the depths, and nothing is tuned. `weight` is w_k, in [0,
-// 1].
+// all points, and equation (9) under the bounds of the height. Its gamma is 0: it has no layers, no bending
+// and no pull towards the order of near depths. `weight` is w_k, in [0, 1].
 Result<std::vector<double>> bounded_heights(const Surface& surface, double height, double weight);
 
 }  // namespace relievo

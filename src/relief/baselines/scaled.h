@@ -21,7 +21,7 @@ std::vector<double> depths(const Surface& surface);
 // few steeper slopes at silhouettes would take most of the height.
 Vec2 moderate_slope(const Vec3f& normal);
 
-// Return heights before that last step. `system` may have jump weights or not.
+// Return heights before that last step.
 std::vector<double> gradient_heights(const Surface& surface, const HeightSystem& system,
                                      const GradientOptions& options);
 std::vector<double> base_and_detail_heights(const Surface& surface, const HeightSystem& system,

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/memory.h"
-#include "core/quantile.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "relief/membrane/soft_clip.h"
@@ -31,9 +30,13 @@ constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
 constexpr float least_tension = .1F;
 // The stiffness of a tie per length of silhouette in cells, in units of the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// The lower limit of the field on the silhouette, as a share of the relief's height. The field falls below
-// the limit by about as much, so to about 0.
-constexpr float least_at_silhouette = .03F;
+// The pull towards the order of near depths, see docs/decisions/near-order.md: the distances of the pairs and
+// the difference of depth that counts as a large one, as shares of the longer side and of the depth range;
+// the share of the height that a large difference gets; and the stiffness, in units of the tension across a
+// cell of `cell_size`. It fades out at the silhouette, where the base is what the surface stands off.
+constexpr std::array<double, 2> pair_distances{.05, .09};
+constexpr double large_difference = .03;
+constexpr float largest_step = .4F, order_stiffness = .02F;
 
 std::vector<Index> free_points(const Boundary& boundary) {
   std::vector<Index> found;
@@ -80,17 +83,6 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
-// Returns the tension per node: the harmonic mean of the jump weights used in (9). More tension would smear
-// the misfit, which (9) concentrates at depth jumps.
-std::vector<float> tension_of(std::span<const float> weights, const Lattice& lattice) {
-  std::vector<float> compliance(weights.size()), tension(lattice.nodes());
-  for (std::size_t i = 0; i < compliance.size(); ++i) compliance[i] = 1 / weights[i];
-  std::vector<Lattice::Corners> sums(lattice.nodes());
-  lattice.gather(std::span<const float>(compliance), sums, tension);
-  for (std::size_t n = 0; n < tension.size(); ++n) tension[n] = lattice.is_reached(n) ? 1 / tension[n] : 1;
-  return tension;
-}
-
 // Returns the edges that belong to only one triangle inside the relief.
 std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   const auto is_inside = [&](const TriangleSide& side) {
@@ -128,19 +120,24 @@ std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& 
   return ties;
 }
 
+// Returns a smooth function of the coverage: 0 outside and on the silhouette, 1 inside.
+float inside_of(float coverage) {
+  const float inside = std::clamp(2 * coverage - 1, 0.F, 1.F);
+  return inside * inside * (3 - 2 * inside);
+}
+
 // Returns the bending stiffness and the tension of the nodes, which fade with the coverage. The field is
 // hinged at silhouettes and depth jumps.
-solver::Stiffness stiffness_of(const Surface& surface, std::span<const float> weights, const Lattice& lattice,
+solver::Stiffness stiffness_of(const Surface& surface, const Lattice& lattice,
                                std::span<const float> coverage) {
   const std::vector<std::uint8_t> jump = is_at_jump(surface, lattice);
   const Scale scale(surface.longer_side(), surface.rho);
   const float stiff = scale.in_cells_squared(HeightCorrection::bending_length);
-  solver::Stiffness s{std::vector<float>(lattice.nodes()), tension_of(weights, lattice)};
+  solver::Stiffness s{std::vector<float>(lattice.nodes()), std::vector<float>(lattice.nodes())};
   for (std::size_t n = 0; n < coverage.size(); ++n) {
-    s.tension[n] *= std::clamp(coverage[n], least_tension, 1.F);
+    s.tension[n] = std::clamp(coverage[n], least_tension, 1.F);
     if (coverage[n] <= least_coverage) continue;
-    const float inside = std::clamp(2 * coverage[n] - 1, 0.F, 1.F);
-    s.bending[n] = stiff * (jump[n] ? hinge : std::max(hinge, inside * inside * (3 - 2 * inside)));
+    s.bending[n] = stiff * (jump[n] ? hinge : std::max(hinge, inside_of(coverage[n])));
   }
   return s;
 }
@@ -154,27 +151,58 @@ std::size_t HeightCorrection::Workspace::memory() const {
 }
 
 // Strong compression needs all of the height, so the relief may then stand off the base at the silhouette.
-// The boundary stiffness falls from 1 at a height share of 1 to 0.1 at 0.775. See
+// The boundary stiffness falls from 1 at a height share of 1 to 0.3 at 0.825. See
 // docs/decisions/height-correction.md.
-HeightLimits HeightLimits::of(double height, const MembraneParams& params) {
-  constexpr double least = .1, fall = 4;
-  return {height, params.pull_length, std::max(1 - fall * (1 - params.height_share), least)};
+HeightLimits HeightLimits::of(double height, const Shape& shape) {
+  constexpr double least = .3, fall = 4;
+  return {height, std::max(1 - fall * (1 - height_share(shape)), least), shape.planes};
 }
 
-HeightCorrection::HeightCorrection(const Surface& surface, std::span<const float> jump_weights)
+namespace {
+
+// Returns the mean depth per node.
+std::vector<float> depth_of(const Surface& surface, const Lattice& lattice) {
+  std::vector<Lattice::Corners> sums(lattice.nodes());
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(p.z());
+  std::vector<float> depth(lattice.nodes());
+  lattice.gather(std::span<const double>(z), sums, depth);
+  return depth;
+}
+
+// Returns the highest minus the lowest depth.
+float depth_range(const Surface& surface) {
+  if (surface.points.empty()) return 0;
+  const auto [low, high] = std::ranges::minmax(surface.points, {}, [](const Vec3& p) { return p.z(); });
+  return static_cast<float>(high.z() - low.z());
+}
+
+solver::ObstacleSolver sheet_of(const Surface& surface, const Lattice& lattice,
+                                std::span<const float> coverage) {
+  const std::vector<float> depth = depth_of(surface, lattice);
+  constexpr float faster = 5;  // the shares fade out within half a cell inside the silhouette
+  std::vector<float> share(depth.size());
+  for (std::size_t n = 0; n < share.size(); ++n)
+    share[n] = lattice.is_reached(n) ? inside_of(1 - faster * (1 - coverage[n])) : 0;
+  const Scale scale(surface.longer_side(), surface.rho);
+  solver::OrderedPairs pairs;
+  if (const float range = depth_range(surface); range > 0) {
+    pairs = {depth, share, static_cast<float>(large_difference) * range, {}};
+    for (const double distance : pair_distances)
+      pairs.distances.push_back(static_cast<float>(distance * scale.side / scale.cell));
+  }
+  return {lattice.width(), stiffness_of(surface, lattice, coverage), silhouette_ties(surface, lattice),
+          pairs};
+}
+
+}  // namespace
+
+HeightCorrection::HeightCorrection(const Surface& surface)
     : side_(surface.longer_side()),
       cell_(Scale(side_, surface.rho).cell),
       lattice_(surface.points, free_points(surface.boundary), cell_),
       coverage_(coverage_of(surface, lattice_)),
-      sheet_(lattice_.width(), stiffness_of(surface, jump_weights, lattice_, coverage_),
-             silhouette_ties(surface, lattice_)),
-      ranks_(lattice_.nodes()) {
-  std::vector<Lattice::Corners> sums(lattice_.nodes());
-  std::vector<double> depths;
-  for (const Vec3& p : surface.points) depths.push_back(p.z());
-  depths = ranks(depths);
-  lattice_.gather(std::span<const double>(depths), sums, ranks_);
-}
+      sheet_(sheet_of(surface, lattice_, coverage_)) {}
 
 HeightCorrection::Workspace HeightCorrection::make_workspace() const {
   Workspace w;
@@ -185,7 +213,7 @@ HeightCorrection::Workspace HeightCorrection::make_workspace() const {
 }
 
 std::size_t HeightCorrection::memory() const {
-  return lattice_.memory() + sheet_.memory() + bytes(ranks_) + bytes(coverage_);
+  return lattice_.memory() + sheet_.memory() + bytes(coverage_);
 }
 
 // Returns by how much, in the cells around a node, the heights of points lie above and below the heights
@@ -199,16 +227,16 @@ Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace&
   return rest;
 }
 
-void HeightCorrection::set_limits(float height, float pull, Workspace& w) const {
+void HeightCorrection::set_limits(float height, Workspace& w) const {
   solver::ObstacleSolver::Fields& f = w.sheet[0];
+  std::ranges::copy(w.heights, f.heights.begin());
   sheet_.each_free_node([&](Index n) {
-    f.lowest[n] = -infinity, f.highest[n] = infinity, f.wanted[n] = 0;
+    f.lowest[n] = -infinity, f.highest[n] = infinity;
     if (!lattice_.is_reached(n)) return;  // in a gap: there are no heights to limit
     const Lattice::Extent rest = rest_around(n, w);
     if (coverage_[n] > limited_coverage) f.lowest[n] = -w.heights[n] - rest.lowest;
     f.highest[n] = height - w.heights[n] - rest.highest;
     if (f.lowest[n] > f.highest[n]) f.lowest[n] = f.highest[n] = (f.lowest[n] + f.highest[n]) / 2;
-    f.wanted[n] = coverage_[n] * pull * (height * ranks_[n] - w.heights[n]);
   });
 }
 
@@ -219,11 +247,14 @@ void HeightCorrection::set_heights(std::span<const Real> heights, Workspace& w) 
 }
 
 void HeightCorrection::solve(const HeightLimits& limits, Workspace& w) const {
-  const double cells = cell_ / (limits.pull_length * side_);
-  const auto pull = static_cast<float>(side_ > 0 ? cells * cells : 0);
   const auto height = static_cast<float>(limits.height);
-  set_limits(height, pull, w);
-  sheet_.solve({pull, static_cast<float>(limits.boundary_stiffness), least_at_silhouette * height}, w.sheet);
+  set_limits(height, w);
+  solver::Springs springs{static_cast<float>(limits.boundary_stiffness),
+                          static_cast<float>(limits.planes) * height};
+  // Wider cells have fewer pairs.
+  const auto wider = static_cast<float>(side_ > 0 ? cell_ / (cell_size * side_) : 1);
+  springs.order = {largest_step * height, order_stiffness * wider * wider};
+  sheet_.solve(springs, w.sheet);
   lattice_.refine(w.sheet[0].b, w.tiles);
 }
 

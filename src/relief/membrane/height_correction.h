@@ -12,29 +12,30 @@
 
 namespace relievo {
 
-// The limits of corrected heights, and the parameters of the pull and of the ties at the silhouette.
+// The limits of corrected heights, and the parameters of the ties at the silhouette.
 struct HeightLimits {
   double height;                  // > 0: corrected heights lie between 0 and this
-  double pull_length;             // MembraneParams::pull_length
   double boundary_stiffness = 1;  // (0, 1]: how stiffly the field is tied to 0 along the silhouette
+  double planes = 0;              // Shape::planes: the share of the height by which it is kept off the base
 
-  // Returns the limits for these membrane parameters.
-  static HeightLimits of(double height, const MembraneParams& params);
+  // Returns the limits for this height and the shape's other parameters.
+  static HeightLimits of(double height, const Shape& shape);
 };
 
 // A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Among all such fields, b
 // is close to the field with the least energy, which docs/method.md defines under "The height correction".
 //
 // b is given on a lattice with cells of 0.7 % of the longer side, or wider cells if points are sparse. The
-// limits leave room for the heights between nodes. Along the silhouette b is tied to 0 on the curve itself,
-// and kept from falling below about 0. The lattice continues beyond the silhouette, so that b does not depend
+// limits leave room for the heights between nodes. Near parts are pulled in front of far ones beside them.
+// Along the silhouette b is tied to 0 on the curve itself, and kept from falling below the planes. The
+// lattice continues beyond the silhouette, so that b does not depend
 // on where the silhouette passes between the nodes. Const calls may run concurrently if each has its own
 // workspace. Results are the same bits for any number of threads.
 class HeightCorrection {
  public:
   // The bending length of b, as a share of the longer side. docs/decisions/height-correction.md gives the
   // reason for the bending.
-  static constexpr double bending_length = .028;
+  static constexpr double bending_length = .05;
 
   // Scratch memory and the field that was found, so that calls allocate nothing.
   struct Workspace {
@@ -47,8 +48,8 @@ class HeightCorrection {
     std::size_t memory() const;
   };
 
-  // Copies the data that it needs of the surface and its jump_weights().
-  HeightCorrection(const Surface& surface, std::span<const float> jump_weights);
+  // Copies the data that it needs of the surface.
+  explicit HeightCorrection(const Surface& surface);
 
   Workspace make_workspace() const;
 
@@ -86,14 +87,13 @@ class HeightCorrection {
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 
  private:
-  void set_limits(float height, float pull, Workspace& w) const;
+  void set_limits(float height, Workspace& w) const;
   Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
 
   double side_, cell_;
   Lattice lattice_;
   std::vector<float> coverage_;  // per node: share of the lattice around it that the surface covers
   solver::ObstacleSolver sheet_;
-  std::vector<float> ranks_;  // per node: the rank of the depth there, from 0 (farthest) to 1 (nearest)
 };
 
 }  // namespace relievo

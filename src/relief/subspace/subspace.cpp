@@ -11,7 +11,6 @@
 #include "relief/weight_table.h"
 #include "relievo/geometry/spline.h"
 #include "relievo/scan/surface.h"
-#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
@@ -75,22 +74,19 @@ SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
 Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const SubspaceOptions& options,
                                              const Known& known, Progress* progress) {
   const std::vector<Vec2> points = in_plane(surface.points);
-  const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho),
-                           weights = jump_weights(surface);
+  const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::span<const double> reference = known.reference;
   std::vector<double> solved;
   if (reference.empty()) {
     RELIEVO_CHECK(begin_stage(progress, "reference heights", .75));
-    RELIEVO_TRY(const auto all,
-                HeightSystem::build(points, surface.triangulation, surface.boundary, weights));
+    RELIEVO_TRY(const auto all, HeightSystem::build(points, surface.triangulation, surface.boundary));
     reference = solved = reference_heights(surface, all, options.max_slope);
   }
 
   RELIEVO_CHECK(begin_stage(progress, "control points", .85));
   ControlPoints control = grow_control_points(points, surface.boundary.distance, options.control);
   const ControlMesh mesh = mesh_control_points(surface, control);
-  RELIEVO_TRY(HeightSystem system, HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary,
-                                                       pick(weights, control.points)));
+  RELIEVO_TRY(HeightSystem system, HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary));
   const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
   std::vector<PointLayers> own_layers;
   if (known.layers.empty()) own_layers = normal_layers(surface.points, surface.normals);

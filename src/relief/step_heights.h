@@ -1,0 +1,76 @@
+// The heights of steps at depth jumps. Equation (9) uses only slopes, so that depth jumps vanish. See
+// docs/decisions/steps.md and docs/decisions/near-order.md.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/height_span.h"
+#include "relievo/core/parallel.h"
+#include "relievo/relief/shape.h"
+
+namespace relievo {
+
+class HeightSystem;
+struct Surface;
+
+// Heights whose steps stand at the depth jumps of a surface.
+struct StepHeights {
+  std::vector<float> z;  // per point, 0 at the boundary; empty if the surface has no depth jump
+  double span = 0;       // highest minus lowest; 0 counts as a height
+
+  bool empty() const { return z.empty(); }
+};
+
+// Returns the least-squares solution of (9) for given height differences along the edges. Across a depth jump
+// the difference is the part of the depth difference that the slopes do not explain; along all other edges it
+// is 0. A form that consists of steps, such as letters on a plate, would vanish without these heights.
+StepHeights find_step_heights(const Surface& surface, const HeightSystem& system);
+
+// Returns the same for differences of tanh(that part / (0.05 side)) across walls, and 0 along all other
+// edges: steps of height 1 where the jump is deep, which run out where it ends. They set each part off what
+// is behind it.
+StepHeights find_planes(const Surface& surface, const HeightSystem& system);
+
+// Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of
+// the relief's height. Changes nothing if the height correction is off, so that level parts stay level.
+template <typename Real>
+void add_planes(const StepHeights& planes, const Shape& shape, std::span<Real> z) {
+  if (planes.empty() || shape.style != Style::layered || !shape.is_corrected || shape.planes == 0) return;
+  const double height = height_share(shape) * static_cast<double>(span_of(std::span<const Real>(z)).size());
+  const auto step = static_cast<Real>(shape.planes * height);
+  parallel_for(z.size(), [&](std::size_t i) { z[i] += step * static_cast<Real>(planes.z[i]); });
+}
+
+// Adds the step heights to the heights z that slopes give, so that the steps take `share` of the height.
+// `height` is the height of the relief before its style compresses it. If it is not given, the slopes
+// determine the height, and the share must be below 1.
+template <typename Real>
+void add_steps(const StepHeights& steps, double share, std::optional<double> height, std::span<Real> z) {
+  if (steps.empty() || share == 0) return;
+  if (!height) height = static_cast<double>(span_of(std::span<const Real>(z)).size()) / (1 - share);
+  const auto factor = static_cast<Real>(share * *height / steps.span);
+  parallel_for(z.size(), [&](std::size_t i) { z[i] += factor * static_cast<Real>(steps.z[i]); });
+}
+
+// Prepares a shape for a search of step_share(), if slopes alone do not reach the height. The slopes stay
+// uncompressed. Then nothing has to be compressed, so the height correction is turned off, and level parts
+// stay level.
+inline void keep_slopes(Shape& shape) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  shape.compression.u = infinity;
+  shape.height_share = 1;
+  shape.is_corrected = false;
+}
+
+// Returns the share of the height for the depth jumps, as a function of x. HeightSearch varies x like ln u
+// until slopes and jumps together reach the height. At x = -infinity the share is 0; at x = infinity the
+// jumps are as deep as in the model.
+inline double step_share(const StepHeights& steps, double height, double x) {
+  return steps.span / height / (1 + std::exp(-x));
+}
+
+}  // namespace relievo
