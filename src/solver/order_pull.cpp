@@ -23,7 +23,7 @@ OrderPull::OrderPull(std::size_t width, const OrderedPairs& pairs) {
     for (const Vec2f& way : ways) {
       const long dx = std::lround(distance * way.x()), dy = std::lround(distance * way.y());
       const long offset = dx + dy * columns;
-      if (offset <= 0 || std::abs(dx) >= columns) continue;
+      if (offset <= 0 || offset >= nodes || std::abs(dx) >= columns) continue;
       Direction direction{static_cast<std::size_t>(offset), std::vector<float>(pairs.depth.size())};
       for (long n = 0; n + offset < nodes; ++n) {
         const long x = n % columns + dx;

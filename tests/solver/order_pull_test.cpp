@@ -129,6 +129,21 @@ TEST(OrderPull, LeavesRightOrderAlone) {
   EXPECT_NE(bound.load, std::vector<float>(nodes));
 }
 
+TEST(OrderPull, HasNoPairsThatReachBeyondTheLattice) {
+  const std::vector<float> depth = depths(), share = shares();
+  const OrderPull pull(width, {depth, share, saturation, {2, 21, 400}});
+  Bound bound;
+  const std::vector<float> b = random_field(2, .2F), z = random_field(9, .3F);
+  pull.write_bound(b, z, limits, {bound.load, bound.hold, bound.lack});
+  Bound near;
+  OrderPull(width, {depth, share, saturation, {2}})
+      .write_bound(b, z, limits, {near.load, near.hold, near.lack});
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (n % width == width / 2) {
+      EXPECT_EQ(bound.load[n], near.load[n]) << n;
+    }
+}
+
 TEST(OrderPull, HasNoPairsWithinACell) {
   const std::vector<float> depth = depths(), share = shares();
   EXPECT_TRUE(OrderPull(width, {depth, share, saturation, {.3F}}).empty());
