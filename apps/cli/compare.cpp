@@ -182,6 +182,7 @@ void print_json(const Comparison& comparison) {
                        {"angle_deg", m.angle_deg},
                        {"detail", m.detail},
                        {"order", m.order},
+                       {"near_order", m.near_order},
                        {"halo", m.halo},
                        {"steep_share", m.steep_share},
                        {"height_used", m.height_used},

@@ -41,21 +41,49 @@ double correlation(const Image<float>& a, const Image<float>& b, const PixelMask
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where,
-                  std::size_t pairs) {
+namespace {
+
+// Returns the share of pairs that keep their order. next() returns the next pair of pixels, or none.
+template <typename Next>
+double order_of_pairs(const Image<float>& z, const Image<float>& depth, const PixelMask& where, Next next) {
   const std::vector<Index>& at = where.pixels;
   if (at.empty()) return 0;
   const auto [low, high] = std::ranges::minmax_element(at, {}, [&](Index i) { return depth[i]; });
   const float least = .01F * (depth[*high] - depth[*low]);
   SplitMix64 random(1);  // the same pairs of pixels everywhere
   std::size_t counted = 0, kept = 0;
-  for (std::size_t pair = 0; pair < pairs; ++pair) {
-    const Index a = at[random.bits() % at.size()], b = at[random.bits() % at.size()];
-    if (!(std::abs(depth[a] - depth[b]) > least)) continue;
+  for (std::size_t pair = 0; pair < order_pairs; ++pair) {
+    const auto [a, b] = next(random);
+    if (b == no_index || !(std::abs(depth[a] - depth[b]) > least)) continue;
     ++counted;
     kept += (depth[a] > depth[b]) == (z[a] > z[b]) && z[a] != z[b];
   }
   return counted > 0 ? static_cast<double>(kept) / static_cast<double>(counted) : 0;
+}
+
+}  // namespace
+
+double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where) {
+  const auto any = [&](SplitMix64& random) { return where.pixels[random.bits() % where.pixels.size()]; };
+  return order_of_pairs(z, depth, where, [&](SplitMix64& random) {
+    const Index a = any(random);
+    return std::pair(a, any(random));
+  });
+}
+
+double near_order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where) {
+  const int side = std::max(depth.width, depth.height), far = static_cast<int>(farthest_near_pair * side);
+  const double nearest = nearest_near_pair * side, farthest = farthest_near_pair * side;
+  return order_of_pairs(z, depth, where, [&](SplitMix64& random) {
+    const auto step = [&] { return static_cast<int>(random.bits() % (2 * far + 1)) - far; };
+    const Index a = where.pixels[random.bits() % where.pixels.size()];
+    const int dx = step(), dy = step();
+    const int x = static_cast<int>(a) % depth.width + dx, y = static_cast<int>(a) / depth.width + dy;
+    const double apart = std::hypot(dx, dy);
+    const bool is_pair = apart >= nearest && apart <= farthest && x >= 0 && y >= 0 && x < depth.width &&
+                         y < depth.height && where.mask[x + y * depth.width];
+    return std::pair(a, is_pair ? static_cast<Index>(x + y * depth.width) : no_index);
+  });
 }
 
 GaussianFilter::GaussianFilter(double sigma, int radius) : weights_(static_cast<std::size_t>(radius) + 1) {

@@ -64,7 +64,11 @@ double correlation(const Image<float>& a, const Image<float>& b, const PixelMask
 // Compares the order of random pairs of measured pixels that differ in depth by more than 1 % of the depth
 // range; the pairs are the same every time. Returns the share of them whose order the heights z keep; 0 if
 // there are no such pairs.
-double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where,
-                  std::size_t pairs);
+double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
+
+// The same for pairs that are between these shares of the picture's longer side apart. People compare depths
+// along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief: pictorial and otherwise).
+inline constexpr double nearest_near_pair = .03, farthest_near_pair = .1;
+double near_order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 
 }  // namespace relievo

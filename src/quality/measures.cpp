@@ -193,7 +193,8 @@ Measures ReliefMetrics::measure(std::span<const double> heights) const {
   const std::array<Image<float>, 3> curvature = reference_->smoothed_curvature(n);
   for (std::size_t s = 0; s < curvature.size(); ++s)
     m.detail[s] = correlation(curvature[s], reference_->curvature[s], reference_->measured);
-  m.order = order_kept(z, reference_->depth, reference_->measured, order_pairs);
+  m.order = order_kept(z, reference_->depth, reference_->measured);
+  m.near_order = near_order_kept(z, reference_->depth, reference_->measured);
   reference_->guard(z, n, heights, m);
   const SurfaceMeasures& triangles = reference_->surface_measures;
   const auto [silhouette, jump] = triangles.fray(heights);

@@ -86,11 +86,31 @@ TEST(OrderKept, CountsPairs) {
   const Image<float> depth = image([](int x, int y) { return x + 100 * y; });
   Image<float> reversed = depth;
   for (float& z : reversed.pixels) z = -z;
-  EXPECT_EQ(order_kept(depth, depth, where, 2000), 1);
-  EXPECT_EQ(order_kept(reversed, depth, where, 2000), 0);
-  EXPECT_EQ(order_kept(filled_image(width, height, 1.F), depth, where, 2000), 0);
-  EXPECT_NEAR(order_kept(image([](int x, int) { return x; }), depth, where, 20000), .48, .03);
-  EXPECT_EQ(order_kept({}, {}, {}, 100), 0);
+  EXPECT_EQ(order_kept(depth, depth, where), 1);
+  EXPECT_EQ(order_kept(reversed, depth, where), 0);
+  EXPECT_EQ(order_kept(filled_image(width, height, 1.F), depth, where), 0);
+  EXPECT_NEAR(order_kept(image([](int x, int) { return x; }), depth, where), .48, .03);
+  EXPECT_EQ(order_kept({}, {}, {}), 0);
+}
+
+// Near pairs see a slope that rises everywhere but at one cliff; random pairs see the cliff.
+TEST(NearOrderKept, CountsNearPairsAlone) {
+  constexpr int size = 400;
+  Image8 inside = filled_image<std::uint8_t>(size, size, 0);
+  Image<float> depth = filled_image(size, size, 0.F), z = depth;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      inside.at(x, y) = x > 0 && y > 0 && x + 1 < size && y + 1 < size;
+      depth.at(x, y) = static_cast<float>(x);
+      z.at(x, y) = static_cast<float>(x < size / 2 ? x : x - size / 2);
+    }
+  const PixelMask where(inside);
+  // Of the near pairs that count, the share across the cliff is their mean distance along x over the width:
+  // 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2), over 400 and the .91 that are more than 4 apart along x.
+  EXPECT_NEAR(near_order_kept(z, depth, where), 1 - .0499, .003);
+  EXPECT_NEAR(order_kept(z, depth, where), .75, .01);
+  EXPECT_EQ(near_order_kept(depth, depth, where), 1);
+  EXPECT_EQ(near_order_kept({}, {}, {}), 0);
 }
 
 // Pairs of pixels whose depths differ by less than 1 % of the range do not count.
@@ -98,7 +118,7 @@ TEST(OrderKept, ForgivesWhatIsHardlyApart) {
   const PixelMask where = measured(1);
   const Image<float> depth = image([](int x, int y) { return 1000 * (x > 15) + .5 * y; });
   const Image<float> z = image([](int x, int y) { return 1000 * (x > 15) - .1 * y; });
-  EXPECT_EQ(order_kept(z, depth, where, 5000), 1);
+  EXPECT_EQ(order_kept(z, depth, where), 1);
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ struct Measures {
   double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 equals the model
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
   std::array<double, 3>
-      detail{};      // correlation of div n, smoothed by Gaussians of 1, 2 and 4 pixels, [-1, 1]
-  double order = 0;  // share of random pairs, over 1 % apart in depth, whose depth order is kept
+      detail{};           // correlation of div n, smoothed by Gaussians of 1, 2 and 4 pixels, [-1, 1]
+  double order = 0;       // share of random pairs, over 1 % apart in depth, whose depth order is kept
+  double near_order = 0;  // the same for pairs that are 3 to 10 % of the longer side apart
 
   double halo = 0;                 // standard deviation of heights in the background, as a share of `height`
   double steep_share = 0;          // share of the silhouette's pixels that are steeper than 80 degrees
