@@ -7,7 +7,7 @@ if(NOT RELIEVO_WEB)
 endif()
 
 get_target_property(small_sources relievo SOURCES)
-list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|relief/membrane|picture)/[^/]*$")
+list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|relief/correction|picture)/[^/]*$")
 get_target_property(fast_sources relievo SOURCES)
 set(brief_sources ${fast_sources})
 set(brief "core/(json_place|length|text)" "geometry/(convex_polygon|fair_curve|slope_limit|smooth_surface|weld)"

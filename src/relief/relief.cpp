@@ -6,8 +6,8 @@
 
 #include "core/height_span.h"
 #include "paper/surface.h"
+#include "relief/correction/height_correction.h"
 #include "relief/height_search.h"
-#include "relief/membrane/height_correction.h"
 #include "relief/paper_relief.h"
 #include "relief/step_heights.h"
 #include "relief/style.h"

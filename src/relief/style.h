@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/height_span.h"
+#include "relief/correction/height_correction.h"
 #include "relief/layered_slopes.h"
-#include "relief/membrane/height_correction.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"

@@ -1,4 +1,4 @@
-#include "relief/membrane/height_correction.h"
+#include "relief/correction/height_correction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "relief/membrane/soft_clip.h"
+#include "relief/correction/soft_clip.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relief/membrane/height_correction.h"
-#include "relievo/relief/heights.h"
-#include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
-#include "support/differences.h"
 #include "support/surfaces.h"
 
 namespace relievo {

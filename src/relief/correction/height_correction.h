@@ -1,5 +1,5 @@
 // The height correction: a smooth field that compresses the heights of a layered relief to the height asked
-// for. Names in the code also call this field the membrane.
+// for.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-#include "relief/membrane/height_correction.h"
+#include "relief/correction/height_correction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/memory.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
-#include "relief/membrane/soft_clip.h"
+#include "relief/correction/soft_clip.h"
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
 
