@@ -207,8 +207,16 @@ def files_in(folder):
 
 
 def temporaries(folder):
-    """Returns the names of temporary files, all of which end with two numbers."""
-    return [path.name for path in folder.rglob("*.relievo-[0-9]*-[0-9]*")] if folder.is_dir() else []
+    """Returns the names of temporary files, all of which end with two numbers. A program that is killed just after it
+    made a file has not marked it as its own yet, so nobody may remove it; such a file is empty and does not count."""
+    return [path.name for path in folder.rglob("*.relievo-[0-9]*-[0-9]*") if size_of(path)] if folder.is_dir() else []
+
+
+def size_of(path):
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
 
 
 def make_command(place, threads=2):
