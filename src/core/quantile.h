@@ -1,12 +1,9 @@
-// Order statistics. All but ranks() take linear time, and reorder their argument, which must not be empty.
+// Order statistics. They take linear time, and reorder their argument, which must not be empty.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <vector>
-
-#include "relievo/core/parallel.h"
 
 namespace relievo {
 
@@ -29,18 +26,6 @@ auto quantile(Values&& values, double share) {
 template <typename Values>
 auto median(Values&& values) {
   return value_of_rank(std::span(values), std::size(values) / 2);
-}
-
-// Returns, for each value, the fraction of all values that are smaller: 0 for the smallest, below 1 for the
-// largest.
-inline std::vector<double> ranks(std::span<const double> values) {
-  std::vector<double> sorted(values.begin(), values.end()), result(values.size());
-  std::ranges::sort(sorted);
-  parallel_for(values.size(), [&](std::size_t i) {
-    const auto smaller = std::ranges::lower_bound(sorted, values[i]) - sorted.begin();
-    result[i] = static_cast<double>(smaller) / static_cast<double>(values.size());
-  });
-  return result;
 }
 
 }  // namespace relievo

@@ -39,9 +39,5 @@ TEST(Angle, ConvertsThereAndBack) {
   EXPECT_DOUBLE_EQ(to_degrees(to_radians(37)), 37);
 }
 
-TEST(Ranks, AreSharesOfSmallerValues) {
-  EXPECT_EQ(ranks(std::vector<double>{3, -1, 3, 7}), (std::vector<double>{.25, 0, .25, .75}));
-}
-
 }  // namespace
 }  // namespace relievo
