@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// The width of a cell is `cell_size` of the longer side, a quarter of the bending length, so that cells
+// The width of a cell is `cell_size` of the longer side, a seventh of the bending length, so that cells
 // resolve this length. If points are too sparse for that, the width is `least_cell_size` sampling distances.
 constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is almost 0, but keeps the
@@ -241,12 +241,9 @@ void HeightCorrection::set_limits(float height, Workspace& w) const {
 }
 
 template <typename Real>
-void HeightCorrection::set_heights(std::span<const Real> heights, Workspace& w) const {
+void HeightCorrection::fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& w) const {
   lattice_.gather(heights, w.sums, w.heights);
   lattice_.compare(heights, w.heights, w.rests);
-}
-
-void HeightCorrection::solve(const HeightLimits& limits, Workspace& w) const {
   const auto height = static_cast<float>(limits.height);
   set_limits(height, w);
   solver::Springs springs{static_cast<float>(limits.boundary_stiffness),
@@ -258,14 +255,6 @@ void HeightCorrection::solve(const HeightLimits& limits, Workspace& w) const {
   lattice_.refine(w.sheet[0].b, w.tiles);
 }
 
-template <typename Real>
-void HeightCorrection::fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& w) const {
-  set_heights(heights, w);
-  solve(limits, w);
-}
-
-template void HeightCorrection::set_heights(std::span<const float>, Workspace&) const;
-template void HeightCorrection::set_heights(std::span<const double>, Workspace&) const;
 template void HeightCorrection::fit(std::span<const float>, const HeightLimits&, Workspace&) const;
 template void HeightCorrection::fit(std::span<const double>, const HeightLimits&, Workspace&) const;
 

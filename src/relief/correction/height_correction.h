@@ -62,12 +62,7 @@ class HeightCorrection {
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 
-  // The two halves of fit(), for callers that try several limits on the same heights.
-  template <typename Real>
-  void set_heights(std::span<const Real> heights, Workspace& workspace) const;
-  void solve(const HeightLimits& limits, Workspace& workspace) const;
-
-  // Returns b at a point, after fit() or solve().
+  // Returns b at a point, after fit().
   float at(std::size_t point, const Workspace& workspace) const {
     return lattice_.at(point, workspace.tiles);
   }
