@@ -30,7 +30,7 @@ struct ReliefModel::State {
   // control points.
   struct Parts {
     std::vector<PointLayers> layers;
-    StepHeights steps, planes;
+    StepFields fields;
     HeightCorrection correction;
     std::variant<HeightSystem, SubspaceModel> solver;
   };
@@ -75,10 +75,10 @@ const SubspaceModel* ReliefModel::subspace() const {
   return paper() ? nullptr : std::get_if<SubspaceModel>(&state_->parts().solver);
 }
 const StepHeights& ReliefModel::steps() const {
-  return state_->parts().steps;
+  return state_->parts().fields.steps;
 }
 const StepHeights& ReliefModel::planes() const {
-  return state_->parts().planes;
+  return state_->parts().fields.planes;
 }
 const HeightCorrection& ReliefModel::correction() const {
   return state_->parts().correction;
@@ -111,11 +111,8 @@ Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surfac
   RELIEVO_TRY(HeightSystem system,
               HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
   RELIEVO_CHECK(check_cancelled(progress));
-  StepHeights steps, planes;
-  parallel_both([&] { steps = find_step_heights(surface, system); },
-                [&] { planes = find_planes(surface, system); });
-  return Parts{std::move(layers), std::move(steps), std::move(planes), std::move(*correction),
-               std::move(system)};
+  StepFields fields = StepFields::find(surface, system);
+  return Parts{std::move(layers), std::move(fields), std::move(*correction), std::move(system)};
 }
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, const ModelOptions& options) {

@@ -56,33 +56,36 @@ double step_between(const Surface& surface, Index a, Index b) {
 // Returns the least-squares solution of (9) for a difference across each jump edge: difference(a, b) is by how
 // much the height of b should exceed that of a.
 template <typename Difference>
-StepHeights solve_steps(const Surface& surface, const HeightSystem& system, Difference difference) {
-  const std::vector<JumpEdge> edges = jump_edges(surface);
+StepHeights solve_steps(const Boundary& boundary, std::span<const JumpEdge> edges, const HeightSystem& system,
+                        Difference difference) {
   if (edges.empty()) return {};
-  std::vector<double> z(surface.points.size(), 0);
+  std::vector<double> z(boundary.is_boundary.size(), 0);
   for (const JumpEdge& e : edges) {
     const double pull = static_cast<double>(e.weight) * difference(e.a, e.b);
     z[e.a] -= pull;
     z[e.b] += pull;
   }
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (surface.boundary.is_boundary[i]) z[i] = 0;
+    if (boundary.is_boundary[i]) z[i] = 0;
   system.solve_in_place(z);
   return {{z.begin(), z.end()}, height_span(z)};
 }
 
 }  // namespace
 
-StepHeights find_step_heights(const Surface& surface, const HeightSystem& system) {
-  return solve_steps(surface, system, [&](Index a, Index b) { return step_between(surface, a, b); });
-}
-
-StepHeights find_planes(const Surface& surface, const HeightSystem& system) {
+StepFields StepFields::find(const Surface& surface, const HeightSystem& system) {
   constexpr double deep = .05;  // depth, as a share of the longer side, of which a jump counts as a deep one
   const double scale = deep * surface.longer_side();
-  return solve_steps(surface, system, [&](Index a, Index b) {
-    return surface.boundary.is_across_wall(a, b) ? std::tanh(step_between(surface, a, b) / scale) : 0;
-  });
+  const Boundary& boundary = surface.boundary;
+  const std::vector<JumpEdge> edges = jump_edges(surface);
+  const auto step = [&](Index a, Index b) { return step_between(surface, a, b); };
+  const auto plane = [&](Index a, Index b) {
+    return boundary.is_across_wall(a, b) ? std::tanh(step(a, b) / scale) : 0;
+  };
+  StepFields found;
+  parallel_both([&] { found.steps = solve_steps(boundary, edges, system, step); },
+                [&] { found.planes = solve_steps(boundary, edges, system, plane); });
+  return found;
 }
 
 }  // namespace relievo

@@ -25,15 +25,20 @@ struct StepHeights {
   bool empty() const { return z.empty(); }
 };
 
-// Returns the least-squares solution of (9) for given height differences along the edges. Across a depth jump
-// the difference is the part of the depth difference that the slopes do not explain; along all other edges it
-// is 0. A form that consists of steps, such as letters on a plate, would vanish without these heights.
-StepHeights find_step_heights(const Surface& surface, const HeightSystem& system);
+// The least-squares solutions of (9) for given height differences along the edges.
+struct StepFields {
+  // Across a depth jump the difference is the part of the depth difference that the slopes do not explain;
+  // along all other edges it is 0. A form that consists of steps, such as letters on a plate, would vanish
+  // without these heights.
+  StepHeights steps;
+  // Across the wall at a jump the difference is tanh(that part / (0.05 side)), along all other edges 0. The
+  // steps are 1 high where the jump is deep, and run out where it ends. They set each part off what is behind
+  // it.
+  StepHeights planes;
 
-// Returns the same for differences of tanh(that part / (0.05 side)) across walls, and 0 along all other
-// edges: steps of height 1 where the jump is deep, which run out where it ends. They set each part off what
-// is behind it.
-StepHeights find_planes(const Surface& surface, const HeightSystem& system);
+  // `system` is that of all points of the surface.
+  static StepFields find(const Surface& surface, const HeightSystem& system);
+};
 
 // Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of
 // the relief's height. Changes nothing if the height correction is off, so that level parts stay level.
