@@ -75,9 +75,9 @@ class ObstacleSolver {
     levels_[0].each_node(f);
   }
 
-  // Writes the solution to b of workspace[0], given lowest <= highest in workspace[0] and, with pairs, the
-  // heights there, or else load and hold. The other levels are overwritten. Values at fixed nodes do not matter, but b and moment there must be 0, as
-  // make_workspace() leaves them.
+  // Writes the solution to b of workspace[0], given lowest <= highest there and, with pairs, the heights, else
+  // load and hold. The other levels are overwritten. Values at fixed nodes do not matter, but b and moment there
+  // must be 0, as make_workspace() leaves them.
   void solve(const Springs& springs, Workspace& workspace) const;
 
  private:

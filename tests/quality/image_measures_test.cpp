@@ -105,8 +105,9 @@ TEST(NearOrderKept, CountsNearPairsAlone) {
       z.at(x, y) = static_cast<float>(x < size / 2 ? x : x - size / 2);
     }
   const PixelMask where(inside);
-  // Of the near pairs that count, the share across the cliff is their mean distance along x over the width:
-  // 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2), over 400 and the .91 that are more than 4 apart along x.
+  // A pair across the cliff loses its order. The share of such pairs is the mean distance of a pair along x over
+  // the width, 400. That distance is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2), over the .91 of the pairs
+  // that are more than 4 apart along x, because nearer ones do not count.
   EXPECT_NEAR(near_order_kept(z, depth, where), 1 - .0499, .003);
   EXPECT_NEAR(order_kept(z, depth, where), .75, .01);
   EXPECT_EQ(near_order_kept(depth, depth, where), 1);

@@ -115,7 +115,7 @@ TEST_P(OrderPullOfAField, IsNowhereAboveItsBound) {
 
 INSTANTIATE_TEST_SUITE_P(Fields, OrderPullOfAField, testing::Values(2U, 3U, 4U));
 
-// Where the order is right and the distances are large enough, nothing is pulled.
+// The pull leaves pairs alone that have the right order and are far enough apart.
 TEST(OrderPull, LeavesRightOrderAlone) {
   std::vector<float> depth(nodes), z(nodes);
   for (std::size_t n = 0; n < nodes; ++n) depth[n] = static_cast<float>(n % width), z[n] = 10 * depth[n];
