@@ -12,6 +12,7 @@
 #include "relievo/core/parallel.h"
 #include "scan/outlines/outlines.h"
 #include "scan/outlines/row_points.h"
+#include "scan/outlines/row_smoothing.h"
 
 namespace relievo {
 namespace {
@@ -154,6 +155,7 @@ class NewSurface {
     std::vector<SideInterpolation::Value> values(rows.size());
     parallel_for(
         rows.size(), [&](std::size_t r) { values[r] = interpolation.at(rows[r]); }, 256);
+    values = smoothed_along_rows(rows, std::move(values), surface_.rho);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const SideInterpolation::Value& value = values[r];
       if (!value.is_known) continue;

@@ -54,42 +54,56 @@ class RowMaker {
 
   void add_silhouette(Index c) {
     const OutlineCurve& outline = outlines_[c];
+    ++row_;
     for (std::size_t k = 0; k < outline.curve.points.size(); ++k) {
+      row_ += outline.curve.is_corner[k];
       const Vec2 at = outline.curve.points[k];
       if (taken_.add(at, least_on_outlines * rho_))
-        points_.push_back({at, at + .05 * rho_ * left_at(outline, k), Place::silhouette});
+        points_.push_back({at, at + .05 * rho_ * left_at(outline, k), Place::silhouette, row_});
     }
   }
 
   // Adds a row on the left (side 1) or on the right (side -1) of an outline. Points of odd rows lie between
-  // those of even ones.
+  // those of even ones. The first row, at a wall, has both, so that the long sides of the wall are edges of the
+  // Delaunay triangulation.
   void add_row(Index c, std::size_t row, double side) {
     const OutlineCurve& outline = outlines_[c];
-    const std::vector<Vec2>& p = outline.curve.points;
-    const std::size_t n = p.size();
-    const bool is_between = row % 2 == 1;
+    const std::size_t n = outline.curve.points.size();
     const Place place = row > 0 ? Place::row : side > 0 ? Place::front : Place::back;
-    const std::size_t count = is_between && !outline.is_closed ? n - 1 : n;
-    std::vector<Candidate> candidates(count);
+    const std::size_t halves = outline.is_closed ? 2 * n : 2 * n - 1;  // of the curve's edges, and its end
+    const std::size_t first = row % 2, stride = row == 0 ? 1 : 2;
+    std::vector<Candidate> candidates((halves - first + stride - 1) / stride);
     parallel_for(
-        count,
-        [&](std::size_t k) {
-          const Vec2 left =
-              is_between ? (left_at(outline, k) + left_at(outline, (k + 1) % n)) / 2 : left_at(outline, k);
-          const Vec2 from = is_between ? Vec2((p[k] + p[(k + 1) % n]) / 2) : p[k];
-          const Vec2 at = from + row_distance[row] * rho_ * side * left;
-          candidates[k] = {at, is_free(c, from + .02 * rho_ * side * left, at, row)};
-        },
-        64);
+        candidates.size(),
+        [&](std::size_t i) { candidates[i] = candidate(c, first + i * stride, row, side); }, 64);
     const double apart = row == 0 ? least_on_outlines : row == 1 ? least_in_first_row : least_between_rows;
-    for (const auto& [at, is_free] : candidates)
-      if (is_free && taken_.add(at, apart * rho_)) points_.push_back({at, at, place});
+    ++row_;
+    for (const auto& [at, is_free, is_corner] : candidates) {
+      row_ += is_corner;
+      if (is_free && taken_.add(at, apart * rho_)) points_.push_back({at, at, place, row_});
+    }
   }
 
+  // A place for a point of a row.
   struct Candidate {
     Vec2 at;
     bool is_free;
+    bool is_corner;  // whether it lies beside a corner of the outline
   };
+
+  // Returns the place beside the half-th half of an edge: beside a point of the curve if that number is even,
+  // else beside the middle of an edge.
+  Candidate candidate(Index c, std::size_t half, std::size_t row, double side) const {
+    const OutlineCurve& outline = outlines_[c];
+    const std::vector<Vec2>& p = outline.curve.points;
+    const std::size_t k = half / 2, next = (k + 1) % p.size();
+    const bool is_between = half % 2 == 1;
+    const Vec2 left = is_between ? (left_at(outline, k) + left_at(outline, next)) / 2 : left_at(outline, k);
+    const Vec2 from = is_between ? Vec2((p[k] + p[next]) / 2) : p[k];
+    const Vec2 at = from + row_distance[row] * rho_ * side * left;
+    return {at, is_free(c, from + .02 * rho_ * side * left, at, row),
+            !is_between && outline.curve.is_corner[k] != 0};
+  }
 
   // Returns whether a place of a row is free: no outline separates it from its own outline, and no outline is
   // too near to it.
@@ -104,12 +118,12 @@ class RowMaker {
   double rho_;
   PointSet& taken_;
   std::vector<RowPoint> points_;
+  Index row_ = 0;  // number of the row whose points are added
 };
 
 constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as large where points are few
 constexpr float least_likeness = .8F;  // least cosine, of 37 degrees, between normals of one face
 constexpr int least_face_points = 5;
-constexpr double least_nz = .02;  // normals of the result lean at most 88.9 degrees
 
 }  // namespace
 

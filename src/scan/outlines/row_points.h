@@ -19,15 +19,20 @@ enum class Place : std::uint8_t {
   row,  // in a row farther from an outline, or in the middle of a gap
 };
 
+inline constexpr Index no_row = no_index;
+
 // A new point before its depth and normal are known.
 struct RowPoint {
   Vec2 at;
   Vec2 seen_from;  // a place on one side; the points on that side are interpolated
   Place place;
+  Index row = no_row;  // the points of a row between two corners follow each other and have one number
 };
 
 // In rho: half the width of the wall at a jump, and the distance from the last row to its outline.
 inline constexpr double half_wall = .15, last_row = 2.95;
+
+inline constexpr double least_nz = .02;  // normals at new points lean at most 88.9 degrees
 
 // Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points
 // on the silhouette come first, then those on both sides of each jump, then parallel rows in the order of
