@@ -110,15 +110,15 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
 }
 
-// All slopes are equal, so attenuation only scales the relief. Normals beside the outline are interpolated,
-// so their slopes are equal only to about four digits.
+// All slopes are equal, so attenuation only scales the relief. Normals beside the outline and the ridge are
+// interpolated, so their slopes are equal only to about three digits.
 TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
   const ReliefModel model = test::prepared(roof(.5));
   const GradientOptions options{.attenuation = 5, .steepest_kept = 100, .band_weights = {1}};
   const Relief attenuated_roof = gradient_relief(model, .1, options);
   const Relief plain_roof =
       gradient_relief(model, .1, {.attenuation = 1e-9, .steepest_kept = 100, .band_weights = {1}});
-  EXPECT_LE(test::largest_difference(attenuated_roof.heights, plain_roof.heights), 2e-5);
+  EXPECT_LE(test::largest_difference(attenuated_roof.heights, plain_roof.heights), 1e-4);
 }
 
 TEST(Gradient, EqualBandWeightsChangeNothing) {
@@ -132,7 +132,8 @@ TEST(Gradient, EqualBandWeightsChangeNothing) {
 }
 
 TEST(Gradient, RemovesSilhouettes) {
-  const ReliefModel model = test::prepared(roof(3));
+  const ReliefModel model = test::prepared(test::height_field(
+      20000, 1, [](double x, double) { return 3 * x; }, [](double, double) { return Vec2(3, 0); }));
   EXPECT_EQ(gradient_relief(model, .1, {.attenuation = 5, .steepest_kept = 2.9, .band_weights = {1}}).height,
             0);
   EXPECT_NEAR(

@@ -71,6 +71,17 @@ TEST(RowSmoothing, ReducesScatter) {
   EXPECT_LT(scatter_after, .25 * scatter_before);
 }
 
+TEST(RowSmoothing, KeepsACreaseAcrossTheRow) {
+  const auto points = row(30, 1);
+  Values before = slope(points);
+  for (std::size_t i = 15; i < 30; ++i) {
+    before[i].point.z() = before[15].point.z() - .5 * (points[i].at.x() - points[15].at.x());
+    before[i].normal = Vec3f(.5F, 0, 1).normalized();
+  }
+  const Values after = smoothed_along_rows(points, before, rho);
+  for (std::size_t i = 0; i < 30; ++i) EXPECT_LT((after[i].normal - before[i].normal).norm(), 1e-5F) << i;
+}
+
 TEST(RowSmoothing, RowsDoNotMix) {
   auto points = row(20, 1);
   for (RowPoint& p : row(20, 2)) points.push_back({p.at, p.at, Place::back, 2});

@@ -10,6 +10,7 @@
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
+#include "scan/outlines/inner_lines.h"
 #include "scan/outlines/outlines.h"
 #include "scan/outlines/row_points.h"
 #include "scan/outlines/row_smoothing.h"
@@ -271,8 +272,9 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
   if (!drop_crumbs(before)) return;
   surface.crumbs = before.crumbs;
   const PlanePoints plane(before);
-  const std::vector<OutlineCurve> outlines = find_outlines(before, plane, exact);
+  std::vector<OutlineCurve> outlines = find_outlines(before, plane, exact);
   if (outlines.empty() || outlines.front().is_jump) return;
+  add_inner_lines(before, plane, outlines);
   NewSurface now(before, plane, measures, outlines);
   now.gather();
   PointMeasures new_measures;

@@ -1,7 +1,9 @@
 #include "scan/outlines/row_smoothing.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "relievo/core/parallel.h"
 
@@ -13,7 +15,8 @@ using Numbers = Eigen::Vector4d;  // depth in rho, n_x, n_y, curvature
 
 constexpr double window = 3;                            // in rho
 constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a point has half of its weight
-constexpr double stiffness = .2;  // keeps the fitted line level where few points are on one side
+constexpr double stiffness = .2;    // keeps the fitted line level where few points are on one side
+constexpr double other_face = .35;  // least difference of (n_x, n_y) between the faces at a crease
 constexpr int passes = 3;
 
 class RowSmoother {
@@ -42,7 +45,8 @@ class RowSmoother {
     Numbers numbers;
   };
 
-  // Returns the samples of the point's row within the window, its own one included.
+  // Returns the samples of the point's row within the window, its own one included. Where a crease crosses the
+  // row, only those on the point's side are returned, unless they are so few that the point is an outlier.
   std::vector<Sample> samples_near(std::size_t point) const {
     std::vector<Sample> samples = {{0, numbers(point)}};
     for (const int side : {-1, 1}) {
@@ -57,6 +61,11 @@ class RowSmoother {
         k = next;
       }
     }
+    const auto is_alike = [own = Numbers(samples.front().numbers)](const Sample& s) {
+      return (s.numbers - own).segment<2>(1).norm() < other_face;
+    };
+    const auto alike = static_cast<std::size_t>(std::ranges::count_if(samples, is_alike));
+    if (alike >= std::max<std::size_t>(2, samples.size() / 3)) std::erase_if(samples, std::not_fn(is_alike));
     return samples;
   }
 

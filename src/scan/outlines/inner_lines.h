@@ -1,0 +1,16 @@
+// Lines inside a surface along which it bends or steps within a sampling distance: eyelids, lips, hems, creases.
+// Tested by tests/scan/inner_lines_test.cpp.
+#pragma once
+
+#include <vector>
+
+#include "scan/outlines/outlines.h"
+
+namespace relievo {
+
+// Adds inner lines to the outlines of a surface, as jumps with the higher side on their left. Jumps that end
+// inside the surface are continued for as long as the surface bends or steps. No line comes nearer than 0.8
+// rho to another outline. New lines shorter than 8 rho are left out.
+void add_inner_lines(const Surface& surface, const PlanePoints& plane, std::vector<OutlineCurve>& outlines);
+
+}  // namespace relievo
