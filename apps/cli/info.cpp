@@ -93,6 +93,7 @@ Result<void> scene_info(const std::vector<std::string>& inputs) {
     print_line("format", file.format);
     print_line("points", points_text(file));
     if (!file.mesh.empty()) print_line("triangles", cat(file.mesh.triangles.size()));
+    for (const std::string& remark : file.remarks) print_line("note", remark);
     print_line("scale", cat(places[i].scale));
     print_line("from", vector_text(box.min));
     print_line("to", vector_text(box.max));
@@ -110,6 +111,7 @@ Result<void> info(const std::vector<std::string>& inputs) {
   print_line("format", file.format);
   print_line("points", points_text(file));
   if (!file.mesh.empty()) print_line("triangles", cat(file.mesh.triangles.size()));
+  for (const std::string& remark : file.remarks) print_line("note", remark);
   print_line("normals", normals_text(file.cloud));
   print_line("from", vector_text(box.min));
   print_line("to", vector_text(box.max));

@@ -36,6 +36,7 @@ std::vector<std::string> remarks_on(const CloudFile& file, const std::string& pa
   if (file.unmeasured_points > 0)
     lines.push_back(cat(path, ": left out ", file.unmeasured_points,
                         " points at 0, 0, 0, as devices write what they have not measured"));
+  for (const std::string& remark : file.remarks) lines.push_back(cat(path, ": ", remark));
   // A mesh keeps its points, even with unusable normals.
   if (file.dropped_normals > 0 && file.mesh.empty())
     lines.push_back(cat(path, ": left out ", file.dropped_normals,
@@ -108,6 +109,7 @@ Result<std::optional<SceneModel>> read_large(const std::string& path, const Inpu
   SceneModel input{path, nullptr};
   input.remarks.push_back(
       cat(path, ": ", streamed.cloud.size(), " points for the ", streamed.input_points, " of the file"));
+  for (const std::string& remark : streamed.remarks) input.remarks.push_back(cat(path, ": ", remark));
   if (streamed.missing_points > 0) input.remarks.push_back(remark_on_missing(path, streamed.missing_points));
   if (streamed.ignored_faces > 0)
     input.remarks.push_back(

@@ -4,6 +4,7 @@
 
 #include "io/pictures.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo {
 namespace io {
@@ -28,6 +29,10 @@ bool has_control_bytes(std::string_view bytes) {
 bool has_ending(std::string_view name, std::string_view ending) {
   return name.size() >= ending.size() &&
          equals_ignoring_case(name.substr(name.size() - ending.size()), ending);
+}
+
+std::string remark_on_left_out(std::uint64_t points, std::string_view which) {
+  return cat("left out ", points, points == 1 ? " point " : " points ", which);
 }
 
 std::string foreign_format(const Source& source) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "io/readers.h"
 #include "relievo/core/parallel.h"
@@ -44,6 +45,9 @@ void decode_block(const Records& records, const char* first, std::size_t rows, C
   Values v;
   decode_columns(records, records.position, first, rows, v);
   for (std::size_t i = 0; i < rows; ++i) cloud.points[begin + i] = Vec3(v[0][i], v[1][i], v[2][i]);
+  for (std::size_t i = 0; records.left_out && i < rows; ++i)
+    if (records.left_out->is_left_out(first + i * records.stride))
+      cloud.points[begin + i].setConstant(std::numeric_limits<double>::quiet_NaN());
   if (records.normal) {
     decode_columns(records, *records.normal, first, rows, v);
     for (std::size_t i = 0; i < rows; ++i)
@@ -83,6 +87,17 @@ void decode_rows(const Records& records, const char* first, std::size_t rows, Cl
                  std::size_t begin) {
   for (std::size_t done = 0; done < rows; done += block)
     decode_block(records, first + done * records.stride, std::min(block, rows - done), cloud, begin + done);
+}
+
+std::size_t count_left_out(const Records& records, const char* first, std::size_t rows) {
+  if (!records.left_out) return 0;
+  const auto count = [&](std::size_t begin, std::size_t end) {
+    std::size_t found = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      found += records.left_out->is_left_out(first + i * records.stride) ? 1 : 0;
+    return found;
+  };
+  return parallel_reduce(rows, std::size_t{0}, count, std::plus<>());
 }
 
 Cloud decode_all(const Records& records, const char* first) {

@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 
 #include "relievo/scan/cloud.h"
@@ -50,6 +52,12 @@ struct RecordColumn {
   double scale = 1, shift = 0;  // the value is scale * number + shift
 };
 
+// States which rows are points that do not count, as the file itself says.
+struct LeftOutRows {
+  std::function<bool(const char* row)> is_left_out;
+  std::string_view which;  // for people: "that the file marks as noise"
+};
+
 struct Records {
   std::uint64_t offset = 0;  // offset of the first row in the file
   std::uint64_t count = 0;   // number of rows
@@ -57,6 +65,7 @@ struct Records {
   bool is_big_endian = false;
   std::array<RecordColumn, 3> position;
   std::optional<std::array<RecordColumn, 3>> normal, colour;  // colours scaled to [0, 255]
+  std::optional<LeftOutRows> left_out;                        // the points of these rows become NaN
 };
 
 // The rows of a file that can be read piece by piece.
@@ -76,6 +85,9 @@ Cloud sized_cloud(const Records& records, std::size_t points);
 // unit_normal() returns them.
 void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
                  std::size_t begin);
+
+// Returns the number of rows whose points do not count.
+std::size_t count_left_out(const Records& records, const char* first, std::size_t rows);
 
 // Decodes all rows, which start at `first`, concurrently.
 Cloud decode_all(const Records& records, const char* first);

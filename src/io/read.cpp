@@ -61,10 +61,11 @@ void drop_unusable(CloudFile& file) {
     return is_finite(i) && (file.unmeasured_points == 0 || !cloud.points[i].isZero(0));
   };
   const auto has_normal = [&](std::size_t i) { return !cloud.has_normals() || !cloud.normals[i].isZero(0); };
-  file.dropped_points = count_points(cloud.size(), [&](std::size_t i) { return !is_finite(i); });
+  const std::size_t not_finite = count_points(cloud.size(), [&](std::size_t i) { return !is_finite(i); });
+  file.dropped_points = not_finite - std::min(not_finite, file.left_out_points);
   file.dropped_normals =
       count_points(cloud.size(), [&](std::size_t i) { return is_place(i) && !has_normal(i); });
-  const std::size_t no_places = file.dropped_points + file.unmeasured_points;
+  const std::size_t no_places = not_finite + file.unmeasured_points;
   if (file.dropped_normals > (cloud.size() - no_places) / 2) cloud.normals.clear();
   if (no_places + file.dropped_normals == 0) return;
   std::vector<std::uint8_t> is_usable(cloud.size());
@@ -128,12 +129,15 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
   CloudFile file{.cloud = std::move(raw.cloud),
                  .format = std::move(raw.format),
                  .missing_points = raw.missing_points,
+                 .left_out_points = raw.left_out_points,
+                 .remarks = std::move(raw.remarks),
                  .mesh = std::move(raw.mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
   if (file.cloud.points.empty()) {
-    return source.error({}, points == 0
-                                ? "expected points, found none"
+    return source.error({}, points == 0 ? "expected points, found none"
+                            : file.left_out_points > 0
+                                ? cat("expected points that count, found none: ", file.remarks[0])
                                 : cat("expected points, found none with finite coordinates among ", points));
   }
   return file;

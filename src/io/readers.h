@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/text.h"
 #include "relievo/io/read.h"
@@ -53,12 +55,24 @@ class SourceLines : public Lines {
   const Source& source_;
 };
 
+// Returns "left out 40 points that the file marks as noise".
+std::string remark_on_left_out(std::uint64_t points, std::string_view which);
+
 // The content of a file before unusable points are removed.
 struct RawCloud {
   Cloud cloud;         // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
   std::string format;  // shown to people
   Mesh mesh = {};      // a copy of the same points with the file's triangles; empty if it has none
-  std::size_t missing_points = 0;  // points that are missing because the file ends early
+  std::size_t missing_points = 0;         // points that are missing because the file ends early
+  std::size_t left_out_points = 0;        // points that do not count, which leave_out() counts; they are NaN
+  std::vector<std::string> remarks = {};  // as in CloudFile
+
+  // Counts points that the file says do not count, and says so.
+  void leave_out(std::size_t points, std::string_view which) {
+    if (points == 0) return;
+    left_out_points += points;
+    remarks.push_back(remark_on_left_out(points, which));
+  }
 };
 
 // Returns true if the first 4,096 bytes contain a control character that does not occur in text.

@@ -25,6 +25,12 @@ class Rows {
 
   const io::Records& records() const { return records_; }
 
+  // Returns the number of rows last read whose points do not count.
+  std::size_t left_out() const {
+    return io::count_left_out(records_, reinterpret_cast<const char*>(bytes_.data()),
+                              bytes_.size() / records_.stride);
+  }
+
   // Decodes `count` rows from row `first` on.
   Result<void> read(std::uint64_t first, std::size_t count, Cloud& to) {
     bytes_.resize(count * records_.stride);
@@ -284,7 +290,11 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
   const Scout scouted = scout(sample);
   ViewGrid front(view, scouted, found.records.normal.has_value(), found.records.colour.has_value());
 
-  RELIEVO_CHECK(rows.each("extent", 0, .2, progress, [&](const Cloud& piece) { front.look(piece); }));
+  std::uint64_t left_out = 0;
+  RELIEVO_CHECK(rows.each("extent", 0, .2, progress, [&](const Cloud& piece) {
+    front.look(piece);
+    left_out += rows.left_out();
+  }));
   if (front.points() == 0)
     return geometry_error("expected points that face the viewer, found none; try another view");
   if (!front.lay_grid(sample, points))
@@ -292,7 +302,10 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
         cat("expected points that cover an area in the view, found an extent of ", front.extent()));
   RELIEVO_CHECK(rows.each("front", .2, .4, progress, [&](const Cloud& piece) { front.raise(piece); }));
   RELIEVO_CHECK(rows.each("means", .4, .6, progress, [&](const Cloud& piece) { front.gather(piece); }));
-  return StreamedCloud{front.means(), found.format, found.records.count, found.faces, found.missing_rows};
+  StreamedCloud streamed{front.means(), found.format, found.records.count, found.faces, found.missing_rows};
+  if (left_out > 0)
+    streamed.remarks.push_back(io::remark_on_left_out(left_out, found.records.left_out->which));
+  return streamed;
 }
 
 }  // namespace relievo

@@ -122,6 +122,35 @@ TEST(Las, ColoursOfEightBitsStay) {
   EXPECT_EQ(read(file, "scan")->cloud.colours, (std::vector<Colour>{{200, 0, 0}, {0, 0, 255}}));
 }
 
+// Up to format 5, a byte has five bits of class and the bit of withheld points; later formats have two bytes.
+TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
+  const std::size_t old_record = 227 + 15, new_record = 375 + 15;
+  const std::vector<std::string> files = {
+      patched(las(), old_record, std::uint8_t{7}), patched(las(), old_record, std::uint8_t{0x60 + 18}),
+      patched(las(), old_record, std::uint8_t{0x80}), patched(las(4), new_record, std::uint8_t{4}),
+      patched(las(4), new_record + 1, std::uint8_t{18})};
+  for (const std::string& text : files) {
+    const auto file = file_of(text, "a.las");
+    EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1e6 + .5, 2e6 + .25, 99}}));
+    EXPECT_EQ(file.left_out_points, 1U);
+    EXPECT_EQ(file.dropped_points, 0U);
+    EXPECT_EQ(file.remarks[0],
+              "left out 1 point that the file marks as noise (classes 7 and 18) or withheld");
+  }
+  // Flags of other kinds, and classes of 32 and more, whose low bits look like noise, change nothing.
+  for (const std::string& text :
+       {patched(las(), old_record, std::uint8_t{0x62}), patched(las(4), new_record, std::uint8_t{0xCB}),
+        patched(las(4), new_record + 1, std::uint8_t{39})}) {
+    EXPECT_EQ(file_of(text, "a.las").cloud.size(), 2U);
+    EXPECT_TRUE(file_of(text, "a.las").remarks.empty());
+  }
+  const std::string none =
+      patched(patched(las(), old_record, std::uint8_t{7}), old_record + 26, std::uint8_t{7});
+  EXPECT_EQ(message_of(none, "a.las"),
+            "a.las: expected points that count, found none: left out 2 points that the file marks as noise "
+            "(classes 7 and 18) or withheld");
+}
+
 TEST(Las, IsReadUpToItsEnd) {
   const std::string good = las();
   EXPECT_EQ(read(good, "a.las")->missing_points, 0U);

@@ -83,7 +83,7 @@ TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
 
 // Returns the number of points in the file, including those left out for lack of coordinates or normals.
 std::size_t all_points(const CloudFile& file) {
-  return file.cloud.size() + file.dropped_points + file.unmeasured_points +
+  return file.cloud.size() + file.dropped_points + file.left_out_points + file.unmeasured_points +
          (file.cloud.has_normals() ? file.dropped_normals : 0);
 }
 

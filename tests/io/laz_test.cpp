@@ -54,6 +54,34 @@ TEST(Laz, ChunksOfDifferentSizesAreRead) {
   }
 }
 
+// A chunk size of 0 means the same as 2^32 - 1: the table has the number of points of each chunk.
+TEST(Laz, ChunksOfSizeZeroAreOfAnySize) {
+  const std::string file = laz({any_points(3, 1), any_points(700, 2)}, true);
+  EXPECT_EQ(file_of(patched(file, 429 + 12, std::uint32_t{0}), "a").cloud.points,
+            file_of(file, "a").cloud.points);
+}
+
+TEST(Laz, NoiseAndWithheldPointsAreLeftOut) {
+  std::mt19937 random(5);
+  std::vector<LazTestClass> classes;
+  for (int i = 0; i < 500; ++i)
+    classes.push_back({std::array{2U, 6U, 7U, 18U}[random() % 4], random() % 5 == 0});
+  const auto points = any_points(500, 4);
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (classes[i].number < 7 && !classes[i].is_withheld)
+      kept.emplace_back(points[i][0], points[i][1], points[i][2]);
+  for (const bool is_layered : {false, true}) {
+    const auto file = file_of(laz({points}, is_layered, classes), "a");
+    EXPECT_EQ(file.cloud.points, kept) << is_layered;
+    EXPECT_EQ(file.left_out_points, 500 - kept.size());
+    EXPECT_EQ(file.dropped_points, 0U);
+    EXPECT_EQ(file.remarks, (std::vector<std::string>{cat("left out ", 500 - kept.size(),
+                                                          " points that the file "
+                                                          "marks as noise (classes 7 and 18) or withheld")}));
+  }
+}
+
 // Writes points of several scanners, all at one place and with grey colours, as versions 3 and 4 of LASzip
 // do.
 class ScannerLayers {
@@ -128,7 +156,7 @@ TEST(Laz, ColoursOfSeveralScannersComeBack) {
     first[14] = '\x11';
     first[15] = '\x30';
     const std::string grey = raw(points[0].second) + raw(points[0].second) + raw(points[0].second);
-    io::LayeredPoint point({xy, {}, colours, is_version_3}, first.data(), grey.data());
+    io::LayeredPoint point({xy, {}, {}, {}, colours, is_version_3}, first.data(), grey.data());
     for (std::size_t i = 1; i < points.size(); ++i) {
       point.next();
       const std::uint16_t expected = points[i].second;

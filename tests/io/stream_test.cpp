@@ -176,6 +176,14 @@ TEST(StreamFront, ReadsLas) {
   const StreamedCloud it = streamed(bytes_of(file), front, 2000);
   EXPECT_EQ(it.format, "LAS");
   EXPECT_EQ(it.missing_points + it.ignored_faces, 0U);
+  EXPECT_TRUE(it.remarks.empty());
+  // Noise far in front of the sphere would hide it.
+  std::string noise(26, '\0');
+  noise = patched(patched(noise, 8, std::int32_t{8000}), 15, std::uint8_t{7});
+  const std::string with_noise = patched(file, 107, static_cast<std::uint32_t>(sphere.size() + 1)) + noise;
+  const StreamedCloud clean = streamed(bytes_of(with_noise), front, 2000);
+  EXPECT_EQ(clean.cloud.points, it.cloud.points);
+  EXPECT_EQ(clean.remarks[0], "left out 1 point that the file marks as noise (classes 7 and 18) or withheld");
   const StreamedCloud cut = streamed(bytes_of(file.substr(0, file.size() - 26 * 1000 - 5)), front, 2000);
   EXPECT_EQ(cut.missing_points, 1001U);
   EXPECT_EQ(cut.input_points, sphere.size() - 1001);

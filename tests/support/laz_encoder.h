@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -125,21 +126,44 @@ class LazTestIntegers {
 
 using LazTestPoint = std::array<std::int32_t, 3>;
 
+struct LazTestClass {
+  std::uint32_t number = 0;
+  bool is_withheld = false;
+
+  std::uint32_t in_one_byte() const { return number | (is_withheld ? 128U : 0U); }
+  std::uint32_t flags() const { return is_withheld ? 4 : 0; }
+};
+
 // Returns a chunk of points with one return each. Steps in x and y are predicted by medians of earlier steps.
 // The medians stay 0, because every step must be 0 or more, and every other step 0. Each z is predicted by
-// the z before it.
-inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered) {
+// the z before it. Point i has the class i; there may be fewer classes than points.
+inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered,
+                             std::vector<LazTestClass> classes = {}) {
+  classes.resize(points.size());
   std::string first;
   for (const std::int32_t value : points[0]) first += raw(value);
-  first += std::string(2, '\0') + (is_layered ? std::string("\x11", 1) + std::string(15, '\0')
-                                              : std::string("\x09", 1) + std::string(5, '\0'));
-  LazTestEncoder main, heights;
+  const auto byte = [](std::uint32_t value) { return std::string(1, static_cast<char>(value)); };
+  first +=
+      std::string(2, '\0') +
+      (is_layered ? byte(0x11) + byte(classes[0].flags()) + byte(classes[0].number) + std::string(13, '\0')
+                  : byte(9) + byte(classes[0].in_one_byte()) + std::string(4, '\0'));
+  LazTestEncoder main, heights, class_layer, flag_layer;
+  std::map<std::uint32_t, LazTestModel> class_models, flag_models;
   LazTestEncoder& z_encoder = is_layered ? heights : main;
   LazTestModel changes(is_layered ? 128 : 64);
   LazTestIntegers x(2), y(22), z(20);
   std::int32_t z_before = is_layered ? points[0][2] : 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    main.symbol(changes, 0);
+    const LazTestClass &now = classes[i], &before = classes[i - 1];
+    const bool has_change = !is_layered && now.in_one_byte() != before.in_one_byte();
+    main.symbol(changes, has_change ? 8 : 0);
+    const auto write = [](LazTestEncoder& to, auto& models, std::uint32_t context, LazTestModel fresh,
+                          std::uint32_t symbol) {
+      to.symbol(models.try_emplace(context, fresh).first->second, symbol);
+    };
+    if (has_change) write(main, class_models, before.in_one_byte(), LazTestModel(256), now.in_one_byte());
+    write(class_layer, class_models, before.number + 256, LazTestModel(256), now.number);
+    write(flag_layer, flag_models, before.flags(), LazTestModel(64), now.flags());
     x.write(main, points[i][0] - points[i - 1][0], 1);
     y.write(main, points[i][1] - points[i - 1][1], 1 + (x.last_bits < 20 ? x.last_bits & ~1U : 20));
     const std::uint32_t bits = (x.last_bits + y.last_bits) / 2;
@@ -149,8 +173,9 @@ inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_la
   if (!is_layered) return first + main.take();
   const std::string xy = main.take(), z_bytes = heights.take();
   const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
-  return first + size(points.size()) + size(xy.size()) + size(z_bytes.size()) + std::string(28, '\0') + xy +
-         z_bytes;
+  const std::string class_bytes = class_layer.take(), flag_bytes = flag_layer.take();
+  return first + size(points.size()) + size(xy.size()) + size(z_bytes.size()) + size(class_bytes.size()) +
+         size(flag_bytes.size()) + std::string(20, '\0') + xy + z_bytes + class_bytes + flag_bytes;
 }
 
 // Returns points as laz_chunk() needs them: every other step in x and y is 0.
@@ -170,15 +195,16 @@ inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
 }
 
 // Returns a LAZ file with chunks of any sizes. The point format is 0, or 6 if the chunks are layered.
-// Coordinates are whole numbers.
-inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, bool is_layered) {
+// Coordinates are whole numbers. Point i of each chunk has class i.
+inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, bool is_layered,
+                       const std::vector<LazTestClass>& classes = {}) {
   std::string file(375, '\0'), data;
   LazTestEncoder table;
   LazTestIntegers numbers(2);
   std::uint32_t count = 0;
   std::int32_t points_before = 0, bytes_before = 0;
   for (const auto& points : chunks) {
-    const std::string chunk = laz_chunk(points, is_layered);
+    const std::string chunk = laz_chunk(points, is_layered, classes);
     const auto here = static_cast<std::int32_t>(points.size()),
                bytes = static_cast<std::int32_t>(chunk.size());
     numbers.write(table, here - points_before, 0);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "relievo/core/progress.h"
 #include "relievo/io/read.h"
@@ -30,11 +31,12 @@ class ByteSource {
 
 // A large cloud after its reduction.
 struct StreamedCloud {
-  Cloud cloud;                       // points in the frame of the file
-  std::string format;                // name of the format, for people
-  std::uint64_t input_points = 0;    // number of points in the file
-  std::uint64_t ignored_faces = 0;   // faces of the file, which are not read
-  std::uint64_t missing_points = 0;  // points missing because the file ends early
+  Cloud cloud;                            // points in the frame of the file
+  std::string format;                     // name of the format, for people
+  std::uint64_t input_points = 0;         // number of points in the file
+  std::uint64_t ignored_faces = 0;        // faces of the file, which are not read
+  std::uint64_t missing_points = 0;       // points missing because the file ends early
+  std::vector<std::string> remarks = {};  // what of the file is left out, as in CloudFile
 };
 
 // Returns true if stream_front() reads the file that begins with these bytes: binary PLY without lists in the

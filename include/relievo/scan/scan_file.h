@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/mesh.h"
@@ -20,7 +21,11 @@ struct CloudFile {
   // too, unless they are the majority: then all points are kept and the cloud has no normals.
   std::size_t dropped_normals = 0;
   std::size_t missing_points = 0;  // promised by the header, but missing because the file ends early
-  Mesh mesh = {};                  // the file's faces, with points of their own; empty if it has none
+  // Number of points removed because the file itself says that they do not count, such as noise in LAS.
+  std::size_t left_out_points = 0;
+  std::vector<std::string> remarks =
+      {};          // what of the file is left out, for people: "left out 40 points ..."
+  Mesh mesh = {};  // the file's faces, with points of their own; empty if it has none
 };
 
 }  // namespace relievo

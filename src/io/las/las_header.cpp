@@ -33,6 +33,7 @@ class LasHeaderReader {
     take_colours();
     header_.minor = at<std::uint8_t>(25);
     header_.variable_records = at<std::uint32_t>(100);
+    take_classes();
     return header_;
   }
 
@@ -95,6 +96,19 @@ class LasHeaderReader {
     return {};
   }
 
+  // Up to format 5, the class shares a byte with the flags; later formats have two bytes.
+  void take_classes() {
+    const auto in_one_byte = [](const char* row) {
+      const auto byte = little<std::uint8_t>(row + 15);
+      return is_left_out(byte & 31U, (byte & 128U) != 0);
+    };
+    const auto in_two_bytes = [](const char* row) {
+      return is_left_out(little<std::uint8_t>(row + 16), (little<std::uint8_t>(row + 15) & 4U) != 0);
+    };
+    records_.left_out.emplace(format_ < 6 ? LeftOutRows{in_one_byte, what_las_leaves_out}
+                                          : LeftOutRows{in_two_bytes, what_las_leaves_out});
+  }
+
   // Finds the columns and the range of colours. Colours should have 16 bits, but some programs write 8 bits.
   void take_colours() {
     const std::size_t place = colour_places[format_];
@@ -144,7 +158,9 @@ Result<RawCloud> read_las(const Source& source) {
   if (promised > 0 && records.count == 0)
     return source.error_at_byte(records.offset, cat("expected ", promised, " points of ", records.stride,
                                                     " bytes, found room for 0"));
-  RawCloud raw{decode_all(records, source.bytes.data() + records.offset), cat("LAS 1.", header.minor)};
+  const char* const rows = source.bytes.data() + std::min<std::size_t>(source.bytes.size(), records.offset);
+  RawCloud raw{decode_all(records, rows), cat("LAS 1.", header.minor)};
+  raw.leave_out(count_left_out(records, rows, records.count), records.left_out->which);
   raw.missing_points = promised - records.count;
   return raw;
 }

@@ -1,6 +1,8 @@
 // Reads the header of LAS and LAZ files.
 #pragma once
 
+#include <string_view>
+
 #include "io/numbers.h"
 #include "io/readers.h"
 
@@ -14,6 +16,13 @@ struct LasHeader {
   std::size_t header_size = 0;  // in bytes; variable-length records follow
   std::size_t variable_records = 0;
 };
+
+// Noise, low and high, and points that the file marks as withheld, which a reader should treat as deleted.
+constexpr std::string_view what_las_leaves_out =
+    "that the file marks as noise (classes 7 and 18) or withheld";
+constexpr bool is_left_out(unsigned classification, bool is_withheld) {
+  return classification == 7 || classification == 18 || is_withheld;
+}
 
 // Reads the header. If the points are not compressed, the first ones show whether colours have 8 or 16 bits.
 Result<LasHeader> read_las_header(const Source& source);

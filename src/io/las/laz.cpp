@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,7 @@ struct LazLayout {
 };
 
 constexpr std::size_t record_header = 54;   // size of the header of a variable-length record
-constexpr std::uint32_t chunks_vary = ~0U;  // stored instead of the points per chunk if these vary
+constexpr std::uint32_t chunks_vary = ~0U;  // stored instead of the points per chunk if these vary; or 0
 constexpr std::uint64_t most_points_a_byte =
     256;  // limit; 40 points per byte were measured for a row at equal steps
 
@@ -101,6 +102,7 @@ class LayoutReader {
                                    cat("expected a record of 34 bytes or more, found ", record_size_));
     compressor_ = at<std::uint16_t>(record_);
     chunk_size_ = at<std::uint32_t>(record_ + 12);
+    if (chunk_size_ == 0) chunk_size_ = chunks_vary;
     const std::size_t count = at<std::uint16_t>(record_ + 32);
     if (compressor_ < 1 || compressor_ > 3 || at<std::uint16_t>(record_ + 2) != 0)
       return source_.error_at_byte(record_, cat("expected a compressor from 1 to 3, found ", compressor_));
@@ -190,12 +192,18 @@ class LayoutReader {
 struct LazPoints {
   const Records& records;
   Cloud& cloud;
-  std::vector<LazColour>& colours;  // empty, or one per point
+  std::vector<LazColour>& colours;     // empty, or one per point
+  std::atomic<std::size_t>& left_out;  // number of points that do not count
 
-  void set(std::size_t i, const std::array<std::int32_t, 3>& position) const {
+  // Sets the point, to NaN if it does not count.
+  template <typename Point>
+  void set(std::size_t i, const Point& point) const {
+    const bool counts = !is_left_out(point.classification(), point.is_withheld());
+    if (!counts) ++left_out;
     for (std::size_t c = 0; c < 3; ++c)
       cloud.points[i][static_cast<Eigen::Index>(c)] =
-          records.position[c].scale * position[c] + records.position[c].shift;
+          counts ? records.position[c].scale * point.position()[c] + records.position[c].shift
+                 : std::numeric_limits<double>::quiet_NaN();
   }
 };
 
@@ -235,7 +243,7 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   for (std::uint64_t i = 0; i < chunk.points; ++i) {
     if (i > 0)
       for (PointItem* const item : items) item->next(decoder);
-    to.set(chunk.first_point + i, position->position());
+    to.set(chunk.first_point + i, *position);
     if (!to.colours.empty()) to.colours[chunk.first_point + i] = colour->colour();
     if (decoder.is_beyond_end()) return false;
   }
@@ -282,6 +290,8 @@ std::optional<PointLayers> find_layers(const LazLayout& layout, const LazChunk& 
     if (!layer) return std::nullopt;
     if (i == 0) layers.xy = *layer;
     if (i == 1) layers.z = *layer;
+    if (i == 2) layers.classes = *layer;
+    if (i == 3) layers.flags = *layer;
   }
   if (layout.items.size() < 2) return layers;
   const LazItem& second = layout.items[1];
@@ -302,7 +312,7 @@ bool decode_layers(const LazLayout& layout, const LazChunk& chunk, const LazPoin
       *layers, first, to.colours.empty() ? nullptr : first + layout.items[0].size);
   for (std::uint64_t i = 0; i < chunk.points; ++i) {
     if (i > 0) point->next();
-    to.set(chunk.first_point + i, point->position());
+    to.set(chunk.first_point + i, *point);
     if (!to.colours.empty()) to.colours[chunk.first_point + i] = point->colour();
     if (point->is_beyond_end()) return false;
   }
@@ -345,7 +355,8 @@ Result<RawCloud> read_laz(const Source& source) {
   raw.format = cat("LAZ 1.", header.minor);
   std::vector<LazColour> colours(has_colours(layout) ? header.records.count : 0);
   raw.cloud.points.resize(header.records.count);
-  const LazPoints points{header.records, raw.cloud, colours};
+  std::atomic<std::size_t> left_out = 0;
+  const LazPoints points{header.records, raw.cloud, colours, left_out};
   std::atomic<std::size_t> damaged = layout.chunks.size();
   parallel_for(
       layout.chunks.size(),
@@ -364,6 +375,7 @@ Result<RawCloud> read_laz(const Source& source) {
                                     layout.chunks.size(), ", found the end of the chunk"));
   }
   if (!colours.empty()) set_colours(raw.cloud, colours);
+  raw.leave_out(left_out, what_las_leaves_out);
   return raw;
 }
 

@@ -36,8 +36,9 @@ constexpr std::array<std::string_view, 16> layered_return_contexts = {
 
 constexpr std::uint32_t changes_scanner_bit = 64;  // set in `changes` if the scanner differs
 
-std::uint32_t symbol_of(std::optional<SymbolModel>& model, ArithmeticDecoder& decoder) {
-  if (!model) model.emplace(16);
+std::uint32_t symbol_of(std::optional<SymbolModel>& model, ArithmeticDecoder& decoder,
+                        std::uint32_t symbols = 16) {
+  if (!model) model.emplace(symbols);
   return decoder.symbol(*model);
 }
 
@@ -216,11 +217,16 @@ LayeredPoint::LayeredPoint(const PointLayers& layers, const char* first, const c
       are_colours_mixed_(layers.are_colours_mixed),
       channel_(little<std::uint8_t>(first + 15) >> 4 & 3) {
   if (!layers.z.empty()) z_.emplace(layers.z);
+  if (!layers.classes.empty()) classes_.emplace(layers.classes);
+  if (!layers.flags.empty()) flags_.emplace(layers.flags);
   if (!layers.colours.empty()) colours_.emplace(layers.colours);
   auto start = std::make_unique<Channel>();
   for (std::size_t i = 0; i < 3; ++i) start->position[i] = little<std::int32_t>(first + 4 * i);
   start->return_number = little<std::uint8_t>(first + 14) & 15;
   start->return_count = little<std::uint8_t>(first + 14) >> 4;
+  const std::uint32_t flags = little<std::uint8_t>(first + 15);
+  start->flags = (flags & 15U) | (flags >> 6 << 4);  // without the number of the scanner
+  start->classification = little<std::uint8_t>(first + 16);
   start->heights.fill(start->position[2]);
   channels_[channel_] = std::move(start);
   if (!colour) return;
@@ -243,6 +249,8 @@ std::uint32_t LayeredPoint::decode_changes() {
   made->position = last.position;
   made->return_number = last.return_number;
   made->return_count = last.return_count;
+  made->classification = last.classification;
+  made->flags = last.flags;
   made->heights.fill(last.position[2]);
   channels_[channel_] = std::move(made);
   return changes;
@@ -282,6 +290,13 @@ void LayeredPoint::decode_position(Channel& channel) {
   channel.heights[level] = p[2];
 }
 
+void LayeredPoint::decode_class(Channel& channel) {
+  const bool is_single = channel.return_number == 1 && channel.return_number >= channel.return_count;
+  const std::size_t context = 2 * (channel.classification & 31U) + (is_single ? 1 : 0);
+  if (classes_) channel.classification = symbol_of(channel.classes[context], *classes_, 256);
+  if (flags_) channel.flags = symbol_of(channel.flag_sets[channel.flags], *flags_, 64);
+}
+
 // Writers of version 3 store a point's colour under scanner 0 unless the scanner changes with this point. If
 // the new scanner already had colours, they store the difference to the last colour of the previous scanner,
 // and this last colour is then replaced.
@@ -304,6 +319,7 @@ void LayeredPoint::next() {
   Channel& channel = *channels_[channel_];
   decode_returns(channel, changes);
   decode_position(channel);
+  decode_class(channel);
   if (colour_channels_[colour_channel_]) decode_colour((changes & changes_scanner_bit) != 0);
 }
 

@@ -61,6 +61,8 @@ class PositionItem : public PointItem {
   void start(const char* raw) override;
   void next(ArithmeticDecoder& decoder) override;
   const std::array<std::int32_t, 3>& position() const { return position_; }
+  unsigned classification() const { return classification_ & 31U; }
+  bool is_withheld() const { return (classification_ & 128U) != 0; }
 
  private:
   // Models for a byte that changes: one for each previous value.
@@ -141,10 +143,10 @@ class ExtraBytesItem : public PointItem {
 // Points of the formats 6 to 10: coordinates and colours of a chunk are in separate layers, each with its own
 // decoder. Unused layers are skipped.
 
-// The layers that are read. The layer of z or of colours is empty if the whole chunk has the value of its
-// first point.
+// The layers that are read. A layer other than that of x and y is empty if the whole chunk has the value of
+// its first point.
 struct PointLayers {
-  std::string_view xy, z, colours;
+  std::string_view xy, z, classes, flags, colours;
   // In version 3, some colours of a scanner are stored as differences to another scanner's; later versions
   // have corrected this.
   bool are_colours_mixed = false;
@@ -157,9 +159,13 @@ class LayeredPoint {
   void next();
 
   const std::array<std::int32_t, 3>& position() const { return channels_[channel_]->position; }
+  unsigned classification() const { return channels_[channel_]->classification; }
+  bool is_withheld() const { return (channels_[channel_]->flags & 4U) != 0; }
   const LazColour& colour() const { return colour_; }
   bool is_beyond_end() const {
-    return xy_.is_beyond_end() || (z_ && z_->is_beyond_end()) || (colours_ && colours_->is_beyond_end());
+    const auto is_beyond = [](const auto& layer) { return layer && layer->is_beyond_end(); };
+    return xy_.is_beyond_end() || is_beyond(z_) || is_beyond(classes_) || is_beyond(flags_) ||
+           is_beyond(colours_);
   }
 
  private:
@@ -167,12 +173,14 @@ class LayeredPoint {
   struct Channel {
     std::array<std::int32_t, 3> position{};
     std::uint32_t return_number = 0, return_count = 0;
+    std::uint32_t classification = 0, flags = 0;
     bool has_new_time = false;
     std::array<RunningMedian, 12> median_x, median_y;
     std::array<std::int32_t, 8> heights{};
     std::vector<SymbolModel> changes{8, SymbolModel(128)};
     SymbolModel channel_step{3}, return_step{13};
     std::array<std::optional<SymbolModel>, 16> return_counts, return_numbers;
+    std::array<std::optional<SymbolModel>, 64> classes, flag_sets;
     IntegerDecoder x{32, 2}, y{32, 22}, z{32, 20};
   };
   struct ColourChannel {
@@ -183,10 +191,11 @@ class LayeredPoint {
   std::uint32_t decode_changes();
   void decode_returns(Channel& channel, std::uint32_t changes);
   void decode_position(Channel& channel);
+  void decode_class(Channel& channel);
   void decode_colour(bool changes_scanner);
 
   ArithmeticDecoder xy_;
-  std::optional<ArithmeticDecoder> z_, colours_;
+  std::optional<ArithmeticDecoder> z_, classes_, flags_, colours_;
   bool are_colours_mixed_;
   std::size_t channel_ = 0, colour_channel_ = 0;
   std::array<std::unique_ptr<Channel>, 4> channels_;
