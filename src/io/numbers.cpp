@@ -70,6 +70,20 @@ std::uint8_t as_byte(double value) {
   return value > 0 ? static_cast<std::uint8_t>(std::min(255.0, std::round(value))) : std::uint8_t{0};
 }
 
+std::vector<Colour> colours_in_bytes(const std::vector<Vec3f>& values) {
+  float largest = 0;
+  for (const Vec3f& value : values) largest = std::max(largest, value.maxCoeff());
+  if (!(largest <= 65535)) return {};
+  const float scale = largest <= 1 ? 255.F : largest <= 255 ? 1.F : 1 / 257.F;
+  std::vector<Colour> colours(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const float value = std::clamp(scale * values[i][c], 0.F, 255.F);
+      colours[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(value));
+    }
+  return colours;
+}
+
 Decode decoder(NumberType type, bool is_big_endian) {
   const bool is_native = is_big_endian == (std::endian::native == std::endian::big);
   return is_native ? decoder<false>(type) : decoder<true>(type);

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "relievo/scan/cloud.h"
 
@@ -23,6 +24,10 @@ std::size_t size_in_bytes(NumberType type);
 
 // Returns the whole number from 0 to 255 that is nearest to the value; 0 for a NaN.
 std::uint8_t as_byte(double value);
+
+// Returns colours as bytes. The largest value determines their range: 1, 255 or 65535. Returns no colours if
+// the largest value exceeds 65535.
+std::vector<Colour> colours_in_bytes(const std::vector<Vec3f>& values);
 
 // Decodes `rows` values that are `stride` bytes apart.
 using Decode = void (*)(const char* first, std::size_t stride, std::size_t rows, double* values);

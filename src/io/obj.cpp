@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "io/formats.h"
+#include "io/numbers.h"
 #include "io/polygon.h"
 #include "relievo/core/text.h"
 
@@ -22,16 +23,26 @@ class ObjReader {
     while (next_line()) {
       Words words(before_comment(line_));
       const std::string_view keyword = words.next();
-      if (keyword == "v") RELIEVO_CHECK(take_vector(words, points_));
+      if (keyword == "v") RELIEVO_CHECK(take_vertex(words));
       if (keyword == "vn") RELIEVO_CHECK(take_vector(words, normals_));
       if (keyword == "f" || keyword == "fo") RELIEVO_CHECK(take_face(words));  // fo: an old name of f
+      if (keyword == "curv" || keyword == "curv2" || keyword == "surf") take_curve();
     }
     if (points_.empty()) return lines_.fail_at_end("lines 'v x y z'");
+    // The points of a file of curves alone only control them, and need not lie on them.
+    if (curves_ > 0 && corners_.empty())
+      return lines_.source().error_in_line(first_curve_line_,
+                                           "expected faces, found curves or surfaces, which are not read; "
+                                           "the CAD program that made them exports triangles, too");
     RELIEVO_CHECK(check_vertices());
     forget_missing_normals();
     std::vector<Vec3f> normals = point_normals();
     RawCloud raw{Cloud{std::move(points_), std::move(normals)}, "OBJ"};
+    add_colours(raw);
     add_mesh(raw);
+    if (curves_ > 0)
+      raw.remarks.push_back(
+          cat("left out ", curves_, " curves and surfaces (curv, surf), which are not read"));
     return raw;
   }
 
@@ -63,6 +74,23 @@ class ObjReader {
     }
     to.push_back(vector);
     return {};
+  }
+
+  // Reads a vertex with the colour that may follow its coordinates. A single number there is a weight.
+  Result<void> take_vertex(Words& words) {
+    RELIEVO_CHECK(take_vector(words, points_));
+    Vec3f colour;
+    for (float& value : colour) {
+      const auto number = parse_number(words.next());
+      if (!number) return {};
+      value = static_cast<float>(*number);
+    }
+    colours_.push_back(colour);
+    return {};
+  }
+
+  void take_curve() {
+    if (curves_++ == 0) first_curve_line_ = first_line_;
   }
 
   Result<void> take_face(Words& words) {
@@ -119,6 +147,14 @@ class ObjReader {
     return units;
   }
 
+  void add_colours(RawCloud& raw) const {
+    if (colours_.size() == raw.cloud.size())
+      raw.cloud.colours = colours_in_bytes(colours_);
+    else if (!colours_.empty())
+      raw.remarks.push_back(cat("left out the colours, which only ", colours_.size(), " of ",
+                                raw.cloud.size(), " vertices have"));
+  }
+
   // Adds the triangles of the faces. If the cloud has normals, a corner without a normal gets the normal of
   // its point.
   void add_mesh(RawCloud& raw) const {
@@ -130,6 +166,7 @@ class ObjReader {
     }
     if (raw.mesh.triangles.empty()) return;
     raw.mesh.points = raw.cloud.points;
+    raw.mesh.colours = raw.cloud.colours;
     for (Vec3& point : raw.mesh.points)
       if (!point.allFinite()) point = Vec3::Zero();  // no triangle uses it
   }
@@ -160,6 +197,8 @@ class ObjReader {
   std::string joined_;
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
+  std::vector<Vec3f> colours_;  // as in the file
+  std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // corners of all faces
   std::vector<std::size_t> face_ends_;  // index after the last corner of each face
   Index highest_vertex_ = 0;            // highest index in a face

@@ -11,28 +11,14 @@
 namespace relievo::io {
 namespace {
 
-// Returns colours as bytes. The largest value determines their range: 1, 255 or 65535. Returns no colours if
-// the largest value exceeds 65535.
-std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
-  float largest = 0;
-  for (const Vec3f& value : values) largest = std::max(largest, value.maxCoeff());
-  if (!(largest <= 65535)) return {};
-  const float scale = largest <= 1 ? 255.F : largest <= 255 ? 1.F : 1 / 257.F;
-  std::vector<Colour> colours(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const float value = std::clamp(scale * values[i][c], 0.F, 255.F);
-      colours[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(value));
-    }
-  return colours;
-}
-
 class XyzReader {
  public:
   XyzReader(const Source& source, const XyzLayout& layout)
       : layout_(layout),
         lines_(source, layout.data_offset, layout.first_line - 1),
-        slots_(layout.columns, XyzLayout::most_wanted) {
+        slots_(layout.columns, XyzLayout::most_wanted),
+        promised_(static_cast<std::size_t>(layout.promised_points.value_or(0))),
+        promising_line_(layout.promising_line) {
     const auto take_slots = [&](std::size_t first) {
       for (std::size_t i = first; i < first + 3; ++i) slots_[layout.wanted[i]] = i;
     };
@@ -46,13 +32,12 @@ class XyzReader {
       const std::string_view line = without_comment(*raw);
       if (line.empty()) continue;
       if (cloud_.points.empty()) make_room(lines_.source().bytes.size() / (line.size() + 1));
-      RELIEVO_CHECK(take(line));
+      if (!begins_block(line)) RELIEVO_CHECK(take(line));
     }
-    if (layout_.promised_points.value_or(0) > static_cast<std::int64_t>(cloud_.size()))
-      return lines_.fail_at_end(
-          cat(*layout_.promised_points, " points as line ", layout_.promising_line, " says"),
-          cat(" after ", cloud_.size()));
-    if (layout_.has_colours) cloud_.colours = in_bytes(colours_);
+    if (promised_ > cloud_.size())
+      return lines_.fail_at_end(cat(promised_ - before_block_, " points as line ", promising_line_, " says"),
+                                cat(" after ", cloud_.size() - before_block_));
+    if (layout_.has_colours) cloud_.colours = colours_in_bytes(colours_);
     return std::move(cloud_);
   }
 
@@ -61,6 +46,18 @@ class XyzReader {
     cloud_.points.reserve(points);
     if (layout_.has_normals) cloud_.normals.reserve(points);
     if (layout_.has_colours) colours_.reserve(points);
+  }
+
+  // Returns whether the line is the number of points of another scan, which may follow when the last scan has
+  // as many points as it promised. If so, begins that scan.
+  bool begins_block(std::string_view line) {
+    if (!layout_.promised_points || promised_ != cloud_.size()) return false;
+    const auto points = parse_integer(line);
+    if (!points || *points < 0 || *points >= std::int64_t{no_index}) return false;
+    before_block_ = promised_;
+    promised_ += static_cast<std::size_t>(*points);
+    promising_line_ = lines_.number();
+    return true;
   }
 
   Result<void> take(std::string_view line) {
@@ -88,6 +85,7 @@ class XyzReader {
   SourceLines lines_;
   std::vector<std::size_t> slots_;  // index in values_ of each column; most_wanted if it is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
+  std::size_t promised_, promising_line_, before_block_ = 0;  // points up to the end of this scan; before it
   Cloud cloud_;
   std::vector<Vec3f> colours_;  // as in the file
 };
@@ -98,7 +96,7 @@ std::string to_string(const XyzLayout& layout) {
                            : layout.has_colours                     ? " with colours"
                                                                     : "";
   return (layout.promised_points ? "PTS text, " : "XYZ text, ") + std::to_string(layout.columns) +
-         " columns" + with;
+         " columns" + with + (layout.has_scan_positions ? " after row and column" : "");
 }
 
 using Row = std::vector<double>;
@@ -192,6 +190,24 @@ bool are_colours(const std::vector<Row>& rows, std::size_t column) {
 // A test of three consecutive columns.
 using IsTriple = bool (*)(const std::vector<Row>&, std::size_t column);
 
+// Returns whether a scanner's row and column come before the coordinates: two columns of whole numbers before
+// three with fractions in most rows. Rows of three coordinates and a normal or a colour may look alike.
+bool has_scan_positions(const std::vector<Row>& rows, std::size_t columns) {
+  if (rows.empty() || columns < 5) return false;
+  if (columns >= 6 && (are_unit_vectors(rows, 3) || (columns == 6 && are_colours(rows, 3)))) return false;
+  const auto has_fraction = [](double value) { return value != std::trunc(value); };
+  for (std::size_t column = 0; column < 5; ++column) {
+    const auto fractions =
+        std::ranges::count_if(rows, [&](const Row& row) { return has_fraction(row[column]); });
+    const bool is_right =
+        column < 2
+            ? fractions == 0 && std::ranges::all_of(rows, [&](const Row& row) { return row[column] >= 0; })
+            : 2 * static_cast<std::size_t>(fractions) > rows.size();
+    if (!is_right) return false;
+  }
+  return true;
+}
+
 bool find_triple(const std::vector<Row>& rows, IsTriple is_triple, std::span<const std::size_t> candidates,
                  std::span<std::size_t> columns) {
   for (const std::size_t column : candidates) {
@@ -234,13 +250,14 @@ void take_columns(const ColumnNames& names, XyzLayout& layout) {
 }
 
 void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
-  if (layout.columns < 6 && !has_name) return;
+  if (layout.columns < 5 && !has_name) return;
   const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
   // If other rows begin with a number, the first column is not a name: a word in it replaces a missing
   // coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
-  const std::size_t first = is_named ? 1 : 0;
+  layout.has_scan_positions = !has_name && has_scan_positions(rows, layout.columns);
+  const std::size_t first = is_named ? 1 : layout.has_scan_positions ? 2 : 0;
   for (std::size_t i = 0; i < 3; ++i) layout.wanted[i] = first + i;
   std::vector<std::size_t> candidates;
   for (std::size_t column = first + 3; column + 3 <= layout.columns; ++column) candidates.push_back(column);

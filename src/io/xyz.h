@@ -39,6 +39,7 @@ struct XyzLayout {
   std::size_t columns = 0;                                  // number of columns of every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
   bool has_normals = false, has_colours = false;
+  bool has_scan_positions = false;              // the first two columns are a scanner's row and column
   std::optional<std::int64_t> promised_points;  // number of points, if a first line states it
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // first line of data, counted from 1
@@ -58,7 +59,7 @@ bool has_degrees(const ColumnNames& names);
 // Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
 // find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
 // first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
-// with a number.
+// with a number, or the three after a scanner's row and column.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 

@@ -24,6 +24,32 @@ TEST(Obj, ReadsVerticesWithExtraNumbersAndSkipsOtherLines) {
   EXPECT_FALSE(cloud.has_normals());
 }
 
+TEST(Obj, ColoursMayFollowTheCoordinates) {
+  const std::string faces = "f 1 2 3\n";
+  for (const std::string& text : {std::string("v 0 0 0 1 0 0.5\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n"),
+                                  std::string("v 0 0 0 255 0 128\nv 1 0 0 0 255 0\nv 0 1 0 0 0 255\n"),
+                                  std::string("v 0 0 0 1 0 .5 1\nv 1 0 0 0 1 0 1\nv 0 1 0 0 0 1 1\n")}) {
+    const CloudFile file = file_of(text + faces, "a.obj");
+    EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 128}, {0, 255, 0}, {0, 0, 255}}));
+    EXPECT_EQ(file.mesh.colours, file.cloud.colours);
+    EXPECT_TRUE(file.remarks.empty());
+  }
+  const CloudFile some = file_of("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\n" + faces, "a.obj");
+  EXPECT_FALSE(some.cloud.has_colours());
+  EXPECT_EQ(some.remarks[0], "left out the colours, which only 1 of 3 vertices have");
+}
+
+TEST(Obj, CurvesAndSurfacesAreNotRead) {
+  const std::string surface = "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 3\nend\n";
+  EXPECT_EQ(message_of(triangle + surface, "a.obj"),
+            "a.obj, line 6: expected faces, found curves or surfaces, which are not read; the CAD program "
+            "that made "
+            "them exports triangles, too");
+  const CloudFile both = file_of(triangle + "f 1 2 3\n" + surface + "curv 0 1 1 2\n", "a.obj");
+  EXPECT_EQ(both.mesh.triangles.size(), 1U);
+  EXPECT_EQ(both.remarks[0], "left out 2 curves and surfaces (curv, surf), which are not read");
+}
+
 TEST(Obj, AveragesTheNormalsOfTheCornersOfAVertex) {
   const Cloud cloud = cloud_of(triangle + two_normals + "f 1//1 2//1 3//2\nf 1//2 3//2 2//1\n");
   ASSERT_EQ(cloud.normals.size(), 3U);

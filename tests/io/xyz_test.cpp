@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
+#include "relievo/core/text.h"
 #include "relievo/scan/scan_file.h"
 #include "support/read_text.h"
 
@@ -138,6 +141,45 @@ TEST(Xyz, SevenColumnsOfPtsAreIntensityAndColour) {
   expect_two_points(
       {"2\n1 2.5 -3 -1023 255 0 10\n4 5 6e3 7 0 0 1\n", "2\n1 2.5 -3 102 255 0 10\n4 5 6e3 7 0 0 1\n"}, {},
       {{255, 0, 10}, {0, 0, 1}});
+}
+
+// One block per scan, each after its number of points.
+TEST(Xyz, PtsMayHaveSeveralBlocks) {
+  const auto file = relievo::file_of("2\n1 2 3 9\n4 5 6 9\n1\n7 8 9 9\n\n0\n", "a.pts");
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+  EXPECT_EQ(message_of("1\n1 2 3 9\n2\n7 8 9 9\n", "a.pts"),
+            "a.pts, line 5: expected 2 points as line 3 says, found the end of the file after 1");
+  EXPECT_EQ(message_of("3\n1 2 3 9\n4 5 6 9\n1\n7 8 9 9\n", "a.pts"),
+            "a.pts, line 4: expected 4 columns as in line 2, found 1");
+}
+
+// Returns a table of 20 lines of three coordinates with fractions, after `before` and followed by `after`.
+std::string table(const std::function<std::string(int)>& before, const std::string& after) {
+  std::string text;
+  for (int i = 0; i < 20; ++i)
+    text += before(i) + std::to_string(i + .5) + " " + std::to_string(1.25 * i) + " -" +
+            std::to_string(i + .75) + after + "\n";
+  return text;
+}
+
+TEST(Xyz, RowAndColumnOfAScannerAreNoCoordinates) {
+  const auto row_and_column = [](int i) { return cat(i / 5, " ", 700 + i % 5, " "); };
+  const auto none = [](int) { return std::string(); };
+  for (const std::string after : {"", " 0.25", " 10 20 200"}) {
+    const auto file = relievo::file_of(table(row_and_column, after), "a.xyz"),
+               plain = relievo::file_of(table(none, after), "a.xyz");
+    EXPECT_EQ(file.cloud.points, plain.cloud.points) << after;
+    EXPECT_EQ(file.cloud.colours, plain.cloud.colours) << after;
+    EXPECT_TRUE(file.format.ends_with(" after row and column")) << file.format;
+  }
+  // Whole coordinates before a height with a normal or with a colour stay coordinates.
+  std::string with_normals, with_colours;
+  for (int i = 0; i < 20; ++i) {
+    with_normals += cat(i % 5, " ", i / 5, " ", i + .5, " 0.6 0 0.8\n");
+    with_colours += cat(i % 5, " ", i / 5, " ", i + .5, " 0.25 0.5 ", i / 20., "\n");
+  }
+  for (const std::string& text : {with_normals, with_colours})
+    EXPECT_EQ(relievo::file_of(text, "a.xyz").cloud.points[7], Vec3(2, 1, 7.5));
 }
 
 TEST(Xyz, NamesOfColumnsDecide) {
