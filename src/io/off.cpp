@@ -1,9 +1,10 @@
-// Reads OFF: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a
+// Reads OFF, as text or binary: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a
 // vertex. The keyword may be missing.
 #include <algorithm>
 #include <utility>
 
 #include "io/formats.h"
+#include "io/numbers.h"
 #include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
@@ -13,7 +14,7 @@ namespace {
 
 // The properties that follow the position of a vertex, according to the keyword [ST][C][N]OFF.
 struct Kind {
-  bool has_colours = false, has_normals = false;
+  bool has_colours = false, has_normals = false, has_texture = false;
 };
 
 std::optional<Kind> parse_keyword(std::string_view word) {
@@ -23,7 +24,7 @@ std::optional<Kind> parse_keyword(std::string_view word) {
     if (is_there) word.remove_prefix(prefix.size());
     return is_there;
   };
-  take("ST");
+  kind.has_texture = take("ST");
   kind.has_colours = take("C");
   kind.has_normals = take("N");
   return word == "OFF" ? std::optional(kind) : std::nullopt;
@@ -182,9 +183,96 @@ class OffReader {
   Cloud cloud_;
 };
 
+// Returns the kind of a binary file, which has the word BINARY after its keyword.
+std::optional<Kind> binary_kind(std::string_view bytes) {
+  Words words(bytes.substr(0, std::min(bytes.find_first_of("\r\n"), std::size_t{80})));
+  const auto kind = parse_keyword(words.next());
+  return words.next() == "BINARY" ? kind : std::nullopt;
+}
+
+// Reads the numbers after the first line of a binary file: integers of 32 bits and floats, big-endian.
+class BinaryOffReader {
+ public:
+  BinaryOffReader(const Source& source, const Kind& kind) : source_(source), kind_(kind) {
+    at_ = source.bytes.find('\n') + 1;  // 0 for a file of one line, which is too short anyway
+  }
+
+  Result<RawCloud> read() {
+    RELIEVO_TRY(const std::size_t vertices, take_count("vertices"));
+    RELIEVO_TRY(const std::size_t faces, take_count("faces"));
+    RELIEVO_TRY(const std::size_t edges, take_count("edges"));
+    (void)edges;  // they follow from the faces
+    const Records records = rows_of(vertices);
+    if (vertices > left() / records.stride)
+      return fail(
+          cat("expected ", vertices, " vertices of ", records.stride, " bytes, found ", left(), " bytes"));
+    RawCloud raw{decode_all(records, source_.bytes.data() + at_), "OFF binary"};
+    at_ += vertices * records.stride;
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < faces; ++i) RELIEVO_CHECK(take_face(raw.cloud.points, triangles));
+    raw.mesh = mesh_over(raw.cloud, std::move(triangles));
+    return raw;
+  }
+
+ private:
+  std::size_t left() const { return source_.bytes.size() - at_; }
+  std::unexpected<Error> fail(std::string expected) const {
+    return source_.error_at_byte(at_, std::move(expected));
+  }
+
+  Records rows_of(std::size_t vertices) const {
+    Records records;
+    records.count = vertices;
+    records.is_big_endian = true;
+    const auto take = [&](std::size_t numbers, double scale) {
+      std::array<RecordColumn, 3> columns;
+      for (std::size_t i = 0; i < 3; ++i) columns[i] = {NumberType::float32, records.stride + 4 * i, scale};
+      records.stride += 4 * numbers;
+      return columns;
+    };
+    records.position = take(3, 1);
+    if (kind_.has_normals) records.normal = take(3, 1);
+    if (kind_.has_colours) records.colour = take(4, 255);
+    if (kind_.has_texture) records.stride += 8;
+    return records;
+  }
+
+  Result<std::size_t> take_count(std::string_view what) {
+    if (left() < 4) return fail(cat("expected the number of ", what, ", found the end of the file"));
+    const auto count =
+        number_at<std::int32_t, std::endian::native == std::endian::little>(source_.bytes.data() + at_);
+    if (count < 0) return fail(cat("expected the number of ", what, ", found ", count));
+    at_ += 4;
+    return static_cast<std::size_t>(count);
+  }
+
+  // A face is the number of its corners, the corners, and the number of its colour's components, which follow.
+  Result<void> take_face(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
+    RELIEVO_TRY(const std::size_t length, take_count("corners"));
+    if (length > left() / 4) return fail(cat("expected ", length, " corners, found ", left(), " bytes"));
+    corners_.clear();
+    for (std::size_t i = 0; i < length; ++i) {
+      RELIEVO_TRY(const std::size_t corner, take_count("a vertex"));
+      corners_.push_back(static_cast<std::int64_t>(corner));
+    }
+    RELIEVO_TRY(const std::size_t components, take_count("a colour's components"));
+    if (components > left() / 4)
+      return fail(cat("expected a colour of ", components, " numbers, found ", left(), " bytes"));
+    at_ += 4 * components;
+    if (add_face(corners_, FaceKind::polygon, points, triangles)) return {};
+    return fail(expected_corners(corners_, points));
+  }
+
+  const Source& source_;
+  Kind kind_;
+  std::size_t at_ = 0;
+  std::vector<std::int64_t> corners_;
+};
+
 }  // namespace
 
 bool is_off(const Source& source) {
+  if (binary_kind(source.bytes)) return true;
   if (has_control_bytes(source.bytes)) return has_ending(source.name, ".off");
   Lines lines(source.bytes, byte_order_mark_size(source.bytes));
   while (const auto line = lines.next()) {
@@ -195,6 +283,7 @@ bool is_off(const Source& source) {
 }
 
 Result<RawCloud> read_off(const Source& source) {
+  if (const auto kind = binary_kind(source.bytes)) return BinaryOffReader(source, *kind).read();
   return OffReader(source).read();
 }
 

@@ -163,6 +163,57 @@ TEST(Off, ReadsColoursAndNormals) {
   EXPECT_EQ(file.mesh.colours, file.cloud.colours);
 }
 
+// Returns a number's bytes, big-endian.
+template <typename T>
+std::string big(T value) {
+  std::string bytes = raw(value);
+  std::ranges::reverse(bytes);
+  return bytes;
+}
+
+// Returns the tetrahedron in binary form, with `of_vertex` after each position. The last face has a colour.
+std::string binary_off(const std::string& keyword, const std::string& of_vertex) {
+  std::string file = keyword + " BINARY\n" + big(4) + big(4) + big(6);
+  for (const Vec3& p : tetrahedron_points) {
+    for (const double x : p) file += big(static_cast<float>(x));
+    file += of_vertex;
+  }
+  for (const Triangle& t : tetrahedron_triangles) {
+    const bool is_last = t == tetrahedron_triangles.back();
+    file += big(3) + big(t[0]) + big(t[1]) + big(t[2]) + big(is_last ? 4 : 0);
+    if (is_last) file += std::string(16, '\0');
+  }
+  return file;
+}
+
+TEST(Off, BinaryFilesAreRead) {
+  const std::string normal = big(0.F) + big(0.F) + big(2.F),
+                    colour = big(1.F) + big(0.F) + big(.5F) + big(1.F);
+  for (const std::string& text : {binary_off("OFF", ""), binary_off("STOFF", std::string(8, '\1'))}) {
+    const auto file = file_of(text, "scan");
+    EXPECT_EQ(file.format, "OFF binary");
+    EXPECT_EQ(file.mesh.points, tetrahedron_points);
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
+  }
+  const auto file = file_of(binary_off("CNOFF", normal + colour), "a.off");
+  EXPECT_EQ(file.cloud.normals, std::vector<Vec3f>(4, Vec3f::UnitZ()));
+  EXPECT_EQ(file.cloud.colours, std::vector<Colour>(4, Colour{255, 0, 128}));
+}
+
+TEST(Off, BrokenBinaryFilesAreNamed) {
+  const std::string good = binary_off("OFF", "");
+  const auto with = [&](std::size_t at, std::int32_t value) {
+    return std::string(good).replace(at, 4, big(value));
+  };
+  expect_messages(
+      "a.off", {{good.substr(0, 13), ", byte 11: expected the number of vertices, found the end of the file"},
+                {with(11, -1), ", byte 11: expected the number of vertices, found -1"},
+                {with(11, 1000), ", byte 23: expected 1000 vertices of 12 bytes, found 144 bytes"},
+                {with(71, 1000), ", byte 75: expected 1000 corners, found 92 bytes"},
+                {with(75, 4), ", byte 91: expected numbers of vertices below 4, found 4"},
+                {with(87, 1000), ", byte 91: expected a colour of 1000 numbers, found 76 bytes"}});
+}
+
 TEST(Off, TheKeywordMayBeMissing) {
   expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", ""), "a.off", "OFF");
   expect_tetrahedron("# mine\n\n" + replaced(off(), "OFF # a tetrahedron\n", ""), "a.off", "OFF");
