@@ -72,6 +72,9 @@ class PcdHeaderReader {
     if (keyword == "HEIGHT") return take_count(words, height_);
     if (keyword == "POINTS") return take_count(words, points_);
     if (keyword == "DATA") return take_data(words.next());
+    // Some programs add lines of their own, whose keywords are in capitals, too.
+    const auto is_capital = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; };
+    if (std::ranges::all_of(keyword, is_capital)) return {};
     return lines_.fail("expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found " +
                        in_quotes(keyword));
   }

@@ -41,6 +41,12 @@ TEST(Pcd, CommasMaySeparateNumbers) {
   EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{289814.25, 4320978.5, 170}, {1, 2, 3}}));
 }
 
+TEST(Pcd, LinesOfOtherProgramsInTheHeaderAreIgnored) {
+  const auto file =
+      file_of(replaced(ascii_pcd(), "POINTS", "SENSOR_POSE 1 2 3\nTIMESTAMP 9\nPOINTS"), "a.pcd");
+  EXPECT_EQ(file.cloud.points, file_of(ascii_pcd(), "a.pcd").cloud.points);
+}
+
 TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {
   const std::string text =
       "VERSION 0.7\nFIELDS x y z a b\nSIZE 4 4 4 8 8\nTYPE F F F F F\nCOUNT 1 1 1 65536 65536\nWIDTH "
@@ -89,8 +95,8 @@ TEST(Pcd, BrokenFieldsAreNamed) {
         ", line 9: expected the number of points before DATA, up to 4294967294, found none"},
        {replaced(ascii, "DATA ascii", "DATA text"),
         ", line 11: expected ascii, binary or binary_compressed, found 'text'"},
-       {replaced(ascii, "HEIGHT", "HIGHT"),
-        ", line 8: expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found 'HIGHT'"},
+       {replaced(ascii, "HEIGHT", "height:"),
+        ", line 8: expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found 'height:'"},
        {replaced(ascii, "DATA ascii\n", "").substr(0, 300),
         ", line 11: expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found '0'"},
        {replaced(ascii, "1 1.5 -1", "1 one -1"), ", line 13: expected 9 numbers, found 'one'"},
