@@ -119,6 +119,25 @@ TEST(E57, ColoursAreScaledByTheirLimits) {
   EXPECT_FALSE(file_of(e57({whole, scan_of({1}, {2}, {3})}), "a").cloud.has_colours());
 }
 
+TEST(E57, ScansWithoutCoordinatesAreLeftOut) {
+  const E57TestScan intensities{{e57_doubles("intensity", {1, 2})}};
+  const auto file = file_of(e57({scan_of({1}, {2}, {3}), intensities}), "a.e57");
+  EXPECT_EQ(file.format, "E57, 1 scan");
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}}));
+  EXPECT_EQ(file.remarks,
+            (std::vector<std::string>{"left out 1 scan without coordinates, such as intensities alone"}));
+  EXPECT_TRUE(message_of(e57({intensities}), "a.e57").ends_with("found intensity"));
+}
+
+TEST(E57, ColoursOfSomeScansAreLeftOut) {
+  E57TestScan coloured = scan_of({1}, {2}, {3});
+  for (const char* const name : {"colorRed", "colorGreen", "colorBlue"})
+    coloured.columns.push_back(e57_integers(name, 0, 255, {7}));
+  const auto file = file_of(e57({coloured, scan_of({4}, {5}, {6})}), "a.e57");
+  EXPECT_FALSE(file.cloud.has_colours());
+  EXPECT_EQ(file.remarks, (std::vector<std::string>{"left out the colours, which only 1 of 2 scans have"}));
+}
+
 TEST(E57, DamagedPagesAreNamed) {
   const std::vector<double> many(100, 1);
   const std::string whole = e57({scan_of(many, many, many)});

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "io/e57/pages.h"
-#include "io/e57/xml.h"
 #include "io/formats.h"
 #include "io/text.h"
+#include "io/xml.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 
@@ -234,15 +234,40 @@ void decode_rows(const E57Scan& scan, std::size_t begin, std::size_t end, Cloud&
   }
 }
 
-Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& pages) {
+// Returns whether the description of a scan names coordinates of points. Some scans have intensities alone.
+bool has_coordinates(const XmlElements& elements, std::size_t scan) {
+  for (std::size_t i = scan + 1; i < elements[scan].end; ++i)
+    if (elements[i].name == "cartesianX" || elements[i].name == "sphericalRange") return true;
+  return false;
+}
+
+// Returns the scans that have points. Of a file in which no scan has coordinates, the first one is refused.
+Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& pages, RawCloud& raw) {
   RELIEVO_TRY(const XmlElements elements, parse_xml(pages.xml, source));
-  std::vector<E57Scan> scans;
+  std::vector<std::size_t> with, without;
   const std::size_t all = find_child(elements, 0, "data3D");
-  for (std::size_t i = all + 1; all != 0 && i < elements[all].end; i = elements[i].end) {
+  for (std::size_t i = all + 1; all != 0 && i < elements[all].end; i = elements[i].end)
+    (has_coordinates(elements, i) ? with : without).push_back(i);
+  std::vector<E57Scan> scans;
+  for (const std::size_t i : with.empty() ? without : with) {
     RELIEVO_TRY(E57Scan scan, ScanParser(source, elements, i).parse());
     if (scan.section.rows > 0) scans.push_back(std::move(scan));
   }
+  if (!without.empty())
+    raw.remarks.push_back(cat("left out ", without.size(), without.size() == 1 ? " scan" : " scans",
+                              " without coordinates, such as intensities alone"));
   return scans;
+}
+
+// Returns whether all scans have that part, and says so if only some do.
+bool have_all(const std::vector<E57Scan>& scans, std::optional<E57Scan::Triple> E57Scan::*part,
+              std::string_view name, RawCloud& raw) {
+  const auto count = static_cast<std::size_t>(
+      std::ranges::count_if(scans, [&](const E57Scan& scan) { return (scan.*part).has_value(); }));
+  if (count > 0 && count < scans.size())
+    raw.remarks.push_back(
+        cat("left out the ", name, ", which only ", count, " of ", scans.size(), " scans have"));
+  return count == scans.size();
 }
 
 }  // namespace
@@ -254,11 +279,11 @@ bool is_e57(const Source& source) {
 Result<RawCloud> read_e57(const Source& source) {
   E57Pages pages;
   RELIEVO_CHECK(read_e57_pages(source, pages));
-  RELIEVO_TRY(std::vector<E57Scan> scans, parse_scans(source, pages));
   RawCloud raw;
+  RELIEVO_TRY(std::vector<E57Scan> scans, parse_scans(source, pages, raw));
   raw.format = cat("E57, ", scans.size(), scans.size() == 1 ? " scan" : " scans");
-  const bool has_normals = std::ranges::all_of(scans, [](const E57Scan& s) { return s.normal.has_value(); });
-  const bool has_colours = std::ranges::all_of(scans, [](const E57Scan& s) { return s.colour.has_value(); });
+  const bool has_normals = have_all(scans, &E57Scan::normal, "normals", raw);
+  const bool has_colours = have_all(scans, &E57Scan::colour, "colours", raw);
   for (E57Scan& scan : scans) {
     RELIEVO_CHECK(read_packed_columns(source, pages, scan.section, scan.columns));
     const std::size_t first = raw.cloud.size(), rows = scan.section.rows;

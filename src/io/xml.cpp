@@ -1,5 +1,5 @@
-// Reads the part of XML 1.0 (W3C, fifth edition) that ASTM E2807 uses.
-#include "io/e57/xml.h"
+// Reads the part of XML 1.0 (W3C, fifth edition) that ASTM E2807 and 3MF use.
+#include "io/xml.h"
 
 #include <algorithm>
 

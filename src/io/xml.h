@@ -1,4 +1,4 @@
-// A reader of the XML in E57 files: elements, attributes and texts, as views of the given bytes. Document
+// A reader of the XML in E57 and 3MF files: elements, attributes and texts, as views of the given bytes. Document
 // types and entities are not supported, because the numbers that are read do not need them.
 #pragma once
 
