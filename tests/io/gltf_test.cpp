@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 
@@ -27,13 +28,6 @@ CloudFile changed(std::string_view what, std::string_view by) {
   return file_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
 }
 
-// Returns the sample's JSON without scenes, and with `nodes` in place of its nodes.
-std::string with_nodes(std::string_view nodes) {
-  std::string json = gltf_json();
-  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
-  return json.replace(begin, end - begin, nodes);
-}
-
 std::string with_uri(const std::string& uri) {
   return gltf_json(R"("uri":")" + uri + R"(",)");
 }
@@ -52,6 +46,28 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
     EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles) << uri;
     EXPECT_EQ(asked.size(), 1U) << uri;
   }
+}
+
+const std::string draco_primitive =
+    R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}},"attributes")";
+
+// A file may have both plain and compressed vertices. Then it does not require the extension.
+TEST(Gltf, CompressedVerticesAreRefusedUnlessThereArePlainOnes) {
+  const std::string both = replaced(gltf_json(), R"("attributes")", draco_primitive);
+  EXPECT_EQ(file_of(glb_of(both), "a.glb").mesh.triangles, tetrahedron_triangles);
+  const std::string alone = replaced(both, R"("accessors":[{"bufferView":0,)", R"("accessors":[{)");
+  EXPECT_EQ(
+      message_of(glb_of(alone), "a.glb"),
+      "a.glb, mesh 0: expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; Blender "
+      "opens the file, and exports it without compression");
+}
+
+TEST(Gltf, PointsAndLinesBesideTrianglesAreTold) {
+  const auto file = changed(R"("primitives":[)", R"("primitives":[{"attributes":{"POSITION":0},"mode":0},)"
+                                                 R"({"attributes":{"POSITION":0},"mode":1},)");
+  EXPECT_EQ(file.mesh.triangles.size(), 4U);
+  EXPECT_EQ(file.remarks, (std::vector<std::string>{"left out 4 single points, as there are triangles, too",
+                                                    "left out the lines"}));
 }
 
 // The data of a URI are base64 or plain bytes. In both, any byte may be escaped.
@@ -108,7 +124,7 @@ TEST(GltfBeside, BuffersThatNoMeshUsesMayBeMissing) {
 }
 
 TEST(Gltf, ReadsMeshesWithoutNodes) {
-  const std::string json = with_nodes(""),
+  const std::string json = gltf_with_nodes(""),
                     mesh = R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]})";
   EXPECT_EQ(file_of(glb_of(json), "a.glb").mesh.points, tetrahedron_points);
   const std::string two = replaced(json, mesh, mesh + "," + mesh);
@@ -330,7 +346,7 @@ TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   const int length = 400000;
   for (int i = 0; i < length; ++i) nodes += R"({"children":[)" + std::to_string(i + 1) + "]},";
   nodes += R"({"mesh":0}],)";
-  EXPECT_EQ(file_of(glb_of(with_nodes(nodes)), "a.glb").mesh.points, tetrahedron_points);
+  EXPECT_EQ(file_of(glb_of(gltf_with_nodes(nodes)), "a.glb").mesh.points, tetrahedron_points);
 }
 
 }  // namespace

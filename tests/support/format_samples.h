@@ -89,6 +89,13 @@ inline std::string gltf_json(const std::string& uri = "") {
          uri + R"("byteLength":72}]})";
 }
 
+// Returns the sample's JSON without scenes, and with `nodes` in place of its nodes.
+inline std::string gltf_with_nodes(std::string_view nodes) {
+  std::string json = gltf_json();
+  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
+  return json.replace(begin, end - begin, nodes);
+}
+
 inline std::string glb_of(const std::string& json, const std::string& buffer = gltf_buffer()) {
   const std::string text = padded(json, ' '), binary = padded(buffer, '\0');
   const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };

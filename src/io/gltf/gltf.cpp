@@ -6,6 +6,7 @@
 #include <array>
 
 #include "io/formats.h"
+#include "io/gltf/gltf_skin.h"
 #include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
@@ -19,36 +20,9 @@ constexpr std::size_t most_vertices = 100'000'000;  // small files can repeat a 
 
 constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of application
 
+constexpr const char* draco = "KHR_draco_mesh_compression";
+
 constexpr std::size_t points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6;
-
-// Returns a member that is an array of `n` numbers; `otherwise` if the member is missing; nothing if it is
-// anything else.
-std::optional<std::vector<double>> numbers_in(const Json& object, const char* name,
-                                              std::vector<double> otherwise) {
-  const auto found = object.find(name);
-  if (found == object.end()) return otherwise;
-  if (!found->is_array() || found->size() != otherwise.size()) return std::nullopt;
-  for (std::size_t i = 0; i < otherwise.size(); ++i) {
-    if (!(*found)[i].is_number()) return std::nullopt;
-    otherwise[i] = (*found)[i].get<double>();
-  }
-  return otherwise;
-}
-
-std::optional<Transform> transform_of(const Json& node) {
-  const auto matrix = numbers_in(node, "matrix", std::vector<double>(16));
-  const auto t = numbers_in(node, "translation", {0, 0, 0}), s = numbers_in(node, "scale", {1, 1, 1}),
-             q = numbers_in(node, "rotation", {0, 0, 0, 1});
-  if (!matrix || !t || !s || !q) return std::nullopt;
-  Transform transform = Transform::Identity();
-  if (node.contains("matrix")) {
-    transform.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix4d>(matrix->data()).topRows<3>();
-    return transform;
-  }
-  const Eigen::Quaterniond turn((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-  transform.translate(Vec3((*t)[0], (*t)[1], (*t)[2])).rotate(turn.normalized());
-  return transform.scale(Vec3((*s)[0], (*s)[1], (*s)[2]));
-}
 
 // Returns whether a file that requires this extension can be read: the extension is supported, or it only
 // affects the look of surfaces.
@@ -90,10 +64,23 @@ class GltfReader {
     RawCloud raw{Cloud{std::move(points_), std::move(normals_), std::move(colours_)},
                  source_.bytes.starts_with("glTF") ? "glTF binary" : "glTF"};
     raw.mesh = mesh_over(raw.cloud, std::move(triangles_));
+    add_remarks(raw);
     return raw;
   }
 
  private:
+  void add_remarks(RawCloud& raw) const {
+    if (!raw.mesh.empty() && single_points_ > 0)
+      raw.remarks.push_back(cat("left out ", single_points_, " single points, as there are triangles, too"));
+    if (has_lines_) raw.remarks.emplace_back("left out the lines");
+  }
+
+  // Where a mesh stands: the transforms of its copies, or its skin, which then places it alone.
+  struct Placement {
+    std::vector<Transform> copies;
+    std::size_t skin = no_index;
+  };
+
   struct Visit {
     std::size_t node;
     Transform parent;
@@ -103,10 +90,7 @@ class GltfReader {
     const auto required = file_.json().find("extensionsRequired");
     if (required == file_.json().end() || !required->is_array()) return {};
     for (const Json& name : *required) {
-      if (name == "KHR_draco_mesh_compression")
-        return source_.error("extensionsRequired",
-                             "expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
-                             "Blender opens the file, and exports it without compression");
+      if (name == draco) return compressed("extensionsRequired");
       const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
       if (!is_readable_with(text))
         return source_.error("extensionsRequired",
@@ -114,6 +98,20 @@ class GltfReader {
                                  in_quotes(text), "; export the model without it, or as PLY, STL or OBJ"));
     }
     return {};
+  }
+
+  std::unexpected<Error> compressed(std::string place) const {
+    return source_.error(std::move(place),
+                         "expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
+                         "Blender opens the file, and exports it without compression");
+  }
+
+  // Returns whether the vertices are compressed only, without the plain copy that a file may have, too.
+  bool is_compressed(const Json& primitive, const Json& attributes) const {
+    const Json* extensions = object_in(primitive, "extensions");
+    if (!extensions || !object_in(*extensions, draco)) return false;
+    const Json* positions = file_.element("accessors", number_in(attributes, "POSITION", 0).value_or(0));
+    return !positions || (!positions->contains("bufferView") && !positions->contains("sparse"));
   }
 
   // Returns the root nodes of the scene; without a scene, all nodes without a parent.
@@ -144,7 +142,7 @@ class GltfReader {
   // A file without nodes is a library of meshes; all of them are shown where they are.
   Result<void> add_all_meshes() {
     for (std::size_t i = 0; file_.element("meshes", i); ++i)
-      RELIEVO_CHECK(add_mesh(i, {Transform::Identity()}));
+      RELIEVO_CHECK(add_mesh(i, {{Transform::Identity()}}));
     return {};
   }
 
@@ -175,7 +173,7 @@ class GltfReader {
                              cat("expected the number of a mesh, found ", in_quotes((*node)["mesh"].dump())));
       if (*mesh != no_index) {
         RELIEVO_TRY(const std::vector<Transform> copies, copies_of(*node, transform, place));
-        RELIEVO_CHECK(add_mesh(*mesh, copies));
+        RELIEVO_CHECK(add_mesh(*mesh, {copies, number_in(*node, "skin", no_index).value_or(no_index)}));
       }
       if (node->contains("children") && (*node)["children"].is_array())
         for (const Json& child : (*node)["children"])
@@ -215,19 +213,18 @@ class GltfReader {
     return copies;
   }
 
-  Result<void> add_mesh(std::size_t i, const std::vector<Transform>& copies) {
+  Result<void> add_mesh(std::size_t i, const Placement& placement) {
     const std::string place = "mesh " + std::to_string(i);
     const Json* mesh = file_.element("meshes", i);
     if (!mesh) return source_.error(place, "expected a mesh, found none of that number");
     const auto primitives = mesh->find("primitives");
     if (primitives == mesh->end() || !primitives->is_array())
       return source_.error(place, "expected primitives, found none");
-    for (const Json& primitive : *primitives) RELIEVO_CHECK(add_primitive(primitive, copies, place));
+    for (const Json& primitive : *primitives) RELIEVO_CHECK(add_primitive(primitive, placement, place));
     return {};
   }
 
-  Result<void> add_primitive(const Json& primitive, const std::vector<Transform>& copies,
-                             const std::string& place) {
+  Result<void> add_primitive(const Json& primitive, const Placement& placement, const std::string& place) {
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object())
       return source_.error(place, "expected attributes, found none");
@@ -237,18 +234,25 @@ class GltfReader {
     const bool is_read = mode && (*mode == points_mode || (*mode >= triangles_mode && *mode <= fan_mode));
     has_lines_ = has_lines_ || !is_read;
     if (!is_read) return {};
+    if (is_compressed(primitive, *attributes)) return compressed(place);
     RELIEVO_TRY(const Vertices vertices, vertices_of(*attributes, place));
     std::vector<std::int64_t> order;
     if (*mode != points_mode) {
       RELIEVO_TRY(order, order_of(primitive, vertices.count(), place));
     }
     if (vertices.count() == 0) return {};
-    for (const Transform& copy : copies) {
+    std::vector<Transform> posed;
+    if (placement.skin != no_index) {
+      RELIEVO_TRY(posed,
+                  skinned_transforms(source_, file_, placement.skin, *attributes, vertices.count(), place));
+    }
+    for (const Transform& copy : posed.empty() ? placement.copies : std::vector{posed[0]}) {
       if (points_.size() + vertices.count() > most_vertices || triangles_.size() > most_vertices)
         return source_.error(place, cat("expected at most 100000000 vertices and as many triangles, found ",
                                         points_.size() + vertices.count(), " and ", triangles_.size()));
       const std::size_t first = points_.size();
-      add_vertices(vertices, copy);
+      if (*mode == points_mode) single_points_ += vertices.count();
+      add_vertices(vertices, copy, posed);
       add_triangles(order, *mode, first, copy.linear().determinant() < 0);
     }
     return {};
@@ -305,14 +309,17 @@ class GltfReader {
     return all;
   }
 
-  void add_vertices(const Vertices& all, const Transform& transform) {
+  // Adds the vertices, moved by the transform, or each by its own one in `posed` if there are any.
+  void add_vertices(const Vertices& all, const Transform& transform, const std::vector<Transform>& posed) {
     const auto byte = [](double v) {
       return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, 255 * v + .5)) : std::uint8_t{0};
     };
-    const Mat3 turn = transform.linear().inverse().transpose();
-    for (std::size_t i = 0; i < all.count(); ++i) points_.push_back(transform * vector_at(all.positions, i));
+    const auto turn_of = [](const Transform& by) -> Mat3 { return by.linear().inverse().transpose(); };
+    const Mat3 turn = turn_of(transform);
+    for (std::size_t i = 0; i < all.count(); ++i)
+      points_.push_back((posed.empty() ? transform : posed[i]) * vector_at(all.positions, i));
     for (std::size_t i = 0; i < all.normals.count(); ++i)
-      normals_.push_back(unit_normal(turn * vector_at(all.normals, i)));
+      normals_.push_back(unit_normal((posed.empty() ? turn : turn_of(posed[i])) * vector_at(all.normals, i)));
     for (std::size_t i = 0; i < all.colours.count(); ++i) {
       const Vec3 colour = vector_at(all.colours, i);
       colours_.push_back({byte(colour.x()), byte(colour.y()), byte(colour.z())});
@@ -336,6 +343,7 @@ class GltfReader {
   const Source& source_;
   GltfFile& file_;
   bool has_lines_ = false;
+  std::size_t single_points_ = 0;
   std::vector<Vec3> points_;
   std::vector<Vec3f> normals_;
   std::vector<Colour> colours_;

@@ -32,6 +32,7 @@ std::size_t components_of(const Json& accessor) {
   constexpr std::array<std::string_view, 4> names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
   const auto type = accessor.find("type");
   if (type == accessor.end() || !type->is_string()) return 0;
+  if (type->get_ref<const std::string&>() == "MAT4") return 16;
   const auto found = std::ranges::find(names, type->get_ref<const std::string&>());
   return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin()) + 1;
 }
