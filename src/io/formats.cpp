@@ -36,6 +36,9 @@ std::string remark_on_left_out(std::uint64_t points, std::string_view which) {
 }
 
 std::string foreign_format(const Source& source) {
+  for (const ForeignFormat& format : foreign_names) {
+    if (has_ending(source.name, format.mark)) return std::string(format.what);
+  }
   for (const ForeignFormat& format : foreign_beginnings) {
     if (source.bytes.starts_with(format.mark)) return std::string(format.what);
   }

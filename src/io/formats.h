@@ -19,10 +19,13 @@ bool is_pcd(const Source& source);
 bool is_laz(const Source& source);
 bool is_las(const Source& source);
 bool is_e57(const Source& source);
+bool is_splat(const Source& source);
 bool is_gltf(const Source& source);
+bool is_3mf(const Source& source);
 bool is_off(const Source& source);
 bool is_stl(const Source& source);
 bool is_obj(const Source& source);
+bool is_ptx(const Source& source);
 bool is_text(const Source& source);
 
 // Return the content of a file, with as many points as the file has. Errors: kind input. These parts of the
@@ -31,34 +34,43 @@ bool is_text(const Source& source);
 // - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
 //   order, among any other properties and elements. Of the other elements, `face` and `tristrips` are read,
 //   before or after the vertices. Each ascii row begins on a new line.
-// - OBJ: v, vn and f. The normal of a vertex is the mean of the normals with which faces use it. If no
+//   Vertices with opacity, f_dc, scale and rot are Gaussian splats: f_dc gives their colours, and points of
+//   splats that are less than half opaque are left out. The splats of a .splat file are read likewise.
+// - OBJ: v, also with colours, vn and f. The normal of a vertex is the mean of the normals with which faces use it. If no
 //   face refers to any, it is the vn with the same index. Faces may refer to normals that are missing.
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
-// - OFF, with normals (NOFF) and colours (COFF).
+// - OFF, text and binary, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
 //   scene, transformed by its nodes; without nodes, of all meshes. Numbers may be quantised, and
 //   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
+// - 3MF: the meshes of the build, moved by its transforms and those of components; without colours. This is
+//   the document in the archive, and other documents beside it.
 // - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y
 //   normal_z and rgb.
 // - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS
-//   compressed by LASzip 2 or later.
-// - E57: all scans, moved by their poses, of cartesian or spherical coordinates; with colours and normals if
+//   compressed by LASzip 2 or later. Points of the classes 7 and 18 (noise) and withheld points are left out.
+// - E57: all scans that have coordinates, moved by their poses, of cartesian or spherical coordinates; with colours and normals if
 //   all scans have them. Points that the file marks as invalid are NaN. Every checksum must be right.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
 //   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
-//   points may follow, but not fewer), and so are comments (#, //) and a line of column names, which then
+//   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //) and a line of column names, which then
 //   decide. Other columns may contain anything. Numbers have a decimal point, or a decimal comma if
-//   semicolons separate them; they may be in quotation marks.
+//   semicolons separate them; they may be in quotation marks. Two columns of whole numbers before three of
+//   fractions are a scanner's rows and columns, and x y z come third.
+// - PTX: all scans, moved by their matrices. Points at 0 0 0 of their scanner are not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_laz(const Source& source);
 Result<RawCloud> read_las(const Source& source);
 Result<RawCloud> read_e57(const Source& source);
+Result<RawCloud> read_splat(const Source& source);
 Result<RawCloud> read_gltf(const Source& source);
+Result<RawCloud> read_3mf(const Source& source);
 Result<RawCloud> read_off(const Source& source);
 Result<RawCloud> read_stl(const Source& source);
 Result<RawCloud> read_obj(const Source& source);
+Result<RawCloud> read_ptx(const Source& source);
 Result<RawCloud> read_text(const Source& source);
 
 // Return the location of the points in a file that begins with `head`. Errors: those of the format's header,
@@ -86,10 +98,13 @@ inline constexpr std::array formats = {
     Format{"LAZ", ".laz", Content::points, is_laz, read_laz},
     Format{"LAS", ".las", Content::points, is_las, read_las, find_las_rows},
     Format{"E57", ".e57", Content::points, is_e57, read_e57},
+    Format{"splat", ".splat", Content::points, is_splat, read_splat},
     Format{"glTF", ".glb .gltf", Content::both, is_gltf, read_gltf},
+    Format{"3MF", ".model .3mf", Content::triangles, is_3mf, read_3mf},
     Format{"OFF", ".off", Content::triangles, is_off, read_off},
     Format{"STL", ".stl", Content::triangles, is_stl, read_stl},
     Format{"OBJ", ".obj", Content::triangles, is_obj, read_obj},
+    Format{"PTX", ".ptx", Content::points, is_ptx, read_ptx},
     Format{"XYZ, PTS", ".xyz .pts .txt .csv .asc", Content::points, is_text, read_text}};
 
 // An unsupported format that errors can name.
@@ -98,30 +113,48 @@ struct ForeignFormat {
   std::string_view what;  // shown to people
 };
 
-inline constexpr std::array<ForeignFormat, 15> foreign_beginnings = {{{"\x89PNG", "a PNG picture"},
-                                                                      {"\xFF\xD8\xFF", "a JPEG picture"},
-                                                                      {"II*", "a TIFF picture"},
-                                                                      {"MM", "a TIFF picture"},
-                                                                      {"{", "a JSON file"},
-                                                                      {"<", "an XML or HTML file"},
-                                                                      {"#VRML", "a VRML file"},
-                                                                      {"Kaydara FBX", "an FBX file"},
-                                                                      {"\x93NUMPY", "a NumPy file"},
-                                                                      {"%PDF", "a PDF file"},
-                                                                      {"PK\x03\x04", "a ZIP archive"},
-                                                                      {"\x1F\x8B", "a gzip archive"},
-                                                                      {"7z\xBC\xAF", "a 7z archive"},
-                                                                      {"\xFF\xFE", "UTF-16 text"},
-                                                                      {"\xFE\xFF", "UTF-16 text"}}};
+// Formats that the ending of the name shows better than the content, which is often that of an archive.
+inline constexpr std::array<ForeignFormat, 15> foreign_names = {
+    {{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
+     {".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},
+     {".sog", "packed Gaussian splats (SOG); SuperSplat exports them as PLY"},
+     {".usdz", "a USD file; Blender exports it as glTF or PLY"},
+     {".usd", "a USD file; Blender exports it as glTF or PLY"},
+     {".usdc", "a USD file; Blender exports it as glTF or PLY"},
+     {".usda", "a USD file; Blender exports it as glTF or PLY"},
+     {".dae", "a COLLADA file; Blender exports it as glTF or PLY"},
+     {".blend", "a Blender file; Blender exports it as glTF or PLY"},
+     {".rcp", "a ReCap project; ReCap exports it as E57 or PTS"},
+     {".rcs", "a ReCap scan; ReCap exports it as E57 or PTS"},
+     {".fls", "a FARO scan; SCENE exports it as E57 or PTX"},
+     {".zfs", "a Zoller+Froehlich scan; LaserControl exports it as E57 or PTX"},
+     {".iges", "an IGES file; FreeCAD exports it as STL"},
+     {".igs", "an IGES file; FreeCAD exports it as STL"}}};
 
-inline constexpr std::array<ForeignFormat, 10> foreign_endings = {
-    {{".ptx", "a PTX file"},
-     {".3ds", "a 3DS file"},
+inline constexpr std::array<ForeignFormat, 15> foreign_beginnings = {
+    {{"\x89PNG", "a PNG picture"},
+     {"\xFF\xD8\xFF", "a JPEG picture"},
+     {"II*", "a TIFF picture"},
+     {"MM", "a TIFF picture"},
+     {"{", "a JSON file"},
+     {"<", "an XML or HTML file"},
+     {"#VRML", "a VRML file"},
+     {"Kaydara FBX", "an FBX file; Blender exports it as glTF or PLY"},
+     {"\x93NUMPY", "a NumPy file"},
+     {"%PDF", "a PDF file"},
+     {"PK\x03\x04", "a ZIP archive"},
+     {"\x1F\x8B", "a gzip archive"},
+     {"7z\xBC\xAF", "a 7z archive"},
+     {"\xFF\xFE", "UTF-16 text"},
+     {"\xFE\xFF", "UTF-16 text"}}};
+
+inline constexpr std::array<ForeignFormat, 9> foreign_endings = {
+    {{".3ds", "a 3DS file; Blender exports it as glTF or PLY"},
      {".dxf", "a DXF file"},
-     {".fbx", "an FBX file"},
+     {".fbx", "an FBX file; Blender exports it as glTF or PLY"},
      {".mtl", "a file of OBJ materials"},
-     {".step", "a STEP file"},
-     {".stp", "a STEP file"},
+     {".step", "a STEP file; FreeCAD exports it as STL"},
+     {".stp", "a STEP file; FreeCAD exports it as STL"},
      {".tif", "a TIFF picture"},
      {".tiff", "a TIFF picture"},
      {".ply", "a file that does not begin with the line 'ply'"}}};

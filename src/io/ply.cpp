@@ -9,8 +9,12 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::array<std::string_view, VertexColumns::most> column_names = {"x",  "y",   "z",     "nx",  "ny",
-                                                                            "nz", "red", "green", "blue"};
+constexpr std::array<std::string_view, VertexColumns::most> column_names = {
+    "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "opacity"};
+
+// The properties that only Gaussian splats have. The first three are colours.
+constexpr std::array<std::string_view, 10> splat_names = {"f_dc_0",  "f_dc_1", "f_dc_2", "scale_0", "scale_1",
+                                                          "scale_2", "rot_0",  "rot_1",  "rot_2",   "rot_3"};
 
 // Returns the index of the property with that name, or else with that name in upper or lower case, such as X;
 // the number of properties if there is none.
@@ -32,24 +36,48 @@ std::string names_of(const PlyElement& element) {
   return names.empty() ? "none" : names;
 }
 
+bool is_number(const PlyElement& element, std::size_t property) {
+  return property < element.properties.size() && !element.properties[property].is_list();
+}
+
+// In a vertex that is a Gaussian splat, takes f_dc as its colours unless it has others. In any other vertex,
+// opacity has no meaning that is known.
+void take_splat(const PlyElement& vertex, VertexColumns& columns) {
+  std::array<std::size_t, splat_names.size()> places = {};
+  std::ranges::transform(splat_names, places.begin(), [&](auto name) { return find_property(vertex, name); });
+  const bool is_splat =
+      std::ranges::all_of(places, [&](std::size_t place) { return is_number(vertex, place); });
+  if (!is_splat || has_lists(vertex)) columns.is_there[9] = false;
+  if (!columns.has_opacity() || columns.has_colours()) return;
+  columns.are_colours_harmonics = true;
+  for (std::size_t c = 0; c < 3; ++c) {
+    columns.is_there[6 + c] = true;
+    columns.property[6 + c] = places[c];
+  }
+}
+
 // Normals and colours are read only if all three of their properties exist.
 Result<VertexColumns> find_columns(const Source& source, const PlyElement& vertex) {
   VertexColumns columns;
   for (std::size_t c = 0; c < VertexColumns::most; ++c) {
     columns.property[c] = find_property(vertex, column_names[c]);
-    columns.is_there[c] =
-        columns.property[c] < vertex.properties.size() && !vertex.properties[columns.property[c]].is_list();
+    columns.is_there[c] = is_number(vertex, columns.property[c]);
+    if (c < 3 && !columns.is_there[c] && find_property(vertex, "packed_position") < vertex.properties.size())
+      return source.error_in_line(vertex.line,
+                                  "expected splats that are not packed, found those of a compressed PLY; "
+                                  "SuperSplat opens it and exports a PLY that is not compressed");
     if (c < 3 && !columns.is_there[c]) {
       return source.error_in_line(vertex.line, "expected element vertex to have a numeric property " +
                                                    std::string(column_names[c]) + ", found " +
                                                    names_of(vertex));
     }
   }
-  for (std::size_t first = 3; first < VertexColumns::most; first += 3) {
+  for (std::size_t first = 3; first < 9; first += 3) {
     auto& there = columns.is_there;
     const bool is_whole = there[first] && there[first + 1] && there[first + 2];
     there[first] = there[first + 1] = there[first + 2] = is_whole;
   }
+  take_splat(vertex, columns);
   return columns;
 }
 
@@ -87,21 +115,31 @@ Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const 
   records.is_big_endian = header.format == PlyFormat::big_endian;
   const auto column = [&](std::size_t c) {
     const auto& properties = vertex.properties;
-    RecordColumn found{properties[wanted.property[c]].type, 0};
+    const NumberType type = properties[wanted.property[c]].type;
+    RecordColumn found = c >= 6 && c < 9 ? colour_column(wanted, type) : RecordColumn{type};
     for (std::size_t i = 0; i < wanted.property[c]; ++i) found.at += size_in_bytes(properties[i].type);
-    if (c >= 6) found.scale = colour_scale(found.type);
     return found;
   };
   const auto columns = [&](std::size_t c) { return std::array{column(c), column(c + 1), column(c + 2)}; };
   records.position = columns(0);
   if (wanted.has_normals()) records.normal = columns(3);
   if (wanted.has_colours()) records.colour = columns(6);
+  if (!wanted.has_opacity()) return records;
+  const auto is_faint_row = [decode = decoder(column(9).type, records.is_big_endian),
+                             at = column(9).at](const char* row) {
+    double opacity = 0;
+    decode(row + at, 0, 1, &opacity);
+    return is_faint(opacity);
+  };
+  records.left_out = LeftOutRows{is_faint_row, what_splats_leave_out};
   return records;
 }
 
-double colour_scale(NumberType type) {
-  if (type == NumberType::float32 || type == NumberType::float64) return 255;
-  return type == NumberType::uint16 ? 1 / 257.0 : 1;
+RecordColumn colour_column(const VertexColumns& columns, NumberType type) {
+  constexpr double harmonic = 0.28209479177387814;  // the spherical harmonic of degree 0: 1 / (2 sqrt(pi))
+  if (columns.are_colours_harmonics) return {type, 0, 255 * harmonic, 127.5};
+  if (type == NumberType::float32 || type == NumberType::float64) return {type, 0, 255};
+  return {type, 0, type == NumberType::uint16 ? 1 / 257.0 : 1};
 }
 
 std::optional<FaceList> find_face_list(const PlyElement& element) {
@@ -127,8 +165,15 @@ Result<RawCloud> read_ply(const Source& source) {
                      columns};
   RELIEVO_TRY(auto content,
               header.format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body));
+  // Most programs that train splats write zeros as their normals.
+  if (columns.has_opacity() &&
+      std::ranges::all_of(content.cloud.normals, [](const Vec3f& n) { return n.isZero(0); }))
+    content.cloud.normals.clear();
   Mesh mesh = mesh_over(content.cloud, std::move(content.triangles));
-  return RawCloud{std::move(content.cloud), to_string(header.format), std::move(mesh)};
+  RawCloud raw{std::move(content.cloud), to_string(header.format), std::move(mesh)};
+  if (columns.has_opacity()) raw.format += ", Gaussian splats";
+  raw.leave_out(content.faint, what_splats_leave_out);
+  return raw;
 }
 
 Result<StreamRecords> find_ply_rows(const Source& head) {
@@ -148,6 +193,7 @@ Result<StreamRecords> find_ply_rows(const Source& head) {
                                 cat("expected a number of rows that fits the file, found ", element->count));
     records.offset += size * element->count;
   }
+  if (columns.has_opacity()) records.normal.reset();  // most splats state zeros as their normals
   std::uint64_t faces = 0;
   for (const PlyElement& element : elements)
     if (find_face_list(element)) faces += element.count;

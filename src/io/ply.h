@@ -54,14 +54,16 @@ struct PlyHeader {
 Result<PlyHeader> read_ply_header(const Source& source);
 
 // The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
-// exist.
+// exist. Of Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity is read, too.
 struct VertexColumns {
-  static constexpr std::size_t most = 9;
+  static constexpr std::size_t most = 10;
   std::array<bool, most> is_there = {};
   std::array<std::size_t, most> property = {};  // index of the property that is read into each column
+  bool are_colours_harmonics = false;           // f_dc instead of red, green and blue
 
   bool has_normals() const { return is_there[3]; }
   bool has_colours() const { return is_there[6]; }
+  bool has_opacity() const { return is_there[9]; }
 };
 
 // A file after its header has been read. Faces are read, whether they are before or after the vertices.
@@ -76,6 +78,7 @@ struct PlyBody {
 
 struct PlyContent {
   Cloud cloud;
+  std::size_t faint = 0;  // splats that are less than half opaque; their points are NaN
   std::vector<Triangle> triangles;
 };
 
@@ -87,8 +90,13 @@ Result<PlyContent> read_binary_body(const PlyBody& body);
 // Returns the rows of vertices without lists as records; their offset is left 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
-// Returns the factor that scales colours of that type to [0, 255].
-double colour_scale(NumberType type);
+// Returns the column of a colour, scaled to [0, 255], without its place.
+RecordColumn colour_column(const VertexColumns& columns, NumberType type);
+
+// Opacities of Gaussian splats are logits: below 0, less than a half of what is behind is hidden.
+constexpr bool is_faint(double opacity) {
+  return opacity < 0;
+}
 
 // The list property of a face element that contains the face's vertices.
 struct FaceList {

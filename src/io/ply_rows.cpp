@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "io/ply.h"
 
@@ -28,7 +29,7 @@ Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
     RELIEVO_CHECK(rows.skip(element));
   }
   PlyContent content;
-  RELIEVO_CHECK(read_vertices(body, rows, content.cloud));
+  RELIEVO_CHECK(read_vertices(body, rows, content));
   for (auto& [element, at] : early_faces)
     RELIEVO_CHECK(read_faces(*element, *find_face_list(*element), at, content));
   for (const PlyElement& element : body.after) {
@@ -154,15 +155,18 @@ bool can_hold(std::size_t bytes, const PlyElement& element) {
 
 // Reads the vertices. Allocates no memory if the header promises more vertices than the bytes can contain;
 // reading then ends with an error.
-Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
+Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& content) {
+  Cloud& cloud = content.cloud;
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
   cloud = sized_cloud(vertex_records(body.header, body.vertex, body.columns),
                       can_hold(left, body.vertex) ? body.vertex.count : 0);
   std::vector<std::size_t> column_of(body.vertex.properties.size(), VertexColumns::most);
   for (std::size_t c = 0; c < VertexColumns::most; ++c)
     if (body.columns.is_there[c]) column_of[body.columns.property[c]] = c;
-  const double scale =
-      body.columns.has_colours() ? colour_scale(body.vertex.properties[body.columns.property[6]].type) : 1;
+  const RecordColumn colour =
+      body.columns.has_colours()
+          ? colour_column(body.columns, body.vertex.properties[body.columns.property[6]].type)
+          : RecordColumn{};
   std::array<double, VertexColumns::most> values = {};
   const auto take = [&](std::size_t property, std::string_view word) {
     if (column_of[property] == VertexColumns::most) return true;  // not read: it may be a text, such as True
@@ -171,7 +175,8 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
     return value.has_value();
   };
   const auto byte = [&](double v) {
-    return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, scale * v + .5)) : std::uint8_t{0};
+    const double scaled = colour.scale * v + colour.shift;
+    return scaled > 0 ? static_cast<std::uint8_t>(std::min(255.0, scaled + .5)) : std::uint8_t{0};
   };
   for (std::size_t i = 0; i < body.vertex.count; ++i) {
     if (const auto read = rows.read_row(body.vertex, take, [](auto...) { return true; }); !read) return read;
@@ -179,6 +184,9 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
     cloud.points[i] = Vec3(values[0], values[1], values[2]);
     if (cloud.has_normals()) cloud.normals[i] = unit_normal(Vec3(values[3], values[4], values[5]));
     if (cloud.has_colours()) cloud.colours[i] = {byte(values[6]), byte(values[7]), byte(values[8])};
+    if (!body.columns.has_opacity() || !is_faint(values[9])) continue;
+    cloud.points[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+    ++content.faint;
   }
   return {};
 }
@@ -287,7 +295,7 @@ class BinaryRows {
 
 // Rows with lists differ in size. Each row is therefore copied without its lists, and the copies are decoded
 // like rows of equal size.
-Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
+Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, PlyContent& content) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;
   std::vector<std::size_t> place(plain.properties.size());  // index of each property in the copy
@@ -305,21 +313,24 @@ Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& 
   const auto take = [&](std::size_t property, const char* first) {
     std::memcpy(bytes.data() + place[property], first, size_in_bytes(plain.properties[property].type));
   };
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = 0; i < content.cloud.size(); ++i) {
     RELIEVO_CHECK(rows.walk_row(body.vertex, take, [](auto...) {}));
-    decode_rows(records, bytes.data(), 1, cloud, i);
+    decode_rows(records, bytes.data(), 1, content.cloud, i);
+    content.faint += count_left_out(records, bytes.data(), 1);
   }
   return {};
 }
 
-Result<void> read_vertices(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
+Result<void> read_vertices(const PlyBody& body, BinaryRows& rows, PlyContent& content) {
   RELIEVO_CHECK(rows.begin(body.vertex));
+  const Records records = vertex_records(body.header, body.vertex, body.columns);
   if (has_lists(body.vertex)) {
-    cloud = sized_cloud(vertex_records(body.header, body.vertex, body.columns), body.vertex.count);
-    return read_rows_with_lists(body, rows, cloud);
+    content.cloud = sized_cloud(records, body.vertex.count);
+    return read_rows_with_lists(body, rows, content);
   }
-  cloud = decode_all(vertex_records(body.header, body.vertex, body.columns),
-                     body.source.bytes.data() + rows.offset());
+  const char* const first = body.source.bytes.data() + rows.offset();
+  content.cloud = decode_all(records, first);
+  content.faint = count_left_out(records, first, body.vertex.count);
   return rows.skip(body.vertex);
 }
 

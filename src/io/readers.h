@@ -55,6 +55,9 @@ class SourceLines : public Lines {
   const Source& source_;
 };
 
+// Which points of Gaussian splats are left out, as for the remark below.
+inline constexpr std::string_view what_splats_leave_out = "of splats that are less than half opaque";
+
 // Returns "left out 40 points that the file marks as noise".
 std::string remark_on_left_out(std::uint64_t points, std::string_view which);
 

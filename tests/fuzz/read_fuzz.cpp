@@ -16,11 +16,11 @@ namespace {
 using namespace relievo;
 
 #if RELIEVO_FUZZ_FAMILY == 0
-constexpr std::array names = {"a.obj", "a.stl", "a.off", "a.ply"};  // meshes
+constexpr std::array names = {"a.obj", "a.stl", "a.off", "a.ply", "a.model"};  // meshes
 #elif RELIEVO_FUZZ_FAMILY == 1
 constexpr std::array names = {"a.gltf", "a.glb"};
 #elif RELIEVO_FUZZ_FAMILY == 2
-constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv"};  // clouds
+constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv", "a.ptx", "a.splat"};  // clouds
 #elif RELIEVO_FUZZ_FAMILY == 3
 constexpr std::array names = {"a.las", "a.laz", "a.e57"};  // terrestrial and airborne scanners
 #else

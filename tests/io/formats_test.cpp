@@ -59,8 +59,11 @@ TEST(Formats, AreRecognisedByTheirContentOrElseByTheirName) {
 }
 
 TEST(Formats, NameForeignFiles) {
-  EXPECT_EQ(io::foreign_format({"Kaydara FBX", "a"}), "an FBX file");
-  EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.PTX"}), "a PTX file");
+  EXPECT_EQ(io::foreign_format({"Kaydara FBX", "a"}), "an FBX file; Blender exports it as glTF or PLY");
+  EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.DXF"}), "a DXF file");
+  EXPECT_EQ(io::foreign_format({"PK\x03\x04", "a.zip"}), "a ZIP archive");
+  EXPECT_EQ(io::foreign_format({"PK\x03\x04", "a.sog"}),
+            "packed Gaussian splats (SOG); SuperSplat exports them as PLY");
   EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.xyz"}), "");
 }
 

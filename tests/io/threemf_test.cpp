@@ -1,0 +1,122 @@
+// Tests the document of 3MF files; tests/cli/archive_test.cpp reads it from the archive.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/format_samples.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+std::string tetrahedron_mesh() {
+  std::string mesh = "<mesh><vertices>";
+  for (const Vec3& p : tetrahedron_points)
+    mesh += "<vertex x=\"" + std::to_string(p.x()) + "\" y=\"" + std::to_string(p.y()) + "\" z=\"" +
+            std::to_string(p.z()) + "\"/>";
+  mesh += "</vertices><triangles>";
+  for (const Triangle& t : tetrahedron_triangles)
+    mesh += "<triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) + "\" v3=\"" +
+            std::to_string(t[2]) + "\"/>";
+  return mesh + "</triangles></mesh>";
+}
+
+std::string object(const std::string& attributes, const std::string& content) {
+  return "<object " + attributes + ">" + content + "</object>";
+}
+
+std::string model(const std::string& objects, const std::string& items) {
+  return "<?xml version=\"1.0\"?>\n<model unit=\"millimeter\" "
+         "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>" +
+         objects + "</resources><build>" + items + "</build></model>";
+}
+
+const std::string mesh_object = object("id=\"1\" type=\"model\"", tetrahedron_mesh());
+
+TEST(ThreeMf, AnItemIsTheMesh) {
+  const auto file = file_of(model(mesh_object, "<item objectid=\"1\"/>"), "scan");
+  EXPECT_EQ(file.format, "3MF");
+  EXPECT_EQ(file.mesh.points, tetrahedron_points);
+  EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
+}
+
+// A component doubles and is moved by 1, 2, 3; its item then exchanges x and y, which mirrors it.
+TEST(ThreeMf, ItemsAndComponentsAreTransformed) {
+  const std::string group =
+      object("id=\"2\"",
+             "<components><component objectid=\"1\" transform=\"2 0 0 0 2 0 0 0 2 1 2 3\"/></components>");
+  const auto file =
+      file_of(model(mesh_object + group,
+                    "<item objectid=\"2\" transform=\"0 1 0 1 0 0 0 0 1 0 0 0\"/><item objectid=\"1\"/>"),
+              "a.model");
+  ASSERT_EQ(file.mesh.points.size(), 8U);
+  EXPECT_EQ(file.mesh.triangles.size(), 8U);
+  std::size_t found = 0;
+  for (const Vec3& p : tetrahedron_points)
+    found += std::ranges::count(file.mesh.points, Vec3(2 * p.y() + 2, 2 * p.x() + 1, 2 * p.z() + 3)) == 1;
+  EXPECT_EQ(found, 4U);
+  double volume = 0;
+  for (const Triangle& t : file.mesh.triangles)
+    volume += file.mesh.points[t[0]].dot(file.mesh.points[t[1]].cross(file.mesh.points[t[2]])) / 6;
+  EXPECT_NEAR(volume, (8 + 1) / 6., 1e-12) << "a mirrored mesh must not be inside out";
+}
+
+TEST(ThreeMf, ComponentsMayBeInOtherParts) {
+  const std::string text =
+      model(object("id=\"2\"",
+                   "<components><component p:path=\"/3D/Objects/a.model\" objectid=\"1\"/></components>"),
+            "<item objectid=\"2\"/>");
+  std::map<std::string, std::string> parts = {{"Objects/a.model", model(mesh_object, "")}};
+  const auto beside = [&](const std::string& name) -> Result<std::vector<std::byte>> {
+    if (parts.contains(name)) return bytes_of(parts[name]);
+    return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
+  };
+  const auto file = value_of(read_cloud(bytes_of(text), "3dmodel.model", beside));
+  EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
+  parts.clear();
+  EXPECT_EQ(message_of(read_cloud(bytes_of(text), "a.model", beside)),
+            "a.model, element component: expected a part of the archive, found '/3D/Objects/a.model'");
+  EXPECT_EQ(message_of(replaced(text, "/3D/Objects", "/3D/.."), "a.model"),
+            "a.model, element component: expected a part of the archive, found '/3D/../a.model'");
+}
+
+TEST(ThreeMf, SupportsAreLeftOut) {
+  const auto file = file_of(model(mesh_object + object("id=\"2\" type=\"support\"", tetrahedron_mesh()),
+                                  "<item objectid=\"1\"/><item objectid=\"2\"/>"),
+                            "a.model");
+  EXPECT_EQ(file.mesh.triangles.size(), 4U);
+  EXPECT_EQ(file.remarks[0], "left out 1 objects that only support others while printing");
+}
+
+TEST(ThreeMf, TooManyObjectsAreRefused) {
+  std::string items;
+  for (int i = 0; i < 100001; ++i) items += "<item objectid=\"1\"/>";
+  EXPECT_EQ(message_of(model(mesh_object, items), "a.model"),
+            "a.model, element item: expected at most 100000 objects, found more");
+}
+
+TEST(ThreeMf, BrokenDocumentsAreNamed) {
+  const std::string good = model(mesh_object, "<item objectid=\"1\"/>");
+  const std::string ring = object("id=\"1\"", "<components><component objectid=\"1\"/></components>");
+  expect_messages(
+      "a.model",
+      {{"<model></model>", ", element model: expected an element build, found none"},
+       {replaced(good, "objectid=\"1\"", "objectid=\"9\""),
+        ", element item: expected the id of an object, found '9'"},
+       {replaced(good, "objectid=\"1\"", "objectid=\"1\" transform=\"1 2\""),
+        ", element item: expected 12 numbers as transform, found '1 2'"},
+       {replaced(good, "v1=\"1\"", "v1=\"4\""),
+        ", element triangle: expected numbers of vertices below 4, found '4'"},
+       {replaced(good, "v1=\"1\"", "v1=\"-1\""),
+        ", element triangle: expected numbers of vertices below 4, found '-1'"},
+       {replaced(good, "<vertex x=\"1.000000\"", "<vertex x=\"one\""),
+        ", element vertex: expected numbers x, y and z, found ' x=\"one\" y=\"0.000000\" z=\"0.00000...'"},
+       {replaced(replaced(good, "<triangles>", "<others>"), "</triangles>", "</others>"),
+        ", element mesh: expected vertices and triangles, found only one of them"},
+       {model(ring, "<item objectid=\"1\"/>"),
+        ", element components: expected objects at most 8 levels deep, found more"},
+       {model(object("id=\"1\"", ""), "<item objectid=\"1\"/>"), ": expected points, found none"}});
+}
+
+}  // namespace
+}  // namespace relievo
