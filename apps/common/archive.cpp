@@ -35,15 +35,38 @@ std::string not_unpacked(const zip_stat_t& file, int code) {
   return cat("expected a whole file, found ", found, "; get the archive anew");
 }
 
+// Some programs separate folders by backslashes.
+std::string with_slashes(std::string name) {
+  std::ranges::replace(name, '\\', '/');
+  return name;
+}
+
+// Returns the name of a file of the archive; empty if it has none that can be read.
+const char* name_at(zip* archive, zip_uint64_t i) {
+  const char* const name = zip_get_name(archive, i, 0);
+  return name ? name : "";
+}
+
+bool is_hidden(const std::string& name) {
+  return name.empty() || name.contains("__MACOSX/") || name.starts_with('.') || name.contains("/.") ||
+         name.ends_with('/');
+}
+
+bool is_readable(const std::string& name) {
+  const auto endings = readable_endings();
+  return !is_hidden(name) && std::ranges::find(endings, "." + ending_of(name)) != endings.end();
+}
+
+bool is_text(const std::string& ending) {
+  return ending == "txt" || ending == "csv";
+}
+
 // Returns whether the file is a model and not a licence, a texture or a preview, which often lie beside
 // models.
 bool is_model(const std::string& name) {
-  constexpr std::array beside_models = {"txt", "csv", "png", "tif", "tiff"};
+  constexpr std::array pictures = {"png", "tif", "tiff"};
   const std::string ending = ending_of(name);
-  const bool is_hidden = name.contains("__MACOSX/") || name.starts_with('.') || name.contains("/.");
-  const auto endings = readable_endings();
-  return !is_hidden && std::ranges::find(endings, "." + ending) != endings.end() &&
-         std::ranges::find(beside_models, ending) == beside_models.end();
+  return is_readable(name) && !is_text(ending) && std::ranges::find(pictures, ending) == pictures.end();
 }
 
 }  // namespace
@@ -65,14 +88,15 @@ Result<Archive> Archive::open(std::span<const std::byte> bytes, std::string_view
 std::vector<std::string> Archive::names() const {
   std::vector<std::string> all;
   for (zip_int64_t i = 0; i < zip_get_num_entries(zip_.get(), 0); ++i)
-    if (const char* name = zip_get_name(zip_.get(), static_cast<zip_uint64_t>(i), 0)) all.emplace_back(name);
+    all.push_back(with_slashes(name_at(zip_.get(), static_cast<zip_uint64_t>(i))));
   return all;
 }
 
 Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
-  const zip_int64_t found = zip_name_locate(zip_.get(), name.c_str(), 0);
-  if (found < 0) return broken(name_, cat("expected an archive with ", name, ", found none in it"));
-  const auto index = static_cast<zip_uint64_t>(found);
+  const std::vector<std::string> all = names();
+  const auto found = std::ranges::find(all, with_slashes(name));
+  if (found == all.end()) return broken(name_, cat("expected an archive with ", name, ", found none in it"));
+  const auto index = static_cast<zip_uint64_t>(found - all.begin());
   zip_stat_t stat;
   zip_stat_init(&stat);
   const auto fail = [&](zip_error_t* why) {
@@ -105,7 +129,14 @@ bool is_archive(std::span<const std::byte> bytes) {
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive) {
   std::vector<std::string> models;
   std::ranges::copy_if(names, std::back_inserter(models), is_model);
+  // A text is a model if it is the only file.
+  std::vector<std::string> files;
+  std::ranges::copy_if(names, std::back_inserter(files), [](const auto& name) { return !is_hidden(name); });
+  if (files.size() == 1 && is_text(ending_of(files[0]))) models = files;
   if (models.empty()) return broken(archive, "expected an archive with a cloud or a mesh, found none in it");
+  // The other models of a 3MF are parts of its main one.
+  for (const std::string& model : models)
+    if (model == "3D/3dmodel.model" || model == "3D/3DModel.model") return model;
   if (models.size() > 1)
     return broken(archive, cat("expected an archive with one cloud or mesh, found ", models.size(), ": ",
                                models[0], " and others; unpack it first"));

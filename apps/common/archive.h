@@ -19,7 +19,7 @@ class Archive {
   // Opens the archive in `bytes`, which must outlive the object. Errors call it `name`. Errors: kind input.
   static Result<Archive> open(std::span<const std::byte> bytes, std::string_view name);
 
-  // Returns the names of all files, with their folders, in the order of the archive.
+  // Returns the names of all files, with their folders and slashes, in the order of the archive.
   std::vector<std::string> names() const;
 
   // Returns a file's content. Errors: kind input for a file that is missing, longer than 4 GiB, or damaged.
@@ -38,7 +38,7 @@ class Archive {
 bool is_archive(std::span<const std::byte> bytes);
 
 // Returns the name of the only model among the files of an archive. A model is a file whose ending some
-// reader supports; texts and pictures do not count. Errors call the archive `archive`: kind input if it has
+// reader supports; pictures do not count, and a text only if it is the only file. Errors call the archive `archive`: kind input if it has
 // no model or several.
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive);
 

@@ -152,7 +152,10 @@ View seen_by_model(const View& view, const Pose& pose) {
 // Reads the only model of an archive, with the files of the archive that the model names.
 Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const std::string& path) {
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
-  RELIEVO_TRY(const std::string model, find_model(archive.names(), path));
+  const Result<std::string> found = find_model(archive.names(), path);
+  // Files of some formats, such as USDZ, are archives: the reader knows their names.
+  if (!found && ending_of(path) != "zip") return read_cloud(bytes, path);
+  RELIEVO_TRY(const std::string model, found);
   RELIEVO_TRY(const std::vector<std::byte> content, archive.content(model));
   const std::string folder = model.substr(0, model.find_last_of('/') + 1);
   return read_cloud(content, cat(path, "/", model),

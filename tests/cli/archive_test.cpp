@@ -39,7 +39,7 @@ TEST(Archive, AGltfAndItsBufferAreRead) {
 }
 
 TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
-  EXPECT_EQ(read(archive_of({{"license.txt", "1 2 3"}})).error().message(),
+  EXPECT_EQ(read(archive_of({{"license.txt", "1 2 3"}, {"a.png", "x"}})).error().message(),
             "a.zip: expected an archive with a cloud or a mesh, found none in it");
   EXPECT_EQ(read(archive_of({{"a.stl", "x"}, {"b.ply", "x"}})).error().message(),
             "a.zip: expected an archive with one cloud or mesh, found 2: a.stl and others; unpack it first");
@@ -47,6 +47,45 @@ TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
             "a.zip/scene.gltf, buffer 0: expected the file 'scene.bin' beside it, found none that can be "
             "read; a .glb "
             "needs no other file");
+}
+
+TEST(Archive, ATextAloneIsACloud) {
+  for (const char* const name : {"scan.txt", "scan.csv", "folder/scan.txt"}) {
+    const auto file = read(archive_of({{name, "0 0 1\n1 0 2\n0 1 3\n"}, {"__MACOSX/scan.txt", "x"}}));
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->cloud.size(), 3U);
+  }
+}
+
+TEST(Archive, BackslashesSeparateFoldersToo) {
+  const auto file = read(archive_of({{"m\\scene.bin", triangle()}, {"m\\scene.gltf", gltf}}));
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles.size(), 1U);
+}
+
+// As slicers write them: the main model has a component in another part.
+TEST(Archive, AThreeMfIsReadWithItsParts) {
+  const auto model = [](const std::string& objects, const std::string& items) {
+    return "<model><resources>" + objects + "</resources><build>" + items + "</build></model>";
+  };
+  const std::string mesh =
+      R"(<object id="1"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>)"
+      R"(<vertex x="0" y="2" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
+  const std::string group =
+      R"(<object id="2"><components><component p:path="/3D/Objects/a.model" objectid="1"/></components></object>)";
+  const auto file = read(archive_of({{"3D/Objects/a.model", model(mesh, "")},
+                                     {"3D/3dmodel.model", model(group, R"(<item objectid="2"/>)")},
+                                     {"Metadata/plate_1.png", "x"}}));
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->format, "3MF");
+  EXPECT_EQ(file->mesh.points[2], Vec3(0, 2, 0));
+}
+
+TEST(Archive, FormatsThatAreArchivesAreNamed) {
+  const std::string archive = archive_of({{"scene.usdc", "x"}, {"a.png", "x"}});
+  const auto answer = read_cloud_at(std::as_bytes(std::span(archive)), "a.usdz");
+  ASSERT_FALSE(answer);
+  EXPECT_TRUE(answer.error().message().ends_with("found a USD file; Blender exports it as glTF or PLY"));
 }
 
 // Changes a field in both headers of the archive's only file. `at` is the field's distance in bytes from the
