@@ -37,11 +37,13 @@ bool is_text(const Source& source);
 //   Vertices with opacity, f_dc, scale and rot are Gaussian splats: f_dc gives their colours, and points of
 //   splats that are less than half opaque are left out. The splats of a .splat file are read likewise.
 // - OBJ: v, also with colours, vn and f. The normal of a vertex is the mean of the normals with which faces use it. If no
-//   face refers to any, it is the vn with the same index. Faces may refer to normals that are missing.
+//   face refers to any, it is the vn with the same index. Faces may refer to normals that are missing. Vertices
+//   without colours have those of map_Kd, a picture that is read as depths, too.
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
 // - OFF, text and binary, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
-//   scene, transformed by its nodes; without nodes, of all meshes. Numbers may be quantised, and
+//   scene, transformed by its nodes or posed by their skins; without nodes, of all meshes. Vertices without
+//   colours have those of the texture of base colours. Numbers may be quantised, and
 //   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
 // - 3MF: the meshes of the build, moved by its transforms and those of components; without colours. This is
 //   the document in the archive, and other documents beside it.

@@ -4,6 +4,7 @@
 
 #include "io/formats.h"
 #include "io/numbers.h"
+#include "io/obj_textures.h"
 #include "io/polygon.h"
 #include "relievo/core/text.h"
 
@@ -26,6 +27,9 @@ class ObjReader {
       if (keyword == "v") RELIEVO_CHECK(take_vertex(words));
       if (keyword == "vn") RELIEVO_CHECK(take_vector(words, normals_));
       if (keyword == "f" || keyword == "fo") RELIEVO_CHECK(take_face(words));  // fo: an old name of f
+      if (keyword == "vt") textures_.take_coordinates(words);
+      if (keyword == "mtllib") textures_.take_libraries(rest_of(keyword));
+      if (keyword == "usemtl") textures_.take_material(rest_of(keyword));
       if (keyword == "curv" || keyword == "curv2" || keyword == "surf") take_curve();
     }
     if (points_.empty()) return lines_.fail_at_end("lines 'v x y z'");
@@ -61,6 +65,12 @@ class ObjReader {
     }
     line_ = joined_;
     return true;
+  }
+
+  // Returns the line after its keyword. A name there may contain blanks.
+  std::string_view rest_of(std::string_view keyword) const {
+    const std::string_view line = trim(before_comment(line_));
+    return trim(line.substr(keyword.size()));
   }
 
   Result<void> take_vector(Words& words, std::vector<Vec3>& to) {
@@ -100,6 +110,7 @@ class ObjReader {
       if (!vertex) return fail("expected the number of a vertex, found " + in_quotes(word));
       if (*vertex > highest_vertex_) highest_vertex_ = *vertex, highest_line_ = first_line_;
       corners_.push_back({*vertex, no_index});
+      if (*vertex < points_.size()) textures_.take_corner(*vertex, word.substr(slash));
       const std::size_t second = word.find('/', slash + 1);
       if (second >= word.size() - 1) continue;  // no normal: "1", "1/2" and "1/2/"
       const auto normal = resolve(word.substr(second + 1), normals_.size());
@@ -153,6 +164,7 @@ class ObjReader {
     else if (!colours_.empty())
       raw.remarks.push_back(cat("left out the colours, which only ", colours_.size(), " of ",
                                 raw.cloud.size(), " vertices have"));
+    if (!raw.cloud.has_colours()) textures_.add_colours(lines_.source(), raw);
   }
 
   // Adds the triangles of the faces. If the cloud has normals, a corner without a normal gets the normal of
@@ -197,6 +209,7 @@ class ObjReader {
   std::string joined_;
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
+  ObjTextures textures_;
   std::vector<Vec3f> colours_;  // as in the file
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // corners of all faces

@@ -38,7 +38,7 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 // range of double is infinite.
 //
 // `beside` is called for the other files to which the file refers, at most once each. Without `beside`, a
-// reference to another file is an error.
+// reference to another file is an error, or a remark if only colours are missing.
 //
 // Errors (kind input) state the line or the byte and what was expected there, or the name of an unsupported
 // format, "a PTX file". A file without a point of finite coordinates is an error. A header that promises more

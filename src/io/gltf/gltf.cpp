@@ -7,6 +7,7 @@
 
 #include "io/formats.h"
 #include "io/gltf/gltf_skin.h"
+#include "io/gltf/gltf_textures.h"
 #include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
@@ -40,6 +41,7 @@ bool is_readable_with(std::string_view extension) {
 // The vertices of a primitive. There is one for each position.
 struct Vertices {
   AccessorValues positions, normals, colours;
+  std::vector<Colour> material_colours = {};  // if there are no colours; empty if the file has no textures
 
   std::size_t count() const { return positions.count(); }
 };
@@ -50,7 +52,7 @@ Vec3 vector_at(const AccessorValues& values, std::size_t i) {
 
 class GltfReader {
  public:
-  GltfReader(const Source& source, GltfFile& file) : source_(source), file_(file) {}
+  GltfReader(const Source& source, GltfFile& file) : source_(source), file_(file), textures_(file) {}
 
   Result<RawCloud> read() {
     RELIEVO_CHECK(check_extensions());
@@ -72,6 +74,7 @@ class GltfReader {
   void add_remarks(RawCloud& raw) const {
     if (!raw.mesh.empty() && single_points_ > 0)
       raw.remarks.push_back(cat("left out ", single_points_, " single points, as there are triangles, too"));
+    raw.remarks.insert(raw.remarks.end(), textures_.remarks().begin(), textures_.remarks().end());
     if (has_lines_) raw.remarks.emplace_back("left out the lines");
   }
 
@@ -235,7 +238,9 @@ class GltfReader {
     has_lines_ = has_lines_ || !is_read;
     if (!is_read) return {};
     if (is_compressed(primitive, *attributes)) return compressed(place);
-    RELIEVO_TRY(const Vertices vertices, vertices_of(*attributes, place));
+    RELIEVO_TRY(Vertices vertices, vertices_of(*attributes, place));
+    if (textures_.has_any() && vertices.colours.count() == 0)
+      vertices.material_colours = textures_.colours(primitive, *attributes, vertices.count());
     std::vector<std::int64_t> order;
     if (*mode != points_mode) {
       RELIEVO_TRY(order, order_of(primitive, vertices.count(), place));
@@ -320,6 +325,7 @@ class GltfReader {
       points_.push_back((posed.empty() ? transform : posed[i]) * vector_at(all.positions, i));
     for (std::size_t i = 0; i < all.normals.count(); ++i)
       normals_.push_back(unit_normal((posed.empty() ? turn : turn_of(posed[i])) * vector_at(all.normals, i)));
+    colours_.insert(colours_.end(), all.material_colours.begin(), all.material_colours.end());
     for (std::size_t i = 0; i < all.colours.count(); ++i) {
       const Vec3 colour = vector_at(all.colours, i);
       colours_.push_back({byte(colour.x()), byte(colour.y()), byte(colour.z())});
@@ -342,6 +348,7 @@ class GltfReader {
 
   const Source& source_;
   GltfFile& file_;
+  GltfTextures textures_;
   bool has_lines_ = false;
   std::size_t single_points_ = 0;
   std::vector<Vec3> points_;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "io/numbers.h"
@@ -42,6 +43,9 @@ class GltfFile {
   // Returns the numbers of accessor i. Errors: kind input, at `place`, if the accessor does not exist or does
   // not fit into its buffer, or if the buffer is not available.
   Result<AccessorValues> accessor(std::size_t i, const std::string& place);
+
+  // Returns the bytes of image i; nothing if it does not exist or is not available.
+  std::optional<std::string_view> image(std::size_t i);
 
  private:
   // The layout of the numbers of an accessor, as its JSON states it.

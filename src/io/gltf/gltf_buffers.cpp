@@ -120,6 +120,17 @@ Result<std::string_view> GltfFile::load(const std::string& uri, const std::strin
   return std::string_view(reinterpret_cast<const char*>(kept.data()), kept.size());
 }
 
+std::optional<std::string_view> GltfFile::image(std::size_t i) {
+  const std::string place = "image " + std::to_string(i);
+  const Json* json = element("images", i);
+  if (!json) return std::nullopt;
+  const auto uri = json->find("uri");
+  const bool has_uri = uri != json->end() && uri->is_string();
+  const auto bytes = has_uri ? load(uri->get_ref<const std::string&>(), place)
+                             : view(number_in(*json, "bufferView", no_index).value_or(no_index), place);
+  return bytes ? std::optional(*bytes) : std::nullopt;
+}
+
 Result<std::string_view> GltfFile::buffer(std::size_t i, const Json& json) {
   const std::string place = "buffer " + std::to_string(i);
   const auto uri = json.find("uri");

@@ -1,0 +1,27 @@
+// Pictures on the surfaces of meshes, sampled at the vertices to give them colours.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/readers.h"
+#include "relievo/scan/depth_image.h"
+
+namespace relievo::io {
+
+class Texture {
+ public:
+  // Reads a picture of any format that is read as depths. Returns nothing for other files.
+  static std::optional<Texture> read(std::string_view bytes, std::string_view name);
+
+  // Returns the colour at a place between pixels; the picture repeats. (0, 0) is its upper left corner,
+  // (1, 1) its lower right one.
+  Colour at(double u, double v) const;
+
+ private:
+  std::array<Image<float>, 3> channels_;  // values from 0 to 255
+};
+
+}  // namespace relievo::io
