@@ -2,10 +2,9 @@
 #include <spng.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <limits>
 #include <memory>
-#include <optional>
 
 #include "io/pictures.h"
 #include "io/text.h"
@@ -16,8 +15,8 @@ namespace {
 
 constexpr std::uint32_t longest_side_px = 1'000'000;
 
-// Gives libspng the bytes of a file without its ancillary chunks. These chunks may be large or broken, and
-// libspng would allocate as much memory as their lengths promise.
+// Gives libspng the bytes of a file without its ancillary chunks, except transparent colours. Ancillary chunks
+// may be large or broken, and libspng would allocate as much memory as their lengths promise.
 class NeededChunks {
  public:
   explicit NeededChunks(std::string_view bytes) : bytes_(bytes) {}
@@ -41,14 +40,16 @@ class NeededChunks {
     return 0;
   }
 
-  // Moves to the next critical chunk: the names of ancillary chunks begin with a small letter.
+  // Moves to the next critical chunk, or to transparent colours, which need at most a byte for each colour of a
+  // palette. The names of ancillary chunks begin with a small letter.
   void find_needed() {
     constexpr std::size_t head = 8, around_data = 12;
     while (bytes_.size() - at_ >= head) {
       std::uint64_t length = 0;
       for (std::size_t i = 0; i < 4; ++i) length = 256 * length + static_cast<unsigned char>(bytes_[at_ + i]);
       end_ = at_ + around_data + length;
-      if ((bytes_[at_ + 4] & 0x20) == 0) return;
+      const bool are_colours = bytes_.substr(at_ + 4, 4) == "tRNS" && length <= 256;
+      if ((bytes_[at_ + 4] & 0x20) == 0 || are_colours) return;
       at_ = static_cast<std::size_t>(std::min<std::uint64_t>(end_, bytes_.size()));
     }
     end_ = bytes_.size();
@@ -77,23 +78,32 @@ class Reader {
       return source_.error({}, cat("expected more data for ", pixels, " pixels, found ", source_.bytes.size(),
                                    " bytes; the file is cut, get it anew"));
     std::vector<std::uint8_t> values(pixels * channels_ * value_size_);
-    int failure = spng_decode_image(spng_.get(), values.data(), values.size(), format_, 0);
+    int failure = spng_decode_image(spng_.get(), values.data(), values.size(), format_,
+                                    has_transparent_colour_ ? SPNG_DECODE_TRNS : 0);
     if (failure == 0) failure = spng_decode_chunks(spng_.get());
     if (failure != 0) return broken(failure);
     return as_depths(values);
   }
 
  private:
-  // Palettes are converted to colours, and grey of fewer than 8 bits to 8 bits. Alpha is read, but not used.
+  // Palettes are converted to colours, and grey of fewer than 8 bits to 8 bits. A transparent colour that the
+  // file names becomes alpha.
   void choose_format() {
     const int type = header_.color_type;
     const bool has_palette = type == SPNG_COLOR_TYPE_INDEXED, is_narrow = header_.bit_depth < 8;
     const bool has_alpha = type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA || type == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
     const bool is_grey = type == SPNG_COLOR_TYPE_GRAYSCALE || type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
+    const bool is_wide = header_.bit_depth == 16;
+    spng_trns trns{};
+    has_transparent_colour_ = spng_get_trns(spng_.get(), &trns) == 0;
     format_ = has_palette ? SPNG_FMT_RGB8 : is_narrow ? SPNG_FMT_G8 : SPNG_FMT_PNG;
+    if (has_transparent_colour_)
+      format_ = is_grey   ? (is_wide ? SPNG_FMT_GA16 : SPNG_FMT_GA8)
+                : is_wide ? SPNG_FMT_RGBA16
+                          : SPNG_FMT_RGBA8;
     colours_ = is_grey ? 1 : 3;
-    channels_ = colours_ + (has_alpha ? 1 : 0);
-    value_size_ = header_.bit_depth == 16 ? 2 : 1;
+    channels_ = colours_ + (has_alpha || has_transparent_colour_ ? 1 : 0);
+    value_size_ = is_wide ? 2 : 1;
   }
 
   std::unexpected<Error> broken(int failure) const {
@@ -104,32 +114,22 @@ class Reader {
   Result<DepthImage> as_depths(const std::vector<std::uint8_t>& values) const {
     DepthImage image{{}, 1, cat("PNG, ", 8 * value_size_, " bits")};
     image.values.resize(static_cast<int>(header_.width), static_cast<int>(header_.height));
-    if (wanted_.channel > static_cast<int>(colours_))
-      return source_.error({}, cat("expected a channel from 1 to ", colours_, ", found ", wanted_.channel));
-    for (std::size_t i = 0; i < image.values.size(); ++i) {
-      const auto value = value_of(values.data() + i * channels_ * value_size_);
-      if (!value)
-        return source_.error(cat("column ", i % header_.width + 1, ", row ", i / header_.width + 1),
-                             cat("expected a grey picture of depths, found colours", way_out_of_colours));
-      image.values[i] = *value;
-    }
+    const auto at = [&](std::size_t pixel, std::size_t channel) {
+      return sample(values.data() + (pixel * channels_ + channel) * value_size_);
+    };
+    RELIEVO_CHECK(fill_values(source_, wanted_, colours_, image.values, [&](std::size_t i) {
+      return colours_ == 1 ? PixelColour{at(i, 0)} : PixelColour{at(i, 0), at(i, 1), at(i, 2)};
+    }));
+    const float opaque = value_size_ == 2 ? 65535 : 255;
+    for (std::size_t i = 0; channels_ > colours_ && i < image.values.size(); ++i)
+      if (at(i, colours_) < opaque / 2) image.values[i] = std::numeric_limits<float>::quiet_NaN();
     return image;
   }
 
-  // Returns the value of a pixel; nothing if its channels differ, as in a photograph or in depths that are
-  // shown in colours.
-  std::optional<float> value_of(const std::uint8_t* pixel) const {
-    std::array<float, 3> all{};
-    for (std::size_t c = 0; c < colours_; ++c) {
-      std::uint16_t value = pixel[c];
-      if (value_size_ == 2) std::memcpy(&value, pixel + 2 * c, 2);
-      all[c] = value;
-    }
-    if (wanted_.channel > 0) return all[static_cast<std::size_t>(wanted_.channel) - 1];
-    const bool is_grey = colours_ == 1 || (all[0] == all[1] && all[1] == all[2]);
-    if (is_grey) return all[0];
-    if (!wanted_.is_luminance_wanted) return std::nullopt;
-    return luminance_shares[0] * all[0] + luminance_shares[1] * all[1] + luminance_shares[2] * all[2];
+  float sample(const std::uint8_t* from) const {
+    std::uint16_t value = *from;
+    if (value_size_ == 2) std::memcpy(&value, from, 2);
+    return value;
   }
 
   const Source& source_;
@@ -138,6 +138,7 @@ class Reader {
   std::unique_ptr<spng_ctx, decltype([](spng_ctx* spng) { spng_ctx_free(spng); })> spng_{spng_ctx_new(0)};
   spng_ihdr header_{};
   int format_ = SPNG_FMT_PNG;
+  bool has_transparent_colour_ = false;
   std::size_t colours_ = 0, channels_ = 0, value_size_ = 0;  // channels are colours and alpha
 };
 

@@ -1,116 +1,43 @@
-#include <tiff.h>
-
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
 
+#include "io/geotiff.h"
 #include "io/pictures.h"
 #include "io/text.h"
 #include "io/tiff_bytes.h"
+#include "io/tiff_samples.h"
 #include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
-
-enum class SampleKind { whole, signed_whole, fraction };
-
-struct SampleFormat {
-  SampleKind kind = SampleKind::whole;
-  unsigned bits = 1;
-};
-
-// A row as libtiff returns it. Every `step`-th sample is read, from the sample `first` on.
-struct SampleRow {
-  const unsigned char* bytes = nullptr;
-  std::size_t first = 0, step = 1;
-};
-
-std::uint64_t little_endian(const unsigned char* first, unsigned bits) {
-  std::uint64_t value = 0;
-  std::memcpy(&value, first, bits / 8);
-  return value;
-}
-
-std::uint64_t packed(const unsigned char* row, std::size_t first_bit, unsigned bits) {
-  std::uint64_t value = 0;
-  for (std::size_t bit = first_bit; bit < first_bit + bits; ++bit)
-    value = value << 1 | (row[bit / 8] >> (7 - bit % 8) & 1U);
-  return value;
-}
-
-// Converts a number of 16 bits (IEEE 754 half precision).
-float half(std::uint64_t bits) {
-  const auto exponent = static_cast<int>(bits >> 10 & 31), fraction = static_cast<int>(bits & 1023);
-  const float sign = bits >> 15 & 1 ? -1.F : 1.F;
-  if (exponent == 31) return fraction ? std::nanf("") : sign * HUGE_VALF;
-  if (exponent == 0) return sign * std::ldexp(static_cast<float>(fraction), -24);
-  return sign * std::ldexp(static_cast<float>(1024 + fraction), exponent - 25);
-}
-
-float as_fraction(std::uint64_t bits, unsigned size) {
-  if (size == 16) return half(bits);
-  if (size == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-  return static_cast<float>(std::bit_cast<double>(bits));
-}
-
-float as_signed(std::uint64_t bits, unsigned size) {
-  const unsigned unused = 64 - size;
-  return static_cast<float>(static_cast<std::int64_t>(bits << unused) >> unused);
-}
-
-// Returns the format of the tags SampleFormat and BitsPerSample if it is supported: whole numbers of 1 to 32
-// and of 64 bits, signed whole numbers of 8, 16, 32 and 64 bits, and floating-point numbers of 16, 32 and 64
-// bits, which messages call fractions. Undefined samples are taken as whole numbers.
-std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits) {
-  const auto is_one_of = [&](auto... sizes) { return ((bits == sizes) || ...); };
-  if (sample_format == SAMPLEFORMAT_UINT || sample_format == SAMPLEFORMAT_VOID) {
-    if ((bits >= 1 && bits <= 32) || bits == 64) return SampleFormat{SampleKind::whole, bits};
-  } else if (sample_format == SAMPLEFORMAT_INT) {
-    if (is_one_of(8U, 16U, 32U, 64U)) return SampleFormat{SampleKind::signed_whole, bits};
-  } else if (sample_format == SAMPLEFORMAT_IEEEFP) {
-    if (is_one_of(16U, 32U, 64U)) return SampleFormat{SampleKind::fraction, bits};
-  }
-  return std::nullopt;
-}
-
-// Returns a description of the samples for messages: "4-bit whole numbers".
-std::string describe_samples(unsigned sample_format, unsigned bits) {
-  constexpr std::array names = {"numbers", "whole numbers", "signed numbers", "fractions",
-                                "undefined numbers"};
-  const std::size_t known = sample_format < names.size() ? sample_format : 0;
-  return std::to_string(bits) + "-bit " + (sample_format > 4 ? "complex numbers" : names[known]);
-}
-
-// Decodes n samples of a row. Numbers of 8, 16, 24, 32 and 64 bits are in the machine's byte order, which is
-// little-endian. All other widths are packed, the most significant bit first.
-void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to) {
-  const unsigned bits = format.bits;
-  const bool is_packed = bits % 8 != 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t sample = row.first + i * row.step;
-    const std::uint64_t value = is_packed ? packed(row.bytes, sample * bits, bits)
-                                          : little_endian(row.bytes + sample * (bits / 8), bits);
-    if (format.kind == SampleKind::whole) to[i] = static_cast<float>(value);
-    if (format.kind == SampleKind::signed_whole) to[i] = as_signed(value, bits);
-    if (format.kind == SampleKind::fraction) to[i] = as_fraction(value, bits);
-  }
-}
 
 constexpr std::uint32_t gdal_no_data = 42113;  // tag of the value for missing depths, as text
 
 struct Layout {
   std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;
   std::uint16_t bits = 1, kind = SAMPLEFORMAT_UINT, channels = 1, colours = PHOTOMETRIC_MINISBLACK,
-                planes = PLANARCONFIG_CONTIG;
+                planes = PLANARCONFIG_CONTIG, orientation = ORIENTATION_TOPLEFT;
   SampleFormat samples = {};
+  std::optional<std::uint16_t> alpha;  // the channel of transparency
 };
+
+// Returns the first of the extra channels that the file calls transparency. They are the last channels.
+std::optional<std::uint16_t> alpha_of(TIFF* tiff, std::uint16_t channels) {
+  std::uint16_t count = 0;
+  const std::uint16_t* kinds = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) != 1 || !kinds || count >= channels)
+    return std::nullopt;
+  for (std::uint16_t i = 0; i < count; ++i)
+    if (kinds[i] == EXTRASAMPLE_ASSOCALPHA || kinds[i] == EXTRASAMPLE_UNASSALPHA)
+      return static_cast<std::uint16_t>(channels - count + i);
+  return std::nullopt;
+}
 
 Layout layout_of(TIFF* tiff) {
   Layout it;
@@ -121,6 +48,8 @@ Layout layout_of(TIFF* tiff) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &it.channels);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &it.planes);
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &it.colours);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &it.orientation);
+  it.alpha = alpha_of(tiff, it.channels);
   if (!TIFFIsTiled(tiff)) return it;
   TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &it.tile_width);
   TIFFGetField(tiff, TIFFTAG_TILELENGTH, &it.tile_height);
@@ -174,8 +103,7 @@ Result<void> check_samples(const Source& source, Layout& layout, const PictureCh
   return {};
 }
 
-// Returns the number of samples per pixel in a row. Besides depths, a pixel may have transparency, which is
-// not read.
+// Returns the number of samples per pixel in a row.
 std::size_t samples_per_pixel(const Layout& layout) {
   return layout.planes == PLANARCONFIG_CONTIG ? layout.channels : 1;
 }
@@ -238,6 +166,28 @@ Broken read_luminance(TIFF* tiff, const Layout& layout, Image<float>& to) {
   return {};
 }
 
+// Removes the values of pixels that are more transparent than opaque.
+Broken remove_transparent(TIFF* tiff, const Layout& layout, Image<float>& image) {
+  Image<float> alpha;
+  if (const Broken broken = read_channel(tiff, layout, *layout.alpha, alpha)) return broken;
+  const double most = layout.samples.kind == SampleKind::fraction ? 1 : std::exp2(layout.bits) - 1;
+  for (std::size_t i = 0; i < alpha.size(); ++i)
+    if (alpha[i] < most / 2) image[i] = std::numeric_limits<float>::quiet_NaN();
+  return {};
+}
+
+// Chooses the first picture that is neither a smaller version of another nor its mask. Without such a
+// picture, the first one stays chosen.
+void choose_directory(TIFF* tiff) {
+  constexpr tdir_t most_directories = 1000;  // each is read, so a file with more would take long
+  for (tdir_t i = 0; i < most_directories && (i == 0 || TIFFReadDirectory(tiff)); ++i) {
+    std::uint32_t kind = 0;
+    TIFFGetField(tiff, TIFFTAG_SUBFILETYPE, &kind);
+    if ((kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0) return;
+  }
+  TIFFSetDirectory(tiff, 0);
+}
+
 std::string in_words_of_libtiff(const TiffBytes& file) {
   return "expected the data of a TIFF picture; libtiff says: " + printable(file.message(), 120);
 }
@@ -264,6 +214,10 @@ std::unexpected<Error> no_directory(const Source& source, const TiffBytes& file)
   std::uint64_t first = 0;
   for (std::size_t i = 0; i < size && at + size <= bytes.size(); ++i)
     first |= std::uint64_t{static_cast<unsigned char>(bytes[at + i])} << 8 * (is_swapped ? size - 1 - i : i);
+  if (first == 0 && bytes.size() >= at + size)
+    return source.error_at_byte(at,
+                                "expected the place of the picture's tags, found 0; the file has no "
+                                "picture, save it anew");
   if (first < bytes.size()) return source.error_at_byte(first, in_words_of_libtiff(file));
   return source.error_at_byte(at,
                               cat("expected the place of the picture's tags below ", bytes.size(),
@@ -310,6 +264,7 @@ bool is_tiff(const Source& source) {
 Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels) {
   TiffBytes file(source.bytes);
   if (!file.handle()) return no_directory(source, file);
+  choose_directory(file.handle());
   Layout layout = layout_of(file.handle());
   const std::size_t pixels = std::size_t{layout.width} * layout.height;
   if (pixels > most_pixels) return source.error({}, cat("expected at most 134217728 pixels, found ", pixels));
@@ -320,11 +275,16 @@ Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& 
   const bool is_fraction = layout.samples.kind == SampleKind::fraction;
   DepthImage image{{}, is_fraction ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};
   const auto channel = static_cast<std::uint16_t>(std::max(channels.channel, 1) - 1);
-  const Broken broken = takes_luminance(layout, channels)
-                            ? read_luminance(file.handle(), layout, image.values)
-                            : read_channel(file.handle(), layout, channel, image.values);
+  Broken broken = takes_luminance(layout, channels)
+                      ? read_luminance(file.handle(), layout, image.values)
+                      : read_channel(file.handle(), layout, channel, image.values);
   if (broken) return broken_part(source, file, *broken);
   interpret(layout, no_data(file.handle()), image);
+  const bool has_alpha = layout.alpha && channels.channel != *layout.alpha + 1;
+  if (has_alpha) broken = remove_transparent(file.handle(), layout, image.values);
+  if (broken) return broken_part(source, file, *broken);
+  image.pixel_size = geotiff_pixel_size(file.handle(), layout.height);
+  turn_upright(image, layout.orientation);
   return image;
 }
 

@@ -39,8 +39,9 @@ std::string foreign_format(const Source& source) {
   for (const ForeignFormat& format : foreign_names) {
     if (has_ending(source.name, format.mark)) return std::string(format.what);
   }
-  for (const ForeignFormat& format : foreign_beginnings) {
-    if (source.bytes.starts_with(format.mark)) return std::string(format.what);
+  for (const ForeignFormat& format : foreign_contents) {
+    const std::string_view bytes = source.bytes.substr(std::min(format.at, source.bytes.size()));
+    if (bytes.starts_with(format.mark)) return std::string(format.what);
   }
   for (const ForeignFormat& format : foreign_endings) {
     if (has_ending(source.name, format.mark)) return std::string(format.what);
@@ -55,6 +56,12 @@ std::string format_names(Content content) {
   return names;
 }
 
+std::string picture_names() {
+  std::string names;
+  for (const PictureFormat& format : picture_formats) append_name(names, format.name);
+  return names;
+}
+
 std::string row_format_names() {
   std::string names;
   for (const Format& format : formats)
@@ -66,10 +73,8 @@ std::string row_format_names() {
 }  // namespace io
 
 std::string readable_formats() {
-  std::string pictures;
-  for (const io::PictureFormat& format : io::picture_formats) io::append_name(pictures, format.name);
   return "point cloud (" + io::format_names(io::Content::points) + "), mesh (" +
-         io::format_names(io::Content::triangles) + ") or depth image (" + pictures + ")";
+         io::format_names(io::Content::triangles) + ") or depth image (" + io::picture_names() + ")";
 }
 
 std::vector<std::string> readable_endings() {

@@ -109,57 +109,74 @@ inline constexpr std::array formats = {
     Format{"PTX", ".ptx", Content::points, is_ptx, read_ptx},
     Format{"XYZ, PTS", ".xyz .pts .txt .csv .asc", Content::points, is_text, read_text}};
 
-// An unsupported format that errors can name.
+// An unsupported format that errors can name, with a way out for pictures.
 struct ForeignFormat {
-  std::string_view mark;  // the beginning of the content, or the ending of the name
+  std::string_view mark;  // text in the content, or the ending of the name
   std::string_view what;  // shown to people
+  std::size_t at = 0;     // place of the mark in the content
 };
 
 // Formats that the ending of the name shows better than the content, which is often that of an archive.
-inline constexpr std::array<ForeignFormat, 15> foreign_names = {
-    {{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
-     {".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},
-     {".sog", "packed Gaussian splats (SOG); SuperSplat exports them as PLY"},
-     {".usdz", "a USD file; Blender exports it as glTF or PLY"},
-     {".usd", "a USD file; Blender exports it as glTF or PLY"},
-     {".usdc", "a USD file; Blender exports it as glTF or PLY"},
-     {".usda", "a USD file; Blender exports it as glTF or PLY"},
-     {".dae", "a COLLADA file; Blender exports it as glTF or PLY"},
-     {".blend", "a Blender file; Blender exports it as glTF or PLY"},
-     {".rcp", "a ReCap project; ReCap exports it as E57 or PTS"},
-     {".rcs", "a ReCap scan; ReCap exports it as E57 or PTS"},
-     {".fls", "a FARO scan; SCENE exports it as E57 or PTX"},
-     {".zfs", "a Zoller+Froehlich scan; LaserControl exports it as E57 or PTX"},
-     {".iges", "an IGES file; FreeCAD exports it as STL"},
-     {".igs", "an IGES file; FreeCAD exports it as STL"}}};
+inline constexpr std::array foreign_names = {
+    ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
+    ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},
+    ForeignFormat{".sog", "packed Gaussian splats (SOG); SuperSplat exports them as PLY"},
+    ForeignFormat{".usdz", "a USD file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".usd", "a USD file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".usdc", "a USD file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".usda", "a USD file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".dae", "a COLLADA file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".blend", "a Blender file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".rcp", "a ReCap project; ReCap exports it as E57 or PTS"},
+    ForeignFormat{".rcs", "a ReCap scan; ReCap exports it as E57 or PTS"},
+    ForeignFormat{".fls", "a FARO scan; SCENE exports it as E57 or PTX"},
+    ForeignFormat{".zfs", "a Zoller+Froehlich scan; LaserControl exports it as E57 or PTX"},
+    ForeignFormat{".iges", "an IGES file; FreeCAD exports it as STL"},
+    ForeignFormat{".igs", "an IGES file; FreeCAD exports it as STL"}};
 
-inline constexpr std::array<ForeignFormat, 15> foreign_beginnings = {
-    {{"\x89PNG", "a PNG picture"},
-     {"\xFF\xD8\xFF", "a JPEG picture"},
-     {"II*", "a TIFF picture"},
-     {"MM", "a TIFF picture"},
-     {"{", "a JSON file"},
-     {"<", "an XML or HTML file"},
-     {"#VRML", "a VRML file"},
-     {"Kaydara FBX", "an FBX file; Blender exports it as glTF or PLY"},
-     {"\x93NUMPY", "a NumPy file"},
-     {"%PDF", "a PDF file"},
-     {"PK\x03\x04", "a ZIP archive"},
-     {"\x1F\x8B", "a gzip archive"},
-     {"7z\xBC\xAF", "a 7z archive"},
-     {"\xFF\xFE", "UTF-16 text"},
-     {"\xFE\xFF", "UTF-16 text"}}};
+inline constexpr std::array foreign_contents = {
+    ForeignFormat{"\x89PNG", "a PNG picture"},
+    ForeignFormat{"\xFF\xD8\xFF", "a JPEG picture; save it as PNG"},
+    ForeignFormat{"II*", "a TIFF picture"},
+    ForeignFormat{"MM", "a TIFF picture"},
+    ForeignFormat{"\x93NUMPY", "a NumPy file"},
+    ForeignFormat{"\x76\x2F\x31\x01", "an OpenEXR picture; save it as a TIFF of 32-bit fractions"},
+    ForeignFormat{"#?RADIANCE", "a Radiance HDR picture; save it as a TIFF of 32-bit fractions"},
+    ForeignFormat{"WEBP", "a WebP picture; save it as PNG", 8},
+    ForeignFormat{"ftyp", "a HEIC or AVIF picture, or a video; save a picture as PNG", 4},
+    ForeignFormat{"jP  ", "a JPEG 2000 picture; save it as PNG", 4},
+    ForeignFormat{"JXL ", "a JPEG XL picture; save it as PNG", 4},
+    ForeignFormat{"\xFF\x0A", "a JPEG XL picture; save it as PNG"},
+    ForeignFormat{"GIF8", "a GIF picture; save it as PNG"},
+    ForeignFormat{"8BPS", "a Photoshop picture; save it as a PNG or TIFF of 16 bits"},
+    ForeignFormat{"SIMPLE  =", "a FITS picture; save it as a TIFF of 32-bit fractions"},
+    ForeignFormat{"DSAA", "a Surfer grid; save it as a GeoTIFF or an Esri grid"},
+    ForeignFormat{"DSBB", "a Surfer grid; save it as a GeoTIFF or an Esri grid"},
+    ForeignFormat{"DSRB", "a Surfer grid; save it as a GeoTIFF or an Esri grid"},
+    ForeignFormat{"\x89HDF", "an HDF5 file; save its array of heights as NPY"},
+    ForeignFormat{"MATLAB 5", "a MATLAB file; save its matrix of heights as CSV"},
+    ForeignFormat{"{", "a JSON file"},
+    ForeignFormat{"<", "an XML or HTML file"},
+    ForeignFormat{"#VRML", "a VRML file"},
+    ForeignFormat{"Kaydara FBX", "an FBX file; Blender exports it as glTF or PLY"},
+    ForeignFormat{"%PDF", "a PDF file"},
+    ForeignFormat{"PK\x03\x04", "a ZIP archive"},
+    ForeignFormat{"\x1F\x8B", "a gzip archive"},
+    ForeignFormat{"7z\xBC\xAF", "a 7z archive"},
+    ForeignFormat{"\xFF\xFE", "UTF-16 text"},
+    ForeignFormat{"\xFE\xFF", "UTF-16 text"}};
 
-inline constexpr std::array<ForeignFormat, 9> foreign_endings = {
-    {{".3ds", "a 3DS file; Blender exports it as glTF or PLY"},
-     {".dxf", "a DXF file"},
-     {".fbx", "an FBX file; Blender exports it as glTF or PLY"},
-     {".mtl", "a file of OBJ materials"},
-     {".step", "a STEP file; FreeCAD exports it as STL"},
-     {".stp", "a STEP file; FreeCAD exports it as STL"},
-     {".tif", "a TIFF picture"},
-     {".tiff", "a TIFF picture"},
-     {".ply", "a file that does not begin with the line 'ply'"}}};
+inline constexpr std::array foreign_endings = {
+    ForeignFormat{".3ds", "a 3DS file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".dxf", "a DXF file"},
+    ForeignFormat{".fbx", "an FBX file; Blender exports it as glTF or PLY"},
+    ForeignFormat{".mtl", "a file of OBJ materials"},
+    ForeignFormat{".step", "a STEP file; FreeCAD exports it as STL"},
+    ForeignFormat{".stp", "a STEP file; FreeCAD exports it as STL"},
+    ForeignFormat{".tif", "a TIFF picture"},
+    ForeignFormat{".tiff", "a TIFF picture"},
+    ForeignFormat{".raw", "numbers or a photo without a header; save heights as NPY or TIFF, a photo as PNG"},
+    ForeignFormat{".ply", "a file that does not begin with the line 'ply'"}};
 
 // Returns a description, such as "a ZIP archive", of a file in an unsupported format or of unknown binary
 // data. Empty for text that does not begin like such a format.
@@ -167,6 +184,9 @@ std::string foreign_format(const Source& source);
 
 // Returns the names of the formats with that content: "PLY, PCD, LAS".
 std::string format_names(Content content);
+
+// Returns the names of the formats of pictures: "PNG, TIFF".
+std::string picture_names();
 
 // Returns the names of the formats that can be read row by row: "PLY, PCD or LAS".
 std::string row_format_names();

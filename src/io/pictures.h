@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "io/readers.h"
+#include "relievo/core/text.h"
 #include "relievo/scan/depth_image.h"
 
 namespace relievo::io {
@@ -29,6 +31,51 @@ inline constexpr std::string_view way_out_of_colours =
 
 // The shares of red, green and blue in the luminance of Rec. 709.
 inline constexpr std::array luminance_shares = {.2126F, .7152F, .0722F};
+
+// The values of a picture that is stored without compression.
+struct StoredPixels {
+  std::uint64_t width = 0, height = 0;
+  std::uint64_t bytes = 1;   // per pixel
+  std::uint64_t offset = 0;  // of the first pixel in the file
+};
+
+// Returns an error if there are too many pixels, or more than the file contains.
+Result<void> check_room(const Source& source, const StoredPixels& stored);
+
+// Red, green and blue of a pixel; only the first counts in a grey picture.
+using PixelColour = std::array<float, 3>;
+
+// Returns the value of a pixel of `channels` channels; nothing if they differ, as in a photograph or in depths
+// that are shown in colours, and neither one channel nor luminance is wanted.
+std::optional<float> pixel_value(const PixelColour& colour, std::size_t channels,
+                                 const PictureChannels& wanted);
+
+// Returns an error if the wanted channel does not exist.
+Result<void> check_channel(const Source& source, const PictureChannels& wanted, std::size_t channels);
+
+// Returns the error about a pixel of which pixel_value() finds none.
+std::unexpected<Error> colours_found(const Source& source, std::size_t column, std::size_t row);
+
+// Sets all values from colour_at(i), the colour of pixel i.
+template <typename ColourAt>
+Result<void> fill_values(const Source& source, const PictureChannels& wanted, std::size_t channels,
+                         Image<float>& values, const ColourAt& colour_at) {
+  RELIEVO_CHECK(check_channel(source, wanted, channels));
+  const auto width = static_cast<std::size_t>(values.width);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::optional<float> value = pixel_value(colour_at(i), channels, wanted);
+    if (!value) return colours_found(source, i % width, i / width);
+    values[i] = *value;
+  }
+  return {};
+}
+
+// Returns the difference between possible values: 1 if all are whole numbers, else 0.
+double step_of(const Image<float>& values);
+
+// Turns a picture by the tag Orientation of TIFF and Exif, from 1 to 8, so that its first row is at the top and
+// its first column at the left. Other values change nothing.
+void turn_upright(DepthImage& image, int orientation);
 
 struct PictureFormat {
   std::string_view name;     // shown to people

@@ -19,8 +19,7 @@ Result<io::RawCloud> read_by_format(const io::Source& source) {
   if (!is_empty)
     for (const io::Format& format : io::formats)
       if (format.is_format(source)) return format.read(source);
-  return source.error({}, cat("expected a point cloud (", io::format_names(io::Content::points),
-                              ") or a mesh (", io::format_names(io::Content::triangles), "), found ",
+  return source.error({}, cat("expected a ", readable_formats(), ", found ",
                               is_empty ? "an empty file" : io::foreign_format(source)));
 }
 

@@ -71,6 +71,16 @@ Vec3f normal_at(const BoundedGrid& b, const std::vector<float>& z, int c, int r)
   return Vec3f(-dx, dy, 1).normalized();  // rows go down, y goes up
 }
 
+// Stretches the rows of square pixels so that a pixel is `aspect` times as high as wide.
+void stretch(Cloud& cloud, double aspect) {
+  if (aspect == 1) return;
+  for (Vec3& p : cloud.points) p.y() *= aspect;
+  for (Vec3f& n : cloud.normals) {
+    n.y() /= static_cast<float>(aspect);
+    n.normalize();
+  }
+}
+
 Cloud points_of(const DepthGrid& grid, const std::vector<float>& z,
                 const std::vector<std::uint8_t>& is_hole) {
   const BoundedGrid& b = grid.bounds;
@@ -108,6 +118,7 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);
   fill(grid.bounds, is_hole, z);
   out.cloud = points_of(grid, z, is_hole);
+  stretch(out.cloud, image.pixel_aspect());
   out.cloud.is_height_field = true;
   return out;
 }

@@ -20,7 +20,13 @@ TEST(ReadCloud, UnreadableFormatsAreToldByName) {
       {"", "scan.ply", "an empty file"},
       {"\xEF\xBB\xBF", "scan.ply", "an empty file"},
       {"\x89PNG\r\n\x1A\n", "scan.ply", "a PNG picture"},
-      {"\xFF\xD8\xFF\xE0", "scan", "a JPEG picture"},
+      {"\xFF\xD8\xFF\xE0", "scan", "a JPEG picture; save it as PNG"},
+      {"\x76\x2F\x31\x01", "a.exr", "an OpenEXR picture; save it as a TIFF of 32-bit fractions"},
+      {"RIFF\1\1\1\1WEBPVP8 ", "a.webp", "a WebP picture; save it as PNG"},
+      {"\1\1\1\x18"
+       "ftypheic",
+       "a.heic", "a HEIC or AVIF picture, or a video; save a picture as PNG"},
+      {"12", "a.raw", "numbers or a photo without a header; save heights as NPY or TIFF, a photo as PNG"},
       {"PK\x03\x04", "scan.zip", "a ZIP archive"},
       {"\x1F\x8B\x08", "scan.ply.gz", "a gzip archive"},
       {"PK\x03\x04", "scan.usdz", "a USD file; Blender exports it as glTF or PLY"},
@@ -36,7 +42,7 @@ TEST(ReadCloud, UnreadableFormatsAreToldByName) {
   for (const auto& [text, name, what] : all) {
     const std::string message = message_of(text, name);
     EXPECT_TRUE(message.starts_with(name + ": expected a point cloud (PLY, ")) << message;
-    EXPECT_TRUE(message.contains(") or a mesh (PLY, ") && message.ends_with("), found " + what)) << message;
+    EXPECT_TRUE(message.contains("), mesh (PLY, ") && message.ends_with("), found " + what)) << message;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "relievo/core/choice.h"
 #include "relievo/core/image.h"
 #include "relievo/core/progress.h"
+#include "relievo/core/types.h"
 #include "relievo/scan/cloud.h"
 
 namespace relievo {
@@ -18,6 +19,12 @@ struct DepthImage {
   Image<float> values;  // NaN where there is no value
   double step = 0;      // difference between possible values: 1 for whole numbers, 0 for fractions
   std::string format;   // format of the file, for people: "PNG, 16 bits"
+  // Width and height of a pixel, in metres for a terrain model; 0 if the file does not state them. Pixels are
+  // then square.
+  Vec2 pixel_size = Vec2::Zero();
+
+  // Returns the height of a pixel divided by its width.
+  double pixel_aspect() const { return pixel_size.x() > 0 ? pixel_size.y() / pixel_size.x() : 1; }
 };
 
 // A pinhole camera, in pixels.
@@ -70,7 +77,8 @@ struct DepthCloud {
   double noise = 0;            // median uncertainty of a depth, in pixels
 };
 
-// Returns the image as points. x and y are pixels. With a camera, z is -f log(depth), f the focal length in
+// Returns the image as points. x and y are pixels; if pixels are not square, y is in widths of a pixel. With a
+// camera, z is -f log(depth), f the focal length in
 // pixels: surfaces that face the camera stay flat, and no point hides another. Without a camera the values
 // are taken as depths along parallel rays.
 //

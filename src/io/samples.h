@@ -1,0 +1,41 @@
+// The numbers of which a picture's values consist, as TIFF, NPY and PFM store them.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace relievo::io {
+
+enum class SampleKind { whole, signed_whole, fraction };
+
+struct SampleFormat {
+  SampleKind kind = SampleKind::whole;
+  unsigned bits = 1;
+};
+
+// Returns the number that 16 bits represent (IEEE 754 half precision).
+float half_precision(std::uint64_t bits);
+
+// Returns the number that the lowest bits represent: whole numbers of 1 to 64 bits, in two's complement if
+// signed, or fractions of 16, 32 and 64 bits (IEEE 754).
+inline float decode_sample(const SampleFormat& format, std::uint64_t bits) {
+  const unsigned unused = 64 - format.bits;
+  if (format.kind == SampleKind::whole) return static_cast<float>(bits);
+  if (format.kind == SampleKind::signed_whole)
+    return static_cast<float>(static_cast<std::int64_t>(bits << unused) >> unused);
+  if (format.bits == 16) return half_precision(bits);
+  if (format.bits == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+  return static_cast<float>(std::bit_cast<double>(bits));
+}
+
+// Returns the number of `bytes` bytes, at most 8, in that byte order.
+inline std::uint64_t whole_number(const char* first, unsigned bytes, bool is_big_endian) {
+  std::uint64_t value = 0;
+  for (unsigned i = 0; i < bytes; ++i) {
+    const unsigned place = is_big_endian ? bytes - 1 - i : i;
+    value |= std::uint64_t{static_cast<unsigned char>(first[i])} << 8 * place;
+  }
+  return value;
+}
+
+}  // namespace relievo::io
