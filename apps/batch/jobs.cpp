@@ -24,7 +24,7 @@ std::string absolute_path(const fs::path& path) {
 
 bool is_picture_name(const std::string& path) {
   const std::string ending = ending_of(path);
-  return ending == "png" || ending == "tif" || ending == "tiff";
+  return ending == "png" || ending == "tif" || ending == "tiff" || ending == "bmp";
 }
 
 bool is_scan_name(const std::string& path) {

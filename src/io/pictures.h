@@ -20,10 +20,20 @@ inline constexpr std::size_t best_packing = 1100;
 // Return true if the content begins like a file of this format.
 bool is_png(const Source& source);
 bool is_tiff(const Source& source);
+bool is_npy(const Source& source);
+bool is_pnm(const Source& source);
+bool is_bmp(const Source& source);
+bool is_esri_grid(const Source& source);
+bool is_height_table(const Source& source);  // lines of numbers in which neighbours are alike
 
 // Return the depths of a picture. Errors: kind input.
 Result<DepthImage> read_depth_png(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_depth_npy(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_depth_pnm(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_depth_bmp(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_esri_grid(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_height_table(const Source& source, const PictureChannels& channels);
 
 // Messages about several channels end with this advice.
 inline constexpr std::string_view way_out_of_colours =
@@ -84,7 +94,14 @@ struct PictureFormat {
   Result<DepthImage> (*read)(const Source&, const PictureChannels&);
 };
 
-inline constexpr std::array picture_formats = {PictureFormat{"PNG", ".png", is_png, read_depth_png},
-                                               PictureFormat{"TIFF", ".tif .tiff", is_tiff, read_depth_tiff}};
+// Text comes last, as for the formats of clouds. Its endings are those of clouds in text, too.
+inline constexpr std::array picture_formats = {
+    PictureFormat{"PNG", ".png", is_png, read_depth_png},
+    PictureFormat{"TIFF", ".tif .tiff", is_tiff, read_depth_tiff},
+    PictureFormat{"NPY", ".npy", is_npy, read_depth_npy},
+    PictureFormat{"PFM, PGM, PPM", ".pfm .pgm .ppm", is_pnm, read_depth_pnm},
+    PictureFormat{"BMP", ".bmp", is_bmp, read_depth_bmp},
+    PictureFormat{"Esri grid", "", is_esri_grid, read_esri_grid},
+    PictureFormat{"table of heights", ".dat", is_height_table, read_height_table}};
 
 }  // namespace relievo::io

@@ -148,21 +148,6 @@ std::string_view line_around(std::string_view data, std::size_t byte) {
   return data.substr(first + begin, byte + end - first - begin);
 }
 
-// Returns rows from all over the file as numbers, without rows that have a different number of columns. Words
-// that are not numbers become NaN.
-std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
-  const std::size_t samples = 256;
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < samples; ++i) {
-    Row row;
-    Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
-    while (const auto field = fields.next())
-      row.push_back(parse_field(*field, layout).value_or(std::nan("")));
-    if (row.size() == layout.columns) rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 // Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
 // with two decimals, whose length is uncertain by 0.01.
 bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
@@ -228,6 +213,19 @@ Result<RawCloud> read_text(const Source& source) {
   RELIEVO_TRY(const auto layout, find_layout(source));
   RELIEVO_TRY(auto cloud, XyzReader(source, layout).read());
   return RawCloud{std::move(cloud), to_string(layout)};
+}
+
+std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
+  const std::size_t samples = 256;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < samples; ++i) {
+    Row row;
+    Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
+    while (const auto field = fields.next())
+      row.push_back(parse_field(*field, layout).value_or(std::nan("")));
+    if (row.size() == layout.columns) rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 bool has_coordinates(const ColumnNames& names) {

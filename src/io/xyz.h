@@ -38,6 +38,7 @@ struct XyzLayout {
   bool has_decimal_commas = false;                          // instead of decimal points
   std::size_t columns = 0;                                  // number of columns of every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
+  bool has_names = false;                                   // whether a line names the columns
   bool has_normals = false, has_colours = false;
   bool has_scan_positions = false;              // the first two columns are a scanner's row and column
   std::optional<std::int64_t> promised_points;  // number of points, if a first line states it
@@ -62,6 +63,10 @@ bool has_degrees(const ColumnNames& names);
 // with a number, or the three after a scanner's row and column.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
+
+// Returns up to 256 rows from all over the file as numbers, without rows that have a different number of
+// columns. Words that are not numbers become NaN.
+std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
 
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data
 // (separator, number of columns) and from lines throughout the file (normals, colours).

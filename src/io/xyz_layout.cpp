@@ -269,7 +269,8 @@ Result<XyzLayout> find_layout(const Source& source) {
     return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(line));
   }
   RELIEVO_CHECK(preamble.name_columns());
-  if (preamble.names().empty())
+  layout.has_names = !preamble.names().empty();
+  if (!layout.has_names)
     find_columns(source, begins_with_name(line), layout);
   else
     take_columns(preamble.names(), layout);

@@ -1,7 +1,9 @@
 // Tests the reading of depth images in PNG and TIFF files, whole and broken.
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 
 #include "relievo/core/image.h"
@@ -70,6 +72,32 @@ TEST(ReadDepthImage, TakesOneChannelOfAPngOrItsLuminance) {
   EXPECT_EQ(missing.error().message(), "d: expected a channel from 1 to 3, found 4");
 }
 
+TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
+  Image8 colour{4, 4, 4, {}};
+  for (int i = 0; i < 16; ++i) {
+    colour.pixels.insert(colour.pixels.end(), 3, static_cast<std::uint8_t>(10 * i));
+    colour.pixels.push_back(i < 8 ? 127 : 128);
+  }
+  const auto image = value_of(read_depth_image(write_png(colour), "d"));
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_TRUE(i < 8 ? std::isnan(image.values[i]) : image.values[i] == 10 * static_cast<float>(i)) << i;
+  }
+}
+
+// Inserts a chunk that names a transparent grey before the data.
+TEST(ReadDepthImage, TheTransparentGreyOfAPngIsMissing) {
+  std::string file = as_string(write_png(grey16()));
+  const std::string colour = {static_cast<char>(3001 >> 8), static_cast<char>(3001 & 255)};
+  std::string chunk = std::string("\0\0\0\2", 4) + "tRNS" + colour;
+  const std::uint32_t checksum =
+      static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const unsigned char*>(chunk.data()) + 4, 4 + 2));
+  for (int shift = 24; shift >= 0; shift -= 8) chunk += static_cast<char>(checksum >> shift);
+  const auto image = value_of(read_depth_image(bytes_of(file.insert(file.find("IDAT") - 4, chunk)), "d"));
+  EXPECT_TRUE(std::isnan(image.values[1]));
+  for (std::size_t i = 2; i < 20; ++i) EXPECT_EQ(image.values[i], 3001.F * static_cast<float>(i));
+  EXPECT_EQ(image.format, "PNG, 16 bits");
+}
+
 TEST(ReadDepthImage, ReadsTheTiffThatWeWrite) {
   HeightsMm heights{{5, 4, 1, {}}, .1};
   for (int i = 0; i < 20; ++i) heights.image.pixels.push_back(.25F * static_cast<float>(i));
@@ -87,7 +115,10 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
     EXPECT_TRUE(message.starts_with("d, byte ")) << message;
     EXPECT_TRUE(message.contains("expected the data of a PNG picture, found ")) << message;
   }
-  EXPECT_EQ(message_of("GIF89a"), "d: expected a PNG or TIFF picture of depths, found another file");
+  EXPECT_EQ(message_of("GIF89a"),
+            "d: expected a picture of depths (PNG, TIFF, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
+            "heights), found "
+            "a GIF picture; save it as PNG");
   EXPECT_EQ(message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }

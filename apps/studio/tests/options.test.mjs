@@ -206,7 +206,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   await baseImage().getByText("map.tif").waitFor();
 
   await baseImage().locator("input").setInputFiles(scan); // a scan is no image, so it is refused and nothing changes
-  await page.getByText("expected a PNG or TIFF picture of depths").waitFor();
+  await page.getByText("expected a picture of depths (PNG, TIFF").waitFor();
   await soon.match(async () => (await sent()).options["base-image"], /map\.tif$/);
   await baseImage().getByRole("button", {name: "Remove the base image"}).click();
   await reaches(({options}) => !("base" in options) && !("base-image" in options));

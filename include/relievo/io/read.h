@@ -16,7 +16,7 @@
 namespace relievo {
 
 // Returns the formats that the functions below read, for help and messages: "point cloud (PLY, PCD ...), mesh
-// (PLY, STL ...) or depth image (PNG, TIFF)".
+// (PLY, STL ...) or depth image (PNG, TIFF ...)".
 std::string readable_formats();
 
 // Returns the endings of the names of readable files, with the dot and in lower case.
@@ -48,7 +48,7 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
-// Returns true for the beginning of a PNG or TIFF file.
+// Returns true for the beginning of a picture, an array or a table of heights.
 bool is_picture(std::span<const std::byte> bytes);
 
 // Selects the value to read from a picture with several values per pixel.
@@ -57,12 +57,22 @@ struct PictureChannels {
   int channel = 0;                   // number of the channel to read, from 1; 0: the only one
 };
 
-// Returns the depths in a PNG or TIFF. A PNG must be grey with 8 or 16 bits, or have equal colour channels. A
-// TIFF must be grey, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64 bits, in strips or
-// tiles, with any compression that libtiff supports. Transparency is not read. Values that GDAL's no-data tag
-// states become NaN. In pictures where 0 is white, whole numbers are inverted, so that bright pixels have
-// large values. Errors: kind input for other or broken pictures and palettes, for a missing channel, and for
-// more than 2^27 pixels or fewer than 4 x 4.
+// Returns the depths in a picture, with NaN where they are missing:
+//
+// - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are more transparent than opaque
+//   are missing.
+// - TIFF: grey, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64 bits, in strips or
+//   tiles, with any compression that libtiff supports: the first picture that is neither a thumbnail nor a
+//   mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values that GDAL's
+//   no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large values.
+//   GeoTIFF's tags give the size of pixels, also in degrees.
+// - NPY: an array of whole numbers or fractions in two dimensions. PFM, PGM, PPM and BMP without compression.
+// - Esri ASCII grid, with its no-data value and the size of its cells.
+// - Text with at least 8 numbers per line, of which neighbours are alike, or at least 32: a line is a row of
+//   the picture, from the top. Other words are missing values.
+//
+// Errors: kind input for other or broken pictures and palettes, for a missing channel, and for more than 2^27
+// pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 

@@ -1,0 +1,92 @@
+// Reads tables of heights, as microscopes, profilers and spreadsheets write them, and surface() of OpenSCAD
+// reads them: a line is a row of the picture, from the top.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "io/formats.h"
+#include "io/pictures.h"
+#include "io/xyz.h"
+
+namespace relievo::io {
+namespace {
+
+// Clouds have fewer columns than `least_columns`, or at least do not have `most_of_cloud` columns. Between
+// them the values decide.
+constexpr std::size_t least_columns = 8, most_of_cloud = 32;
+
+using Rows = std::vector<std::vector<double>>;
+
+// Returns the correlation of a column with the next one; nothing if one of them is constant. Neighbours on a
+// surface are alike, unlike x and y of a cloud.
+std::optional<double> correlation(const Rows& rows, std::size_t column) {
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  for (const auto& row : rows) {
+    const double x = row[column], y = row[column + 1];
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    n += 1, a += x, b += y, aa += x * x, bb += y * y, ab += x * y;
+  }
+  const double spread = (n * aa - a * a) * (n * bb - b * b), rounding = 1e-12 * n * n * aa * bb;
+  if (!(spread > rounding)) return std::nullopt;
+  return (n * ab - a * b) / std::sqrt(spread);
+}
+
+// Returns true if three quarters of the columns that vary correlate with their neighbours, and half of all.
+bool are_neighbours_alike(const Rows& rows, std::size_t columns) {
+  std::size_t alike = 0, varying = 0;
+  for (std::size_t i = 0; i + 1 < columns; ++i) {
+    const auto r = correlation(rows, i);
+    varying += r.has_value();
+    alike += r > .5;
+  }
+  return 4 * alike >= 3 * varying && 2 * alike >= columns - 1;
+}
+
+bool is_table(const Source& source, const XyzLayout& layout) {
+  if (layout.has_names || layout.promised_points || layout.columns < least_columns) return false;
+  if (layout.columns >= most_of_cloud) return true;
+  if (layout.has_normals) return false;
+  return are_neighbours_alike(sample_rows(source.bytes.substr(layout.data_offset), layout), layout.columns);
+}
+
+// Appends a line of the table. What is not a number is missing.
+void take_row(std::string_view line, const XyzLayout& layout, std::vector<float>& values) {
+  Fields fields(line, layout.separator);
+  while (const auto field = fields.next()) {
+    const auto value = parse_field(*field, layout);
+    values.push_back(value ? static_cast<float>(*value) : std::numeric_limits<float>::quiet_NaN());
+  }
+}
+
+}  // namespace
+
+bool is_height_table(const Source& source) {
+  if (!foreign_format(source).empty()) return false;
+  const auto layout = find_layout(source);
+  return layout && is_table(source, *layout);
+}
+
+Result<DepthImage> read_height_table(const Source& source, const PictureChannels&) {
+  RELIEVO_TRY(const XyzLayout layout, find_layout(source));
+  SourceLines lines(source, layout.data_offset, layout.first_line - 1);
+  std::vector<float> values;
+  std::size_t rows = 0;
+  while (const auto raw = lines.next()) {
+    const std::string_view line = without_comment(*raw);
+    if (line.empty()) continue;
+    take_row(line, layout, values);
+    if (values.size() != ++rows * layout.columns)
+      return lines.fail(cat("expected ", layout.columns, " heights as in line ", layout.first_line,
+                            ", found ", values.size() - (rows - 1) * layout.columns));
+    if (values.size() > most_pixels)
+      return lines.fail(cat("expected at most ", most_pixels, " heights, found more"));
+  }
+  DepthImage image{{}, 0, "table of heights"};
+  image.values = {static_cast<int>(layout.columns), static_cast<int>(rows), 1, std::move(values)};
+  image.step = step_of(image.values);
+  return image;
+}
+
+}  // namespace relievo::io

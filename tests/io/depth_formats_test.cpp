@@ -1,0 +1,190 @@
+// Tests the pictures without compression: NumPy's arrays, portable pictures and BMP.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <bit>
+#include <cmath>
+
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
+#include "support/format_samples.h"
+#include "support/read_text.h"
+#include "support/results.h"
+
+namespace relievo {
+namespace {
+
+constexpr int columns = 6, rows = 5;
+
+std::string npy(const std::string& type, const std::string& data, const std::string& shape = "5, 6",
+                bool is_by_columns = false, char version = 1) {
+  const std::string header =
+      cat("{'descr': '", type, "', 'fortran_order': ", is_by_columns ? "True" : "False", ", 'shape': (",
+          shape, "), }   \n");
+  const auto size = static_cast<std::uint32_t>(header.size());
+  return std::string("\x93NUMPY") + version + '\0' +
+         (version == 1 ? raw(static_cast<std::uint16_t>(size)) : raw(size)) + header + data;
+}
+
+// Returns the bytes of all values; value(column, row) returns one of them.
+template <typename F>
+std::string values(F value, bool is_by_columns = false) {
+  std::string data;
+  for (int i = 0; i < rows * columns; ++i)
+    data += is_by_columns ? value(i / rows, i % rows) : value(i % columns, i / columns);
+  return data;
+}
+
+DepthImage image_in(const std::string& file) {
+  return value_of(read_depth_image(bytes_of(file), "d"));
+}
+
+std::string message_in(const std::string& file) {
+  return message_of(read_depth_image(bytes_of(file), "d"));
+}
+
+double number(int column, int row) {
+  return 10 * row + column;
+}
+
+void expect_numbers(const DepthImage& image, double step) {
+  ASSERT_EQ(image.values.width, columns);
+  ASSERT_EQ(image.values.height, rows);
+  EXPECT_EQ(image.step, step);
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) EXPECT_EQ(image.values.at(c, r), static_cast<float>(number(c, r)));
+}
+
+template <typename T>
+std::string in_type(int column, int row) {
+  return raw(static_cast<T>(number(column, row)));
+}
+
+TEST(DepthNpy, ReadsAllNumbersInBothOrders) {
+  expect_numbers(image_in(npy("<f4", values(in_type<float>))), 0);
+  expect_numbers(image_in(npy("<f8", values(in_type<double>))), 0);
+  expect_numbers(image_in(npy("|u1", values(in_type<std::uint8_t>))), 1);
+  expect_numbers(image_in(npy("|i1", values(in_type<std::int8_t>))), 1);
+  expect_numbers(image_in(npy("<u2", values(in_type<std::uint16_t>))), 1);
+  expect_numbers(image_in(npy("<i8", values(in_type<std::int64_t>))), 1);
+  expect_numbers(image_in(npy("<f4", values(in_type<float>, true), "5, 6", true)), 0);
+  expect_numbers(image_in(npy("<f4", values(in_type<float>), "1, 5, 6, 1", false, 2)), 0);
+  const auto swapped = [](int c, int r) {
+    return raw(std::byteswap(std::bit_cast<std::uint32_t>(static_cast<float>(number(c, r)))));
+  };
+  expect_numbers(image_in(npy(">f4", values(swapped))), 0);
+  const auto half = [](int c, int r) { return raw(static_cast<std::uint16_t>(c == 0 ? 0 : 0x3C00 + r)); };
+  const auto halves = image_in(npy("<f2", values(half)));
+  EXPECT_EQ(halves.values.at(1, 2), 1 + 2 / 1024.F);
+  EXPECT_EQ(halves.format, "NPY, 16 bits");
+}
+
+TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
+  EXPECT_EQ(message_in(npy("<c8", "")),
+            "d: expected an array of numbers, found the type '<c8'; in Python "
+            "astype('float32') converts it");
+  EXPECT_EQ(message_in(npy("<f4", "", "5, 6, 3")),
+            "d: expected an array of rows and columns, found the shape (5, "
+            "6, 3); in Python a[..., 0] is one of its channels");
+  const std::string whole = npy("<f4", values(in_type<float>));
+  EXPECT_EQ(message_in(whole.substr(0, 9)),
+            "d, byte 8: expected the header of an array, found the end of the file");
+  EXPECT_EQ(message_in(whole.substr(0, whole.size() - 1)),
+            cat("d, byte ", whole.size() - 120,
+                ": expected 120 bytes of pixels, found 119; the file is cut, get it anew"));
+  EXPECT_EQ(message_in(npy("<f4", "", "100000, 100000")),
+            "d: expected at most 134217728 pixels, found 100000 x 100000");
+}
+
+// Rows of a PFM begin at the bottom; the sign of the last number is the byte order.
+TEST(DepthPnm, ReadsFractionsFromBelow) {
+  const auto from_below = [](int c, int r) { return raw(static_cast<float>(number(c, rows - 1 - r))); };
+  expect_numbers(image_in("Pf\n6 5\n-1.0\n" + values(from_below)), 0);
+  const auto swapped = [](int c, int r) {
+    return raw(std::byteswap(std::bit_cast<std::uint32_t>(static_cast<float>(number(c, rows - 1 - r)))));
+  };
+  expect_numbers(image_in("Pf\n# of a depth estimator\n6\n5 1.0\n" + values(swapped)), 0);
+  const auto grey = [&](int c, int r) { return from_below(c, r) + from_below(c, r) + from_below(c, r); };
+  expect_numbers(image_in("PF\n6 5\n-1.0\n" + values(grey)), 0);
+}
+
+TEST(DepthPnm, ReadsWholeNumbersFromAbove) {
+  expect_numbers(image_in("P5\n6 5\n255\n" + values(in_type<std::uint8_t>)), 1);
+  const auto big_endian = [](int c, int r) {
+    return raw(std::byteswap(static_cast<std::uint16_t>(number(c, r))));
+  };
+  expect_numbers(image_in("P5 6 5 65535\n" + values(big_endian)), 1);
+  const auto colours = [](int c, int r) { return std::string{static_cast<char>(number(c, r)), '\1', '\2'}; };
+  const std::string file = "P6\n6 5\n255\n" + values(colours);
+  EXPECT_TRUE(message_in(file).starts_with("d, column 1, row 1: expected a grey picture of depths"))
+      << message_in(file);
+  expect_numbers(value_of(read_depth_image(bytes_of(file), "d", {false, 1})), 1);
+}
+
+TEST(DepthPnm, SaysWhatIsWrong) {
+  EXPECT_EQ(message_in("Pf\nx 5\n-1\n\1"),
+            "d, byte 3: expected width, height and range of the picture, found 'x'");
+  EXPECT_EQ(message_in("Pf\n0 5\n-1\n\1"), "d, byte 2: expected width and height, found 0 and 5");
+  EXPECT_EQ(message_in("P5\n6 5\n70000\n\1"), "d: expected a largest value from 1 to 65535, found 70000");
+  EXPECT_EQ(message_in("P5\n6 5\n255\n\1"),
+            "d, byte 11: expected 30 bytes of pixels, found 1; the file is cut, get it anew");
+  EXPECT_FALSE(is_picture(bytes_of("P5 10 20 30\nP6 40 50 60\n"))) << "a cloud of named points";
+}
+
+// Returns a BMP with this number of bits; rows are multiples of 4 bytes.
+std::string bmp(int bits, std::int32_t height, const std::string& palette, const std::string& data,
+                std::uint32_t compression = 0) {
+  const std::uint32_t pixels = 14 + 40 + static_cast<std::uint32_t>(palette.size());
+  return "BM" + raw(std::uint32_t{0}) + raw(std::uint32_t{0}) + raw(pixels) + raw(std::uint32_t{40}) +
+         raw(std::int32_t{columns}) + raw(height) + raw(std::uint16_t{1}) +
+         raw(static_cast<std::uint16_t>(bits)) + raw(compression) + std::string(20, '\0') + palette + data;
+}
+
+TEST(DepthBmp, ReadsPalettesAndColoursFromBothSides) {
+  std::string palette, bytes, colours, from_above;
+  for (int i = 0; i < 256; ++i) palette += std::string(3, static_cast<char>(i)) + '\0';
+  for (int r = rows - 1; r >= 0; --r) {
+    for (int c = 0; c < columns; ++c) bytes += static_cast<char>(number(c, r));
+    bytes += std::string(2, '\0');
+    for (int c = 0; c < columns; ++c) colours += std::string(3, static_cast<char>(number(c, r)));
+    colours += std::string(2, '\0');
+  }
+  for (int i = 0; i < rows * columns; ++i)
+    from_above += std::string(3, static_cast<char>(number(i % columns, i / columns))) + '\0';
+  expect_numbers(image_in(bmp(8, rows, palette, bytes)), 1);
+  expect_numbers(image_in(bmp(24, rows, "", colours)), 1);
+  expect_numbers(image_in(bmp(32, -rows, "", from_above)), 1);
+  const std::string two = std::string(4, '\0') + std::string(3, '\xFF') + '\0';
+  const auto bits = image_in(bmp(1, rows, two, std::string(4 * rows, '\x50')));  // 0101
+  for (int c = 0; c < 4; ++c) EXPECT_EQ(bits.values.at(c, 0), c % 2 ? 255 : 0);
+}
+
+TEST(DepthBmp, SaysWhatIsNotRead) {
+  EXPECT_EQ(message_in(bmp(8, rows, "", "", 1)),
+            "d: expected a BMP of 1, 4, 8, 24 or 32 bits without compression, "
+            "found 8 bits with compression; save it as PNG");
+  EXPECT_EQ(message_in(bmp(24, 0, "", "")), "d, byte 18: expected width and height, found 6 and 0");
+  EXPECT_EQ(message_in(bmp(24, rows, "", "ab")),
+            "d, byte 54: expected 100 bytes of pixels, found 2; the file is cut, get it anew");
+}
+
+TEST(DepthFormats, AnyDamageGivesAnAnswer) {
+  const std::vector<std::string> files = {npy("<f4", values(in_type<float>)),
+                                          "Pf\n6 5\n-1\n" + values(in_type<float>),
+                                          "P5\n6 5\n255\n" + values(in_type<std::uint8_t>),
+                                          bmp(32, -rows, "", std::string(4 * rows * columns, '\x7F'))};
+  for (const std::string& file : files)
+    for (std::size_t size = 0; size < file.size(); ++size) (void)message_in(file.substr(0, size));
+  ASSERT_TRUE(rc::check([&] {
+    std::string text = *rc::gen::elementOf(files);
+    const int edits = *rc::gen::inRange(1, 5);
+    for (int i = 0; i < edits; ++i)
+      text[*rc::gen::inRange<std::size_t>(0, std::min<std::size_t>(text.size(), 90))] =
+          *rc::gen::arbitrary<char>();
+    const auto image = read_depth_image(bytes_of(text), "d");
+    RC_ASSERT(image.has_value() || image.error().kind == ErrorKind::input);
+  }));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,146 @@
+// Tests heights in text: the grids of GIS programs, and tables of numbers, which must not be taken for clouds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
+#include "support/read_text.h"
+#include "support/results.h"
+
+namespace relievo {
+namespace {
+
+DepthImage image_in(const std::string& text) {
+  return value_of(read_depth_image(bytes_of(text), "d"));
+}
+
+std::string message_in(const std::string& text) {
+  return message_of(read_depth_image(bytes_of(text), "d"));
+}
+
+bool is_picture_text(const std::string& text) {
+  return is_picture(bytes_of(text));
+}
+
+const std::string grid_header =
+    "ncols 5\r\nnrows 4\r\nxllcorner 500000\r\nyllcorner 6647000\r\ncellsize 31\r\nNODATA_value -9999\r\n";
+
+TEST(EsriGrid, ReadsHeightsWhereverLinesBreak) {
+  const auto image = image_in(grid_header + "1 2 3 4 5 6 7\n8 9 -9999 11 12.5 13\n14 15 16 17 18 19 20\n");
+  EXPECT_EQ(image.format, "Esri grid");
+  EXPECT_EQ(image.values.width, 5);
+  EXPECT_EQ(image.values.height, 4);
+  EXPECT_EQ(image.values[0], 1);
+  EXPECT_TRUE(std::isnan(image.values[9]));
+  EXPECT_EQ(image.values[11], 12.5);
+  EXPECT_EQ(image.step, 0);
+  EXPECT_EQ(image.pixel_size, Vec2(31, 31));
+}
+
+TEST(EsriGrid, ReadsOtherSpellings) {
+  const auto image = image_in("NROWS 4\nNCOLS 4\nXLLCENTER 0\nYLLCENTER 0\nDX 2\nDY 3\n" +
+                              std::string("1 2 3 4 5 6 7 8 1 2 3 4 5 6 7 8"));
+  EXPECT_EQ(image.pixel_size, Vec2(2, 3));
+  EXPECT_EQ(image.step, 1);
+}
+
+// Heights of hundreds of metres on a grid of a few units, within the range of degrees, are those of degrees.
+TEST(EsriGrid, ConvertsDegrees) {
+  const std::string heights = " 0 300 200 100 0 300 200 100 0 300 200 100 0 300 200 100";
+  const auto size_at = [&](const std::string& corner, const std::string& cell) {
+    return image_in("ncols 4\nnrows 4\nxllcorner 10\nyllcorner " + corner + "\ncellsize " + cell + "\n" +
+                    heights)
+        .pixel_size;
+  };
+  const Vec2 degrees = size_at("59", "0.5");  // the middle lies at 60 degrees
+  EXPECT_NEAR(degrees.x() / degrees.y(), .5, 1e-12);
+  EXPECT_EQ(size_at("59", "100"), Vec2(100, 100));
+  EXPECT_EQ(size_at("100", "0.5"), Vec2(.5, .5));
+}
+
+TEST(EsriGrid, SaysWhatIsWrong) {
+  EXPECT_EQ(message_in("ncols 5\nrows 4\n1 2 3\n"),
+            "d, line 2: expected ncols, nrows, cellsize or another entry of an "
+            "Esri grid with its number, found 'rows 4'");
+  EXPECT_EQ(message_in("ncols 5\ncellsize 1\n1 2 3\n"),
+            "d: expected ncols and nrows of an Esri grid, found 5 and 0");
+  EXPECT_EQ(message_in("ncols 5\n"),
+            "d, line 2: expected the heights of an Esri grid, found the end of the file");
+  EXPECT_EQ(message_in(grid_header + "1 2 x\n"), "d, line 7: expected a height, found 'x'");
+  EXPECT_EQ(message_in(grid_header + "1 2 3\n4 5\n"),
+            "d, line 9: expected 20 heights, found the end of the file after 5");
+  std::string many;
+  for (int i = 0; i < 21; ++i) many += "1 ";
+  EXPECT_EQ(message_in(grid_header + many), "d, line 7: expected 20 heights, found more");
+  EXPECT_EQ(message_in("ncols 500\nnrows 400\ncellsize 1\n1 2 3\n"),
+            "d: expected 500 x 400 heights, found 37 bytes; the file is cut, get it anew");
+  EXPECT_EQ(message_in("ncols 50000\nnrows 40000\ncellsize 1\n1\n"),
+            "d: expected at most 134217728 pixels, found 50000 x 40000");
+}
+
+// Returns a table of the heights of a hill.
+std::string hill(int columns, int rows, const std::string& separator, char point = '.') {
+  std::string text;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const double x = 2. * c / (columns - 1) - 1, y = 2. * r / (rows - 1) - 1;
+      const auto tenths = static_cast<int>(std::lround(100 * std::exp(-2 * (x * x + y * y))));
+      text += cat(c > 0 ? separator : "", tenths / 10, point, tenths % 10);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(HeightTable, ReadsAllSeparators) {
+  const auto image = image_in(hill(12, 9, " "));
+  EXPECT_EQ(image.format, "table of heights");
+  EXPECT_EQ(image.values.width, 12);
+  EXPECT_EQ(image.values.height, 9);
+  for (const char* separator : {",", ";", "\t", ", ", "   "})
+    EXPECT_EQ(image_in(hill(12, 9, separator)).values.pixels, image.values.pixels) << separator;
+  EXPECT_EQ(image_in(hill(12, 9, ";", ',')).values.pixels, image.values.pixels);
+  EXPECT_EQ(image_in("# Channel: Height\n" + hill(12, 9, "\t")).values.pixels, image.values.pixels);
+}
+
+// The example of OpenSCAD's manual for surface().
+TEST(HeightTable, ReadsOpenScadsExample) {
+  const auto image = image_in(
+      "# 10x10 surface data\n10 9 8 7 6 5 5 5 5 5\n9 8 7 6 6 4 3 2 1 0\n\n8 7 6 6 4 3 2 1 0 0\n"
+      "7 6 6 4 3 2 1 0 0 0\n6 6 4 3 2 1 1 0 0 0\n6 6 3 2 1 1 1 0 0 0\n6 6 2 1 1 1 1 0 0 0\n"
+      "6 6 1 0 0 0 0 0 0 0\n3 1 0 0 0 0 0 0 0 0\n3 0 0 0 0 0 0 0 0 0\n");
+  EXPECT_EQ(image.values.height, 10);
+  EXPECT_EQ(image.values.at(0, 9), 3);
+  EXPECT_EQ(image.step, 1);
+}
+
+TEST(HeightTable, OtherWordsAreMissing) {
+  std::string text = hill(12, 9, ",");
+  text.replace(text.find(','), 1, ",BAD");  // the second number of the first line
+  EXPECT_TRUE(std::isnan(image_in(text).values[1]));
+}
+
+TEST(HeightTable, IsNotTakenForACloudNorACloudForIt) {
+  EXPECT_TRUE(is_picture_text(hill(8, 8, " ")));
+  EXPECT_FALSE(is_picture_text(hill(7, 8, " "))) << "seven columns are a cloud";
+  std::string cloud, named = "x,y,z,nx,ny,nz,a,b,c\n";
+  for (int i = 0; i < 300; ++i) {
+    const double x = (i * 37 % 101) / 101., y = (i * 53 % 103) / 103., z = x * y;
+    const std::string row =
+        cat(x, ",", y, ",", z, ",", i % 7, ",", 100 + i % 5, ",", i % 3, ",", i % 11, ",", x, ",", y);
+    cloud += row + '\n', named += row + '\n';
+  }
+  EXPECT_FALSE(is_picture_text(cloud));
+  EXPECT_FALSE(is_picture_text(named));
+  EXPECT_FALSE(is_picture_text("9\n" + hill(9, 9, " "))) << "the number of points of a PTS";
+  EXPECT_FALSE(is_picture_text("v 1 2 3\n"));
+  EXPECT_FALSE(is_picture_text(""));
+}
+
+TEST(HeightTable, NamesTheLineOfAnotherLength) {
+  EXPECT_EQ(message_in(hill(12, 5, " ") + "1 2 3\n"), "d, line 6: expected 12 heights as in line 1, found 3");
+}
+
+}  // namespace
+}  // namespace relievo
