@@ -46,6 +46,7 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
     RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, [&] { return progress.is_cancelled(); }));
     loaded.project->packed = nullptr;  // frees the bytes, which may be as large as the points
   } else {
+    loaded.in.is_lithophane = loaded.options.form == Form::lithophane;
     const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
     if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");
     RELIEVO_TRY(loaded.scene, loaded.read ? loaded.read(loaded.in, wanted, &progress)

@@ -162,6 +162,17 @@ Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const st
                     [&](const std::string& name) { return archive.content(folder + name); });
 }
 
+// Returns the model of a picture whose brightness becomes the thickness of a lithophane.
+Result<SceneModel> take_picture(const DepthImage& image, const std::string& name,
+                                const DepthOptions& options) {
+  RELIEVO_TRY(DepthCloud made, naming(name, picture_cloud(image, options)));
+  std::string remark = cat(name, ": ", image.values.width, " x ", image.values.height,
+                           " pixels, whose brightness becomes thickness");
+  if (made.missing > 0) remark += cat("; ", made.missing, " without a value are white");
+  return SceneModel{
+      name, std::make_shared<const CloudFile>(std::move(made.cloud), image.format), {}, {remark}};
+}
+
 }  // namespace
 
 bool is_scene_file(const std::string& path) {
@@ -179,6 +190,8 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress) {
   DepthOptions options = arguments.depth;
   options.points = points;
+  if (arguments.is_lithophane && options.values == DepthValues::luminance)
+    return take_picture(image, name, options);
   RELIEVO_TRY(options.camera, read_camera(arguments.camera));
   RELIEVO_TRY(DepthCloud made, naming(name, depth_cloud(image, options, progress)));
   const std::string remark = cat(name, ": ", remark_on(image, made));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -60,6 +61,28 @@ double darkness(double bright, const Range& range) {
   return std::log(within / range.brightest) / std::log(range.darkest / range.brightest);
 }
 
+// Returns true if all points are at the same height and have colours, as the pixels of a picture.
+bool is_flat_picture(const Surface& surface) {
+  const auto is_level = [&](const Vec3& p) { return p.z() == surface.points.front().z(); };
+  return !surface.colours.empty() && std::ranges::all_of(surface.points, is_level);
+}
+
+// Returns the darkness of a pixel: 0 for white, 1 for black.
+double darkness_of_pixel(const Colour& colour) {
+  return 1 - (.2126 * colour[0] + .7152 * colour[1] + .0722 * colour[2]) / 255;
+}
+
+// Returns the darkness of each point of a model under a lamp.
+std::vector<double> darkness_of_model(const Surface& surface) {
+  std::vector<double> values(surface.points.size());
+  parallel_for(values.size(), [&](std::size_t i) {
+    values[i] = shade(surface.normals[i]) * (surface.colours.empty() ? 1 : luminance(surface.colours[i]));
+  });
+  const Range range = range_of(values, surface.boundary.is_boundary);
+  parallel_for(values.size(), [&](std::size_t i) { values[i] = darkness(values[i], range); });
+  return values;
+}
+
 }  // namespace
 
 HeightFieldMesh mirrored(HeightFieldMesh front) {
@@ -76,17 +99,18 @@ HeightFieldMesh as_die(HeightFieldMesh front) {
 }
 
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm) {
-  std::vector<double> bright(surface.points.size());
-  parallel_for(bright.size(), [&](std::size_t i) {
-    bright[i] = shade(surface.normals[i]) * (surface.colours.empty() ? 1 : luminance(surface.colours[i]));
-  });
-  const Range range = range_of(bright, surface.boundary.is_boundary);
-  HeightFieldMesh front{std::vector<Vec3>(bright.size()), surface.triangulation.triangles,
-                        surface.triangulation.hull, height_mm, surface.colours};
-  parallel_for(bright.size(), [&](std::size_t i) {
-    const double share = surface.boundary.is_boundary[i] ? 1 : darkness(bright[i], range);
+  const bool is_picture = is_flat_picture(surface);
+  std::vector<double> share;
+  if (is_picture)
+    std::ranges::transform(surface.colours, std::back_inserter(share), darkness_of_pixel);
+  else
+    share = darkness_of_model(surface);
+  HeightFieldMesh front{std::vector<Vec3>(share.size()), surface.triangulation.triangles,
+                        surface.triangulation.hull, height_mm};
+  if (!is_picture) front.colours = surface.colours;
+  parallel_for(share.size(), [&](std::size_t i) {
     const Vec2 place = mm_per_unit * surface.points[i].head<2>();
-    front.points[i] = {place.x(), place.y(), height_mm * share};
+    front.points[i] = {place.x(), place.y(), height_mm * (surface.boundary.is_boundary[i] ? 1 : share[i])};
   });
   return front;
 }

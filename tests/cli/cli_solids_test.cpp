@@ -10,6 +10,7 @@
 
 #include "common/archive.h"
 #include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/read_solid.h"
 
@@ -78,6 +79,33 @@ TEST_F(CliSolids, MakesEveryForm) {
   EXPECT_NEAR(mirror.volume() / relief.volume(), 1, 1e-5);
   const double block = size.x() * size.y() * (2 * 3 + 2);
   EXPECT_NEAR((relief.volume() + die.volume()) / block, 1, 1e-4);
+}
+
+// The thickness of a photo's lithophane follows its values, from 0.8 mm where it is brightest to 3.2 mm.
+TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
+  Image8 photo{60, 40, 3, {}};
+  for (int i = 0; i < 60 * 40; ++i)
+    photo.pixels.insert(photo.pixels.end(), 3, static_cast<std::uint8_t>(255 * (i % 60) / 59));
+  write_all(folder_ / "photo.png", write_png(photo));
+  const Outcome outcome =
+      run("make photo.png -o l.stl --form lithophane --depth-values luminance --width 60 "
+          "--heightmap l.tif --heightmap-size 140");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(outcome.err.contains("photo.png: 60 x 40 pixels, whose brightness becomes thickness"))
+      << outcome.err;
+  const ReadSolid solid = solid_in_stl(read_all(folder_ / "l.stl"));
+  EXPECT_TRUE(solid.is_closed());
+  EXPECT_NEAR(solid.box().size().z(), 3.2, 2e-3);
+  EXPECT_NEAR(solid.box().size().x(), 60 + 2 * 5, 1e-3);
+  const std::string tiff = read_all(folder_ / "l.tif");
+  const auto map = read_depth_image(std::as_bytes(std::span(tiff)), "l.tif");
+  ASSERT_TRUE(map);
+  // The map has 2 pixels per millimetre, and the photo a pixel per millimetre.
+  const float bright = map->values.at(2 * (5 + 59), 50);
+  for (int c = 1; c < 59; ++c) {
+    const double darker = static_cast<double>(map->values.at(2 * (5 + c), 50) - bright);
+    EXPECT_NEAR(darker, 2.4 * (59 - c) / 59., .05) << c;
+  }
 }
 
 // The arc of the ground is as long as the flat plate, and its chord is the width of the file.

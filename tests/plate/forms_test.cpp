@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "relievo/make_relief.h"
+#include "relievo/scan/depth_image.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "support/results.h"
@@ -53,6 +54,15 @@ Cloud grey_ball(F grey) {
     cloud.colours.push_back({shade, shade, shade});
   }
   return cloud;
+}
+
+// Returns a grey picture of pixels with the values grey(column, row), as flat points.
+template <typename F>
+Cloud picture(int width, int height, F grey) {
+  DepthImage image{filled_image(width, height, 0.F)};
+  for (int r = 0; r < height; ++r)
+    for (int c = 0; c < width; ++c) image.values.at(c, r) = static_cast<float>(grey(c, r));
+  return value_of(picture_cloud(image, {})).cloud;
 }
 
 // Returns the median height of the points within a circle.
@@ -136,6 +146,25 @@ TEST(Forms, ColoursReachThePlate) {
   const auto back = value_of(read_cloud(file, "relief.ply"));
   EXPECT_EQ(back.cloud.colours, relief.solid.colours);
   EXPECT_EQ(back.mesh.triangles.size(), relief.solid.triangles.size());
+}
+
+// Of a picture, every pixel counts: no highlight is cut, no dark tenth black, and no shading added.
+TEST(Lithophane, OfAPictureIsLinearInEveryPixel) {
+  constexpr int width = 40, height = 30;
+  const auto grey = [](int c, int r) { return (37 * c + 101 * r) % 256; };
+  const HeightFieldMesh front = lithophane_of(picture(width, height, grey));
+  const double pixel_mm = 10;
+  std::size_t pixels = 0;
+  for (const Vec3& p : front.points) {
+    const double c = p.x() / pixel_mm + width / 2. - .5, r = height / 2. - .5 - p.y() / pixel_mm;
+    const bool is_frame = std::abs(c - std::round(c)) > .1 || std::abs(r - std::round(r)) > .1 || c < -.1 ||
+                          r < -.1 || c > width - .9 || r > height - .9;
+    const int x = static_cast<int>(std::lround(c)), y = static_cast<int>(std::lround(r));
+    EXPECT_NEAR(p.z(), is_frame ? 4 : 4 * (1 - grey(x, y) / 255.), 4.01 / 255) << c << ", " << r;
+    pixels += !is_frame;
+  }
+  EXPECT_EQ(pixels, std::size_t{width * height});
+  EXPECT_TRUE(front.colours.empty());
 }
 
 }  // namespace

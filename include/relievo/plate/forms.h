@@ -38,6 +38,10 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 // equally bright. The greatest height belongs to the ground, to the outline, and to points less than a tenth
 // as bright as the highlights. If the darkest tenth of the points is darker still, it belongs to that tenth
 // instead.
+//
+// A flat surface with colours is a picture: its heights fall linearly from black to white, without highlights
+// and shading. Displays show the values of a picture raised to about 2.2, so that linear values are close to
+// the logarithm of the brightness, and dark pixels still differ.
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

@@ -90,4 +90,9 @@ struct DepthCloud {
 Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options,
                                Progress* progress = nullptr);
 
+// Returns a picture as flat points with grey colours, one for each pixel or block of pixels, for a lithophane:
+// the brightest value is white, the darkest black, and missing values are white. Only `points` counts of the
+// options. Errors: those of check(); kind geometry if all values are equal.
+Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& options);
+
 }  // namespace relievo
