@@ -53,6 +53,7 @@ Result<void> depth_info(std::span<const std::byte> bytes, const std::string& inp
   }
   print_line("format", cat(image.format, ", taken as a depth image"));
   print_line("pixels", cat(image.values.width, " x ", image.values.height));
+  if (const Vec2& size = image.pixel_size; size.x() > 0) print_line("cells", cat(size.x(), " x ", size.y()));
   print_line("values", low <= high ? cat(low, " to ", high) : "none");
   print_line("missing", cat(missing, " (0 or not finite)"));
   return {};

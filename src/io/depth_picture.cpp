@@ -16,10 +16,9 @@ io::Source source_of(std::span<const std::byte> bytes, std::string_view name = {
 
 // Removes a size of pixels that is no size, or whose proportions only a mistake explains.
 void check_pixel_size(DepthImage& image) {
-  const double aspect = image.pixel_aspect(), most = 100;
-  if (!image.pixel_size.allFinite() || !(image.pixel_size.minCoeff() > 0) || aspect > most ||
-      aspect < 1 / most)
-    image.pixel_size = Vec2::Zero();
+  constexpr double least_share = .01;
+  const bool is_size = image.pixel_size.allFinite() && image.pixel_size.minCoeff() > 0;
+  if (!is_size || image.pixel_shape().minCoeff() < least_share) image.pixel_size = Vec2::Zero();
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/plate/solid.h"
 #include "relievo/scan/surface.h"
+#include "scan/flat_picture.h"
 
 namespace relievo {
 namespace {
@@ -59,12 +60,6 @@ double darkness(double bright, const Range& range) {
   if (!(range.brightest > 0)) return 1;
   const double within = std::clamp(bright, range.darkest, range.brightest);
   return std::log(within / range.brightest) / std::log(range.darkest / range.brightest);
-}
-
-// Returns true if all points are at the same height and have colours, as the pixels of a picture.
-bool is_flat_picture(const Surface& surface) {
-  const auto is_level = [&](const Vec3& p) { return p.z() == surface.points.front().z(); };
-  return !surface.colours.empty() && std::ranges::all_of(surface.points, is_level);
 }
 
 // Returns the darkness of a pixel: 0 for white, 1 for black.

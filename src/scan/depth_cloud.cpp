@@ -71,12 +71,12 @@ Vec3f normal_at(const BoundedGrid& b, const std::vector<float>& z, int c, int r)
   return Vec3f(-dx, dy, 1).normalized();  // rows go down, y goes up
 }
 
-// Stretches the rows of square pixels so that a pixel is `aspect` times as high as wide.
-void stretch(Cloud& cloud, double aspect) {
-  if (aspect == 1) return;
-  for (Vec3& p : cloud.points) p.y() *= aspect;
+// Gives pixels, which are 1 wide and high, another width and height.
+void scale_pixels(Cloud& cloud, const Vec2& shape) {
+  if (shape == Vec2::Ones()) return;
+  for (Vec3& p : cloud.points) p.head<2>() = p.head<2>().cwiseProduct(shape);
   for (Vec3f& n : cloud.normals) {
-    n.y() /= static_cast<float>(aspect);
+    n.head<2>() = n.head<2>().cwiseQuotient(shape.cast<float>());
     n.normalize();
   }
 }
@@ -118,7 +118,7 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);
   fill(grid.bounds, is_hole, z);
   out.cloud = points_of(grid, z, is_hole);
-  stretch(out.cloud, image.pixel_aspect());
+  scale_pixels(out.cloud, image.pixel_shape());
   out.cloud.is_height_field = true;
   return out;
 }

@@ -28,7 +28,8 @@ class HeightScale {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const float v : image.values.pixels)
       if (is_known(v)) low = std::min(low, double{v}), high = std::max(high, double{v});
-    const double longer = std::max<double>(image.values.width, image.values.height * image.pixel_aspect());
+    const Vec2 shape = image.pixel_shape();
+    const double longer = std::max(shape.x() * image.values.width, shape.y() * image.values.height);
     is_log_ = options.camera.has_value() || kind_ == DepthValues::inverse;
     floor_ = kind_ == DepthValues::inverse ? std::max(farthest_inverse * high, 1e-30) : 1e-30;
     // The camera of an estimator's image is not known. Most cameras have a field of view of about 50 degrees,

@@ -61,7 +61,7 @@ Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& op
   add_frame(values, cloud);
   cloud.colours.resize(cloud.points.size(), Colour{});
   cloud.normals.assign(cloud.points.size(), Vec3f::UnitZ());
-  for (Vec3& p : cloud.points) p.y() *= image.pixel_aspect();
+  for (Vec3& p : cloud.points) p.head<2>() = p.head<2>().cwiseProduct(image.pixel_shape());
   cloud.is_height_field = true;
   out.missing = static_cast<std::size_t>(
       std::ranges::count_if(image.values.pixels, [](float v) { return !std::isfinite(v); }));

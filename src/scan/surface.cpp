@@ -16,6 +16,7 @@
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/support_plane.h"
 #include "scan/coarse_visibility.h"
+#include "scan/flat_picture.h"
 #include "scan/measured_cloud.h"
 #include "scan/noise/noise.h"
 #include "scan/outlines/outline_points.h"
@@ -198,7 +199,8 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
   RELIEVO_CHECK(triangulate(surface, measures, progress));
   RELIEVO_CHECK(begin_stage(progress, "boundary", .65));
   if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
-  put_points_on_outlines(surface, measures, viewed.cloud.outlines);
+  // The outline of a picture is that of its pixels, which all have to stay.
+  if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Vec2> xy = in_plane(surface.points);
   complete(surface.boundary, xy, surface.triangulation);

@@ -1,6 +1,5 @@
 // Tests the reading of depth images in PNG and TIFF files, whole and broken.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <atomic>
 #include <cmath>
@@ -84,14 +83,10 @@ TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
   }
 }
 
-// Inserts a chunk that names a transparent grey before the data.
+// The chunk has the length 2, the grey 3001 and its checksum.
 TEST(ReadDepthImage, TheTransparentGreyOfAPngIsMissing) {
   std::string file = as_string(write_png(grey16()));
-  const std::string colour = {static_cast<char>(3001 >> 8), static_cast<char>(3001 & 255)};
-  std::string chunk = std::string("\0\0\0\2", 4) + "tRNS" + colour;
-  const std::uint32_t checksum =
-      static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const unsigned char*>(chunk.data()) + 4, 4 + 2));
-  for (int shift = 24; shift >= 0; shift -= 8) chunk += static_cast<char>(checksum >> shift);
+  const std::string chunk("\0\0\0\2tRNS\x0B\xB9\x27\xDA\x1F\xDB", 14);
   const auto image = value_of(read_depth_image(bytes_of(file.insert(file.find("IDAT") - 4, chunk)), "d"));
   EXPECT_TRUE(std::isnan(image.values[1]));
   for (std::size_t i = 2; i < 20; ++i) EXPECT_EQ(image.values[i], 3001.F * static_cast<float>(i));

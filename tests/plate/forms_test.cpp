@@ -59,7 +59,7 @@ Cloud grey_ball(F grey) {
 // Returns a grey picture of pixels with the values grey(column, row), as flat points.
 template <typename F>
 Cloud picture(int width, int height, F grey) {
-  DepthImage image{filled_image(width, height, 0.F)};
+  DepthImage image{filled_image(width, height, 0.F), 1, "test"};
   for (int r = 0; r < height; ++r)
     for (int c = 0; c < width; ++c) image.values.at(c, r) = static_cast<float>(grey(c, r));
   return value_of(picture_cloud(image, {})).cloud;

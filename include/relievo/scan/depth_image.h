@@ -23,8 +23,10 @@ struct DepthImage {
   // then square.
   Vec2 pixel_size = Vec2::Zero();
 
-  // Returns the height of a pixel divided by its width.
-  double pixel_aspect() const { return pixel_size.x() > 0 ? pixel_size.y() / pixel_size.x() : 1; }
+  // Returns the width and height of a pixel in units of the longer of both.
+  Vec2 pixel_shape() const {
+    return pixel_size.x() > 0 ? Vec2(pixel_size / pixel_size.maxCoeff()) : Vec2(Vec2::Ones());
+  }
 };
 
 // A pinhole camera, in pixels.
@@ -77,9 +79,8 @@ struct DepthCloud {
   double noise = 0;            // median uncertainty of a depth, in pixels
 };
 
-// Returns the image as points. x and y are pixels; if pixels are not square, y is in widths of a pixel. With a
-// camera, z is -f log(depth), f the focal length in
-// pixels: surfaces that face the camera stay flat, and no point hides another. Without a camera the values
+// Returns the image as points. x and y are pixels; if pixels are not square, their longer side is the unit. With
+// a camera, z is -f log(depth), f the focal length in pixels: surfaces that face the camera stay flat, and no point hides another. Without a camera the values
 // are taken as depths along parallel rays.
 //
 // Rounding steps and noise are removed: of all surfaces whose depths lie within the intervals given by the
