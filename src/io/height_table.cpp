@@ -17,11 +17,11 @@ namespace {
 // them the values decide.
 constexpr std::size_t least_columns = 8, most_of_cloud = 32;
 
-using Rows = std::vector<std::vector<double>>;
+using NumberRows = std::vector<std::vector<double>>;
 
 // Returns the correlation of a column with the next one; nothing if one of them is constant. Neighbours on a
 // surface are alike, unlike x and y of a cloud.
-std::optional<double> correlation(const Rows& rows, std::size_t column) {
+std::optional<double> correlation(const NumberRows& rows, std::size_t column) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   for (const auto& row : rows) {
     const double x = row[column], y = row[column + 1];
@@ -34,7 +34,7 @@ std::optional<double> correlation(const Rows& rows, std::size_t column) {
 }
 
 // Returns true if three quarters of the columns that vary correlate with their neighbours, and half of all.
-bool are_neighbours_alike(const Rows& rows, std::size_t columns) {
+bool are_neighbours_alike(const NumberRows& rows, std::size_t columns) {
   std::size_t alike = 0, varying = 0;
   for (std::size_t i = 0; i + 1 < columns; ++i) {
     const auto r = correlation(rows, i);
