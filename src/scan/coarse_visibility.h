@@ -19,8 +19,10 @@ struct CoarseVisibility {
   // The sum of the normal differences between neighbouring cells, without those across depth jumps.
   double normal_variation = 0;
   double one_layer =
-      0;             // share of the cells in which the nearest and the farthest point belong to one surface
-  double bulge = 0;  // how much nearer the front is within its outline than on it, in diagonals of the box
+      0;  // share of the cells in which the nearest and the farthest point belong to one surface
+  // Above 0 if the shape of the front is that of an outside, below 0 if it is that of a hollow back. Needs no
+  // signs of normals.
+  double outside = 0;
 };
 
 // States whether a cloud's normals point out of the model or into it. With `unknown` each normal is turned to

@@ -2,49 +2,81 @@
 // docs/decisions/best-view.md.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "relievo/core/text.h"
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/normals.h"
 #include "relievo/scan/view.h"
 #include "scan/coarse_visibility.h"
+#include "scan/scanned_side.h"
 
 namespace relievo {
 namespace {
 
 using Sides = std::array<ViewGuess, 6>;
 
-// The six sides of models with Y or Z upwards. Opposite sides follow each other; the side that is the front
-// in most files comes first.
-constexpr Sides y_up{{{"front", ""}, {"back", ""}, {"left", ""}, {"right", ""}, {"bottom", ""}, {"top", ""}}};
-constexpr Sides z_up{
-    {{"bottom", ""}, {"top", "0,0,1"}, {"left", "0,0,1"}, {"right", "0,0,1"}, {"front", ""}, {"back", ""}}};
+constexpr double front_weight = 1.6;   // factor of the side that is the front in most files
+constexpr double beside_scan = .25;    // factor of the sides at right angles to the direction of a scan
+constexpr double perhaps_hollow = .5;  // factor of sides whose shape is that of a hollow back
 
-constexpr double front_weight = 1.6;    // factor of the side that is the front in most files
-constexpr double beside_scan = .25;     // factor of the sides at right angles to the direction of a scan
-constexpr double one_layer_share = .8;  // least one_layer of one-sided scans; closed models stay below .45
-constexpr double same_share = .05;      // smaller differences of one_layer between axes are ignored
+// Writes a direction as parse_view() takes it.
+std::string text_of(const Vec3& direction) {
+  std::string text;
+  for (const double x : direction) {
+    const double rounded = std::round(1e4 * x) / 1e4;
+    text += cat(text.empty() ? "" : ",", rounded == 0 ? 0. : rounded);
+  }
+  return text;
+}
 
-// Returns the area of the box of the lowest points along an axis, as a share of the area of the whole box.
-// Both areas are seen along that axis.
-double foot_along(const Cloud& cloud, const Box& box, int axis) {
+ViewGuess guess_of(const Side& side) {
+  const View view = view_towards(side.towards_viewer, side.up).value_or(View{});
+  const auto is_it = [&](const View& other) { return other.R_view_model.isApprox(view.R_view_model, 1e-6); };
+  for (const char* name : {"front", "back", "left", "right", "bottom", "top"}) {
+    const std::string up = text_of(side.up);
+    if (is_it(parse_view(name).value_or(View{}))) return {name, ""};
+    if (is_it(parse_view(name, up).value_or(View{}))) return {name, up};
+  }
+  return {text_of(side.towards_viewer), text_of(side.up)};
+}
+
+// Returns the six sides of a model with that front. Opposite sides follow each other.
+Sides sides_around(const Side& front) {
+  const auto& [towards, up] = front;
+  const Vec3 right = up.cross(towards);
+  return {guess_of(front),       guess_of({-towards, up}), guess_of({-right, up}),
+          guess_of({right, up}), guess_of({-up, towards}), guess_of({up, -towards})};
+}
+
+// Returns the area of the box of the lowest points along an axis, or against it, as a share of the area of the
+// whole box. Both areas are seen along that axis.
+double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   constexpr double foot = .03;  // share of the height
-  const double least = box.min[axis] + foot * box.size()[axis];
+  const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];
   Box low;
   for (const Vec3& p : cloud.points)
-    if (p[axis] <= least) low.extend(p);
+    if (sign * p[axis] <= least) low.extend(p);
   double share = 1;
   for (const int other : {(axis + 1) % 3, (axis + 2) % 3})
     share *= box.size()[other] > 0 ? low.size()[other] / box.size()[other] : 1;
   return share;
 }
 
-bool stands_on_z(const Cloud& cloud) {
+// Returns the front of a model that stands upright: +Z with Y upwards or, if the model has a much wider foot
+// there, -Y with Z upwards, or -Z with -Y upwards, as in the frames of cameras.
+Side front_of(const Cloud& cloud) {
   constexpr double wide = .3, wider = 3;
   const Box box = bounds(cloud);
-  const double foot = foot_along(cloud, box, 2);
-  return foot > wide && foot > wider * foot_along(cloud, box, 1);
+  const double usual = foot_along(cloud, box, 1, 1), on_z = foot_along(cloud, box, 2, 1),
+               on_minus_y = foot_along(cloud, box, 1, -1);
+  if (std::max(on_z, on_minus_y) <= std::max(wide, wider * usual)) return {Vec3::UnitZ(), Vec3::UnitY()};
+  if (on_z >= on_minus_y) return {-Vec3::UnitY(), Vec3::UnitZ()};
+  return {-Vec3::UnitZ(), -Vec3::UnitY()};
 }
 
 std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, NormalSigns signs) {
@@ -53,28 +85,10 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns the index of the first of two opposite sides if one of them shows everything that was scanned; 6 if
-// the cloud has several layers.
-std::size_t scanned_axis(const std::vector<CoarseVisibility>& seen) {
-  const auto share = [&](std::size_t i) { return std::min(seen[i].one_layer, seen[i + 1].one_layer); };
-  const std::array<std::size_t, 3> axes{0, 4, 2};
-  double most = 0;
-  for (const std::size_t axis : axes) most = std::max(most, share(axis));
-  if (most < one_layer_share) return 6;
-  return *std::ranges::find_if(axes, [&](std::size_t axis) { return share(axis) >= most - same_share; });
-}
-
-// Returns the share of a side that is the outside of its model. Normals with unknown signs do not show it,
-// but an outside is nearer to the viewer in its middle than along its outline.
+// Returns the share of a side that is the outside of its model. Without signs of the normals, its shape tells.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
-  constexpr double perhaps_hollow = .5;
   if (has_signs) return seen.facing_share;
-  return seen.bulge < 0 ? perhaps_hollow : 1;
-}
-
-// Returns whether the first of two opposite sides is the one that was scanned.
-bool is_first_outside(const CoarseVisibility& first, const CoarseVisibility& second, bool has_signs) {
-  return has_signs ? first.facing_share >= second.facing_share : first.bulge >= second.bulge;
+  return seen.outside < 0 ? perhaps_hollow : 1;
 }
 
 }  // namespace
@@ -87,26 +101,14 @@ std::array<ViewGuess, 6> rank_views(const Cloud& all) {
     estimate_normals(cloud);
   }
   NormalSigns signs = has_signs ? NormalSigns::outward : NormalSigns::unknown;
-  Sides sides = y_up;
-  std::vector<CoarseVisibility> seen = seen_from(sides, cloud, signs);
-  if (has_signs && normals_point_inward(seen)) {
-    signs = NormalSigns::inward;
-    seen = seen_from(sides, cloud, signs);
-  }
-  const std::size_t scanned = scanned_axis(seen);
-  if (scanned < 6) {
-    const bool is_first = is_first_outside(seen[scanned], seen[scanned + 1], has_signs);
-    for (std::size_t i = 0; i < 6; ++i) sides[i].score = beside_scan * seen[i].normal_variation;
-    sides[scanned].score = is_first ? seen[scanned].normal_variation : 0;
-    sides[scanned + 1].score = is_first ? 0 : seen[scanned + 1].normal_variation;
-  } else {
-    if (stands_on_z(cloud)) {
-      sides = z_up;
-      seen = seen_from(sides, cloud, signs);
-    }
-    for (std::size_t i = 0; i < 6; ++i)
-      sides[i].score =
-          (i == 0 ? front_weight : 1) * outside_share(seen[i], has_signs) * seen[i].normal_variation;
+  if (has_signs && normals_point_inward(cloud)) signs = NormalSigns::inward;
+  const std::optional<Side> scanned = scanned_side(cloud, signs);
+  Sides sides = sides_around(scanned ? *scanned : front_of(cloud));
+  const std::vector<CoarseVisibility> seen = seen_from(sides, cloud, signs);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double of_scan = i == 0 ? 1 : i == 1 ? 0 : beside_scan;
+    const double of_model = (i == 0 ? front_weight : 1) * outside_share(seen[i], has_signs);
+    sides[i].score = seen[i].normal_variation * (scanned ? of_scan : of_model);
   }
   std::ranges::stable_sort(sides, std::greater{}, &ViewGuess::score);
   return sides;

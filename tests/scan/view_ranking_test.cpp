@@ -84,6 +84,8 @@ Cloud column(const Vec3& up) {
 TEST(ViewRanking, ShowsWhatStandsOnItsFootUpright) {
   EXPECT_EQ(rank_views(column(Vec3::UnitY()))[0].name, "front");
   EXPECT_EQ(rank_views(column(Vec3::UnitZ()))[0].name, "bottom");
+  EXPECT_EQ(rank_views(column(-Vec3::UnitY()))[0].name, "back");
+  EXPECT_EQ(rank_views(column(-Vec3::UnitY()))[0].up, "0,-1,0");
   for (const ViewGuess& side : rank_views(column(Vec3::UnitZ()))) {
     const bool is_seen_from_above = side.name == "front" || side.name == "back";
     const View view = *parse_view(side.name, side.up);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "relievo/core/error.h"
@@ -81,15 +82,18 @@ Cloud in_view(const Cloud& cloud, const View& view);
 // sum of the differences between the normals of neighbouring cells of a coarse image, without those across
 // depth jumps, times a weight.
 struct ViewGuess {
-  std::string_view name, up;
+  std::string name, up;
   double score = 0;
 };
 
-// Returns the six sides along the axes, the one with the highest score first, each upright. Outliers are left
-// out, and normals estimated if the cloud has none. A cloud that was scanned from one side gets that side:
-// hollow backs have the score 0. Other models have Y upwards and their front towards +Z, as in glTF, unless
-// they have a wide foot along Z and none along Y: then Z is upwards and the front is -Y. The front's score is
-// multiplied by 1.6.
+// Returns six sides at right angles, the one with the highest score first, each upright. Outliers are left
+// out, and normals estimated if the cloud has none.
+// - A cloud that was scanned from one side gets that side, along an axis or not; its hollow back has the score
+//   0. Upwards is where its outline has a broad foot on the other end. Cameras at the origin look along +Z with
+//   -Y upwards, or along -Z with Y upwards.
+// - Other models are seen along the axes. They have Y upwards and their front towards +Z, as in glTF, unless
+//   they have a wide foot along Z or -Y and none along Y: then Z is upwards and the front is -Y, or -Y is
+//   upwards and the front is -Z. The front's score is multiplied by 1.6.
 std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
 
 }  // namespace relievo
