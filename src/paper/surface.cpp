@@ -27,10 +27,11 @@ Boundary boundary_of(std::span<const Vec2> points, const Triangulation& mesh, do
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
   const ViewedCloud viewed = look_at(measured, surface);
+  RELIEVO_CHECK(check_side(viewed, view));
 
   RELIEVO_CHECK(begin_stage(progress, "visible points", .1));
   std::vector<Index> visible = visible_points(viewed.cloud, surface.rho);
-  if (visible.size() < 4) return too_few_visible(viewed.cloud, visible.size());
+  if (visible.size() < 4) return too_few_visible(visible.size());
   visible = pick(visible, hilbert_order(in_plane(pick(viewed.cloud.points, visible))));
   surface.visible_points = visible.size();
   surface.points = pick(viewed.cloud.points, visible);

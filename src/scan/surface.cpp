@@ -133,7 +133,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
         cat("expected points that lie close together, found ", 100 * removed / (removed + visible.size()),
             " % of those that face the viewer in small groups far from others, without which "
             "most of the figure would be missing"));
-  if (visible.size() < 4) return too_few_visible(cloud, visible.size());
+  if (visible.size() < 4) return too_few_visible(visible.size());
   surface.removed_points = removed;
   RELIEVO_CHECK(check_cancelled(progress));
   std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible);
@@ -193,6 +193,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* pro
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
   ViewedCloud viewed = look_at(measured, surface);
+  RELIEVO_CHECK(check_side(viewed, view));
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
 
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));

@@ -1,6 +1,8 @@
 #include "scan/viewed_cloud.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -42,8 +44,29 @@ void sign_normals(ViewedCloud& viewed, Surface& surface) {
   remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);
 }
 
-bool all_look_away(const Cloud& viewed) {
-  return std::ranges::all_of(viewed.normals, [](const Vec3f& n) { return n.z() < 0; });
+// Returns the share of the surface's area in the view plane that faces the viewer, all layers included.
+double facing_share(const ViewedCloud& viewed) {
+  double facing = 0, total = 0;
+  for (std::size_t i = 0; i < viewed.cloud.size(); ++i) {
+    const auto side = static_cast<double>(viewed.spacing().local[i]);
+    const double area = side * side * static_cast<double>(viewed.cloud.normals[i].z());
+    facing += std::max(0., area);
+    total += std::abs(area);
+  }
+  return total > 0 ? facing / total : 1;
+}
+
+// Returns the options of the best view of the cloud other than `view`.
+std::string other_view(const MeasuredCloud& measured, const View& view) {
+  Cloud cloud = measured.cloud();
+  for (Vec3& p : cloud.points) p += measured.centre();
+  const auto ranked = rank_views(cloud);
+  const auto is_other = [&](const ViewGuess& guess) {
+    const View best = parse_view(guess.name, guess.up).value_or(View{});
+    return !best.R_view_model.row(2).isApprox(view.R_view_model.row(2));
+  };
+  const ViewGuess& best = *std::ranges::find_if(ranked, is_other);
+  return cat("--view ", best.name, best.up.empty() ? "" : cat(" --up ", best.up));
 }
 
 }  // namespace
@@ -75,13 +98,21 @@ ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface) {
   return viewed;
 }
 
-std::unexpected<Error> too_few_visible(const Cloud& viewed, std::size_t visible) {
+Result<void> check_side(const ViewedCloud& viewed, const View& view) {
+  constexpr double least = .1;
+  if (viewed.measured.has_estimated_normals()) return {};
+  const double facing = facing_share(viewed);
+  if (facing >= least) return {};
   return geometry_error(
-      cat("expected at least 4 points that face the viewer, found ", visible,
-          all_look_away(viewed)
-              ? ": all normals point away from the viewer; look from the other side, or take the "
-                "normals out of the file if they are wrong: they are then estimated"
-              : "; try another view"));
+      cat("expected a view of the side that was scanned, found ", std::lround(100 * (1 - facing)),
+          " % of the surface facing away from the viewer; ", other_view(viewed.measured, view),
+          " or --view auto shows it; if the file's normals are wrong, take them out of it: they are then "
+          "estimated"));
+}
+
+std::unexpected<Error> too_few_visible(std::size_t visible) {
+  return geometry_error(
+      cat("expected at least 4 points that face the viewer, found ", visible, "; try another view"));
 }
 
 std::unexpected<Error> no_area_error() {

@@ -22,8 +22,12 @@ Surface surface_of_view(const MeasuredCloud& measured, const View& view);
 // remove. Sets the surface's rho, its facts about normals, and those about noise.
 ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface);
 
+// Returns an error that names a better view if nine tenths of the surface face away from the viewer. Otherwise
+// the relief would be made of the rest, as of the back of a bust that was scanned from the front.
+Result<void> check_side(const ViewedCloud& viewed, const View& view);
+
 // Return the errors of a view in which only so many points face the viewer, and of visible points on one line.
-std::unexpected<Error> too_few_visible(const Cloud& viewed, std::size_t visible);
+std::unexpected<Error> too_few_visible(std::size_t visible);
 std::unexpected<Error> no_area_error();
 
 }  // namespace relievo

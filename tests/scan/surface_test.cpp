@@ -47,10 +47,23 @@ TEST(Surface, CoversSparsePartsToo) {
 
 TEST(Surface, RefusesACloudThatFacesAway) {
   Cloud away = test::height_field(
-      5000, 1, [](double x, double y) { return .3 * x * x + .2 * y; },
-      [](double x, double) { return Vec2(.6 * x, .2); });
+      5000, 1, [](double x, double) { return .3 * x * x; }, [](double x, double) { return Vec2(.6 * x, 0); });
   for (Vec3& p : away.points) p.z() = -p.z();
-  EXPECT_NE(failure(test::inside_out(away)).find("face the viewer"), std::string::npos);
+  const std::string message = failure(test::inside_out(away));
+  EXPECT_TRUE(message.contains("found 100 % of the surface facing away")) << message;
+  EXPECT_TRUE(message.contains("--view back or --view auto")) << message;
+}
+
+// A camera at the origin, with its axes y down and z away, has scanned the near half of a ball and a little of
+// what lies beyond. From the front, only that little would be left.
+TEST(Surface, NamesTheSideThatWasScanned) {
+  const auto is_scanned = [](const Vec3& p) { return p.z() < .2; };
+  Cloud scan = test::where(test::sphere(20'000, 1), is_scanned);
+  for (Vec3& p : scan.points) p.z() += 5;
+  EXPECT_TRUE(failure(scan).contains("--view back --up 0,-1,0 or --view auto")) << failure(scan);
+  EXPECT_TRUE(find_surface(scan, *parse_view("back", "0,-1,0")));
+  for (const char* side : {"left", "right", "top", "bottom"})
+    EXPECT_TRUE(find_surface(scan, *parse_view(side))) << side;
 }
 
 TEST(Surface, EstimatesNormalsAndSaysSo) {
