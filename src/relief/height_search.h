@@ -16,9 +16,11 @@ namespace relievo {
 // Returns the error for a height that no relief of this view reaches; `most_mm` is the largest possible
 // height.
 inline std::unexpected<Error> out_of_reach(double most_mm, double wanted_mm) {
-  return geometry_error(cat("expected a height that can be reached, at most ", most_mm,
-                            " mm for this view and width, found ", wanted_mm, " mm",
-                            most_mm > 0 ? "" : ": this view shows a level face alone; choose another"));
+  return geometry_error(
+      cat("expected a height that can be reached, at most ", most_mm, " mm for this view and width, found ",
+          wanted_mm, " mm",
+          most_mm > 0 ? "; --method detail reaches it, as it makes small shapes higher than they are"
+                      : ": this view shows a level face alone; choose another"));
 }
 
 // Every search calls height_at(ln u), which makes a relief and returns its height. The relief of the last

@@ -249,7 +249,8 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
     });
   }
   if (is_cancelled) return cancelled_error();
-  if (!is_met) return out_of_reach(relief.height * unit_mm, height * unit_mm);
+  // A relief that ended above the height is only scaled down, so that heights below the named one never fail.
+  if (!is_met && relief.height < height) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
   // The search ends within a part in 10^5 of the height; scaling makes it exact.
   for (double& z : relief.heights) z *= height / relief.height;
