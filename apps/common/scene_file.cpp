@@ -51,7 +51,7 @@ class SceneReader {
 
   Result<SceneEntry> read_model(const Json& model, const std::string& place) const {
     if (!model.is_object()) return fail(place, "expected an object" + found(model));
-    RELIEVO_CHECK(check_keys(model, place, {"file", "rotate", "translate", "scale", "mirror"}));
+    RELIEVO_CHECK(check_keys(model, place, {"file", "rotate", "translate", "scale", "mirror", "height"}));
     SceneEntry entry;
     RELIEVO_CHECK(read_path(model, place + ".file", entry.path));
     RELIEVO_CHECK(read_pose(model, place, entry.pose));
@@ -80,6 +80,13 @@ class SceneReader {
     if (const auto mirror = model.find("mirror"); mirror != model.end()) {
       if (!mirror->is_boolean()) return fail(place + ".mirror", "expected true or false" + found(*mirror));
       pose.is_mirrored = mirror->get<bool>();
+    }
+    if (const auto height = model.find("height"); height != model.end()) {
+      if (!height->is_number() ||
+          !(height->get<double>() >= least_own_height && height->get<double>() <= most_own_height))
+        return fail(place + ".height", cat("expected a share of the relief's height from ", least_own_height,
+                                           " to ", most_own_height, found(*height)));
+      pose.height = height->get<double>();
     }
     return {};
   }

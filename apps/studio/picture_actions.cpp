@@ -36,6 +36,7 @@ Json models_of(const ScanSource& input) {
                       {"rotate", {turn.x(), turn.y(), turn.z()}},
                       {"scale", pose.scale},
                       {"mirror", pose.is_mirrored}});
+    if (pose.height) models.back()["height"] = *pose.height;
     if (const auto& move = pose.translate) models.back()["translate"] = {move->x(), move->y(), move->z()};
   }
   return models;

@@ -24,9 +24,14 @@ struct Pose {
   std::optional<Vec3> translate = {};  // movement, in the units of the files
   double scale = 1;                    // above 0
   bool is_mirrored = false;            // x is reversed before scaling and turning
+  // How high the model's highest point stands over what is behind it in the relief, as a share of the relief's
+  // height, in [0.01, 0.9]; see OwnHeights. If not given, the relief's method decides.
+  std::optional<double> height = {};
 
   bool operator==(const Pose& other) const;
 };
+
+inline constexpr double least_own_height = .01, most_own_height = .9;
 
 // Returns the turn of a pose: a rotation, preceded by a reflection if the pose is mirrored.
 Mat3 turn_of(const Pose& pose);

@@ -24,6 +24,9 @@ Result<void> check(const Scene& scene) {
     if (!pose.rotate_deg.allFinite()) return option_error(model.name, "expected angles that are finite");
     if (pose.translate && !pose.translate->allFinite())
       return option_error(model.name, "expected a place that is finite");
+    if (pose.height && !(*pose.height >= least_own_height && *pose.height <= most_own_height))
+      return option_error(model.name, cat("expected a height from ", least_own_height, " to ",
+                                          most_own_height, " of the relief's, found ", *pose.height));
   }
   return {};
 }
@@ -122,7 +125,7 @@ Mat3 turn_of(const Pose& pose) {
 
 bool Pose::operator==(const Pose& other) const {
   return rotate_deg == other.rotate_deg && translate == other.translate && scale == other.scale &&
-         is_mirrored == other.is_mirrored;
+         is_mirrored == other.is_mirrored && height == other.height;
 }
 
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view) {

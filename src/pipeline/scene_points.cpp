@@ -49,7 +49,17 @@ void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector
     append(to, from);
 }
 
+// Appends the own heights of points, as append_colours() does. Points without one have 0.
+void append_own_heights(std::vector<float>& to, std::size_t size, const std::vector<float>& from,
+                        std::size_t added) {
+  if (to.empty() && from.empty()) return;
+  to.resize(size, 0);
+  append(to, from);
+  to.resize(size + added, 0);
+}
+
 void append(Cloud& to, const Cloud& from) {
+  append_own_heights(to.own_heights, to.size(), from.own_heights, from.size());
   append_colours(to.colours, to.size(), from.colours, from.size());
   append(to.points, from.points);
   append(to.normals, from.normals);
@@ -57,6 +67,7 @@ void append(Cloud& to, const Cloud& from) {
 }
 
 void append(Mesh& to, const Mesh& from) {
+  append_own_heights(to.own_heights, to.points.size(), from.own_heights, from.points.size());
   append_colours(to.colours, to.points.size(), from.colours, from.points.size());
   const auto first = static_cast<Index>(to.points.size());
   for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({a + first, b + first, c + first});
@@ -64,9 +75,15 @@ void append(Mesh& to, const Mesh& from) {
   append(to.corner_normals, from.corner_normals);
 }
 
+std::vector<float> own_heights_of(const SceneModel& model, std::size_t points) {
+  if (!model.pose.height) return {};
+  return std::vector<float>(points, static_cast<float>(*model.pose.height));
+}
+
 Mesh placed_mesh(const SceneModel& model, const PlacedModel& place) {
   const Mesh& mesh = model.file->mesh;
-  Mesh placed{mesh.points, mesh.triangles, normals_to_show(mesh), mesh.colours};
+  Mesh placed{mesh.points, mesh.triangles, normals_to_show(mesh), mesh.colours,
+              own_heights_of(model, mesh.points.size())};
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   parallel_for(placed.points.size(), [&](std::size_t i) { placed.points[i] = place(mesh.points[i]); });
   parallel_for(placed.triangles.size(), [&](std::size_t t) {
@@ -90,6 +107,7 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   if (placed.cloud.size() < given)
     parts.notes.push_back({SampleNote::Kind::repeated, model.name, given - placed.cloud.size()});
   placed.cloud.is_height_field = false;  // other models may be in front of it
+  placed.cloud.own_heights = own_heights_of(model, placed.cloud.size());
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
   for (Vec3f& n : placed.cloud.normals) n = turn * n;

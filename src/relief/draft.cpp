@@ -10,6 +10,7 @@
 #include "geometry/slope_limit.h"
 #include "relief/height_search.h"
 #include "relief/nearest_draft.h"
+#include "relief/own_heights.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
 #include "relievo/scan/surface.h"
@@ -52,6 +53,7 @@ class Limiter {
     RELIEVO_CHECK(build_nearest());
     nearest_->apply(relief.heights, is_cancelled);
     if (is_cancelled()) return cancelled_error();
+    keep_own_heights(relief);
     for (int tries = 0; tries < most_tries; ++tries) {
       std::vector<double> whole = with_base(relief.heights);
       const bool is_flat = limit_slopes(field(), kept_share * options_.max_slope, Rounding::none, whole);
@@ -64,6 +66,15 @@ class Limiter {
   }
 
  private:
+  // The nearest slopes of a wall that is one row of points wide are those of a low wall. Models of a scene with
+  // heights of their own get walls that are wide enough instead.
+  void keep_own_heights(Relief& relief) {
+    if (model_->paper() || model_->own_heights().empty()) return;
+    constexpr double share = .9;  // of the limit, as what is behind the model leans, too
+    OwnHeights::Workspace<double> workspace;
+    model_->own_heights().apply<double>(relief.height, relief.heights, workspace, share * options_.max_slope);
+  }
+
   PlaneMesh field() const { return {plane_, triangles_, model_->surface().boundary.is_boundary}; }
 
   double base(std::size_t i) const { return options_.base.empty() ? 0 : options_.base[i]; }

@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "core/stopwatch.h"
 #include "relief/height_search.h"
+#include "relief/own_heights.h"
 #include "relief/paper_frames.h"
 #include "relief/sliced_ell_matrix.h"
 #include "relief/step_heights.h"
@@ -36,6 +37,7 @@ struct OwnFrames {
       vertex_normal_matrix(in_plane(surface.points), surface.triangulation, surface.boundary,
                            model.system() ? &model.system()->divergence_matrix() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
+  OwnHeights::Workspace<float> own_workspace = {};
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
@@ -148,10 +150,16 @@ struct OwnFrames {
   }
 
   void finish(Frame& frame) {
-    const auto own_workspace = [&]() -> HeightCorrection::Workspace& { return correction_workspace; };
+    const auto workspace_of_correction = [&]() -> HeightCorrection::Workspace& {
+      return correction_workspace;
+    };
     change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
-      style.finish(heights, model.correction(), own_workspace);
+      style.finish(heights, model.correction(), workspace_of_correction);
       scale_down(heights, frame);
+      if (!model.own_heights().empty()) {
+        model.own_heights().apply<float>(frame.height, heights.z, own_workspace);
+        heights.span = heights.measured();
+      }
       if (const std::vector<float>* base = frame.options.base.get())
         heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });

@@ -48,6 +48,7 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
   if (!info.make) return model.make_at_height(height, shape, unit_mm, progress);
   Relief relief = info.make(model, height);
   if (!(relief.height > 0)) return out_of_reach(0, height * unit_mm);
+  give_own_heights(model, relief);
   return relief;
 }
 

@@ -8,6 +8,7 @@
 #include "paper/surface.h"
 #include "relief/correction/height_correction.h"
 #include "relief/height_search.h"
+#include "relief/own_heights.h"
 #include "relief/paper_relief.h"
 #include "relief/step_heights.h"
 #include "relief/style.h"
@@ -32,6 +33,7 @@ struct ReliefModel::State {
     std::vector<PointLayers> layers;
     StepFields fields;
     HeightCorrection correction;
+    OwnHeights own_heights;
     std::variant<HeightSystem, SubspaceModel> solver;
   };
 
@@ -80,6 +82,9 @@ const StepHeights& ReliefModel::steps() const {
 const StepHeights& ReliefModel::planes() const {
   return state_->parts().fields.planes;
 }
+const OwnHeights& ReliefModel::own_heights() const {
+  return state_->parts().own_heights;
+}
 const HeightCorrection& ReliefModel::correction() const {
   return state_->parts().correction;
 }
@@ -112,7 +117,9 @@ Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surfac
               HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary));
   RELIEVO_CHECK(check_cancelled(progress));
   StepFields fields = StepFields::find(surface, system);
-  return Parts{std::move(layers), std::move(fields), std::move(*correction), std::move(system)};
+  RELIEVO_TRY(OwnHeights own_heights, OwnHeights::find(surface));
+  return Parts{std::move(layers), std::move(fields), std::move(*correction), std::move(own_heights),
+               std::move(system)};
 }
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, const ModelOptions& options) {
@@ -132,6 +139,9 @@ Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const Vi
     RELIEVO_TRY(Surface surface, find_surface(measured, view, progress));
     return prepare(std::move(surface), progress, options);
   }
+  if (!measured.cloud().own_heights.empty())
+    return option_error("method",
+                        "expected another than paper for a scene in which a model has its own height");
   RELIEVO_TRY(Surface surface, paper::find_surface(measured, view, progress));
   const bool is_exact = resolve_mode(options.mode, surface) == Mode::exact;
   const std::size_t control_points = is_exact ? surface.points.size() : options.control_points;
@@ -142,8 +152,8 @@ Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const Vi
 std::size_t ReliefModel::memory() const {
   if (const PaperModel* model = paper()) return model->memory() + surface().memory();
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->parts().solver);
-  return solver + surface().memory() + layers().size_bytes() + correction().memory() +
-         (steps().z.size() + planes().z.size()) * sizeof(float);
+  return solver + own_heights().memory() + surface().memory() + layers().size_bytes() +
+         correction().memory() + (steps().z.size() + planes().z.size()) * sizeof(float);
 }
 
 namespace {
@@ -167,6 +177,13 @@ std::vector<double> ReliefModel::State::solve(const Shape& shape, const SlopeInp
   std::vector<double> heights(slopes.size());
   std::get<HeightSystem>(parts().solver).solve(slopes, heights);
   return heights;
+}
+
+void give_own_heights(const ReliefModel& model, Relief& relief) {
+  if (model.paper() || model.own_heights().empty()) return;
+  OwnHeights::Workspace<double> workspace;
+  model.own_heights().apply<double>(relief.height, relief.heights, workspace);
+  relief.height = height_span(relief.heights);
 }
 
 // Makes reliefs of one boundary width in two steps, because a search for a height needs only the first.
@@ -204,6 +221,7 @@ class ReliefModel::Maker {
     with_style(relief.shape,
                [&](const auto& style) { style.finish(heights, model_.correction(), make_workspace); });
     relief.height = heights.height;
+    give_own_heights(model_, relief);
   }
 
  private:

@@ -17,6 +17,7 @@ Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
     surface.points.push_back(viewed.points[i]);
     surface.normals.push_back(viewed.normals[i]);
     if (viewed.has_colours()) surface.colours.push_back(viewed.colours[i]);
+    if (!viewed.own_heights.empty()) surface.own_heights.push_back(viewed.own_heights[i]);
   }
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
@@ -46,6 +47,7 @@ class Mesher {
   explicit Mesher(const Surface& surface) : surface_(surface) {
     mesh_.points = surface.points;
     mesh_.colours = surface.colours;
+    mesh_.own_heights = surface.own_heights;
   }
 
   Mesh make() {
@@ -90,6 +92,7 @@ class Mesher {
     const double z = from.z() + depth_along_plane(surface_.normals[corner], step.x(), step.y());
     mesh_.points.emplace_back(place.x(), place.y(), z);
     if (!mesh_.colours.empty()) mesh_.colours.push_back(surface_.colours[corner]);
+    if (!mesh_.own_heights.empty()) mesh_.own_heights.push_back(surface_.own_heights[corner]);
     return static_cast<Index>(mesh_.points.size() - 1);
   }
 

@@ -103,9 +103,12 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   std::vector<Index> order = space_curve_order(measured->cloud_.points);
   thin_out_coincident(measured->cloud_.points, order);
   RELIEVO_CHECK(check_cancelled(progress));
-  measured->cloud_ = {pick(measured->cloud_.points, order), pick(measured->cloud_.normals, order),
-                      pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines),
-                      cloud.is_height_field};
+  measured->cloud_ = {pick(measured->cloud_.points, order),
+                      pick(measured->cloud_.normals, order),
+                      pick(measured->cloud_.colours, order),
+                      std::move(measured->cloud_.outlines),
+                      cloud.is_height_field,
+                      pick(measured->cloud_.own_heights, order)};
   RELIEVO_CHECK(measured->measure_points(view, progress));
   RELIEVO_CHECK(check_digits(cloud, measured->spacing().rho));
   measured->repeated_points_ = cloud.size() - measured->cloud_.size();

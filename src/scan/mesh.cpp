@@ -141,6 +141,7 @@ class Sampler {
       cloud.points.insert(cloud.points.end(), part.points.begin(), part.points.end());
       cloud.normals.insert(cloud.normals.end(), part.normals.begin(), part.normals.end());
       cloud.colours.insert(cloud.colours.end(), part.colours.begin(), part.colours.end());
+      cloud.own_heights.insert(cloud.own_heights.end(), part.own_heights.begin(), part.own_heights.end());
     }
     return cloud;
   }
@@ -219,6 +220,7 @@ class Sampler {
     const Vec2 from_corner = fine_pixel_ * place;
     to.points.emplace_back(seen_.box.min.x() + from_corner.x(), seen_.box.max.y() - from_corner.y(), z);
     to.normals.push_back(normal.normalized());
+    if (!mesh_.own_heights.empty()) to.own_heights.push_back(mesh_.own_heights[corners[0]]);
     if (mesh_.colours.empty()) return;
     const auto byte = [&](int k) { return static_cast<std::uint8_t>(std::clamp(colour[k], 0.F, 255.F)); };
     to.colours.push_back({byte(0), byte(1), byte(2)});

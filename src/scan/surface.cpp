@@ -152,6 +152,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
   surface.colours = pick(viewed.measured.cloud().colours, shown);
+  surface.own_heights = pick(viewed.measured.cloud().own_heights, shown);
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 

@@ -128,6 +128,7 @@ Cloud cropped(const Cloud& cloud, const View& view) {
     part.points.push_back(cloud.points[i]);
     if (!cloud.normals.empty()) part.normals.push_back(cloud.normals[i]);
     if (!cloud.colours.empty()) part.colours.push_back(cloud.colours[i]);
+    if (!cloud.own_heights.empty()) part.own_heights.push_back(cloud.own_heights[i]);
   }
   return part;
 }
@@ -139,6 +140,7 @@ Cloud in_view(const Cloud& cloud, const View& view) {
   out.points.resize(cloud.size());
   out.normals.resize(cloud.normals.size());
   out.colours = cloud.colours;
+  out.own_heights = cloud.own_heights;
   out.is_height_field = cloud.is_height_field && view.R_view_model == Mat3::Identity();
   parallel_for(cloud.size(),
                [&](std::size_t i) { out.points[i] = view.R_view_model * (cloud.points[i] - centre); });

@@ -16,6 +16,7 @@ namespace relievo {
 class HeightCorrection;
 class HeightSystem;
 class MeasuredCloud;
+class OwnHeights;
 class PaperModel;
 class SubspaceModel;
 struct PointLayers;
@@ -83,6 +84,9 @@ class ReliefModel {
   // Returns the steps that Shape::planes adds in layered reliefs.
   const StepHeights& planes() const;
 
+  // Returns the models of a scene that have heights of their own.
+  const OwnHeights& own_heights() const;
+
   // Returns the correction that compresses layered heights.
   const HeightCorrection& correction() const;
 
@@ -108,5 +112,9 @@ class ReliefModel {
 
   std::unique_ptr<const State> state_;
 };
+
+// Gives the models of a scene that have heights of their own these heights, as a last step. ReliefModel does so;
+// baselines, which know no scenes, need this call.
+void give_own_heights(const ReliefModel& model, Relief& relief);
 
 }  // namespace relievo

@@ -27,6 +27,9 @@ struct Cloud {
   std::vector<OutlineSegment> outlines = {};
   // Seen from +Z, no point hides another, as in a depth image.
   bool is_height_field = false;
+  // For each point the height of its model in the scene, Pose::height, or 0 if that is not given; empty if no
+  // model's is.
+  std::vector<float> own_heights = {};
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }

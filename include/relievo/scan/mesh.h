@@ -18,7 +18,8 @@ struct Mesh {
   // The normals of each triangle's corners, with unit length, or zero where the file has none. Empty if the
   // file has no normals at all.
   std::vector<std::array<Vec3f, 3>> corner_normals = {};
-  std::vector<Colour> colours = {};  // colours of the points, or empty
+  std::vector<Colour> colours = {};     // colours of the points, or empty
+  std::vector<float> own_heights = {};  // of the points, see Cloud; or empty
 
   bool empty() const { return triangles.empty(); }
 };

@@ -15,9 +15,10 @@ namespace relievo {
 // of a space-filling curve, so that neighbours in the view plane are close in memory and the order of the
 // cloud has no influence.
 struct Surface {
-  std::vector<Vec3> points;     // R_view_model (p - centre)
-  std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at hole fill points
-  std::vector<Colour> colours;  // colours of the points; empty if the cloud has none
+  std::vector<Vec3> points;             // R_view_model (p - centre)
+  std::vector<Vec3f> normals;           // unit length, z > 0; (0, 0, 1) at hole fill points
+  std::vector<Colour> colours;          // colours of the points; empty if the cloud has none
+  std::vector<float> own_heights = {};  // see Cloud; empty if the cloud has none
   NormalisedCurvature curvature;
   Triangulation triangulation;  // without `neighbours`
   Boundary boundary;

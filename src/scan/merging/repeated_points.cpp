@@ -114,6 +114,7 @@ class Merging {
     if (cloud_.has_normals())
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());
+    if (!cloud_.own_heights.empty()) to_.own_heights.push_back(cloud_.own_heights[i]);
   }
 
   bool is_merged(Index i) const { return is_merged_[i]; }
@@ -211,6 +212,7 @@ Cloud subsample(const Cloud& cloud, const Spacing& spacing, double wanted) {
     thin.points.push_back(cloud.points[kept[k]]);
     thin.normals.push_back(groups[k].normal.normalized());
     if (cloud.has_colours()) thin.colours.push_back(groups[k].mean_colour());
+    if (!cloud.own_heights.empty()) thin.own_heights.push_back(cloud.own_heights[kept[k]]);
   }
   return thin;
 }

@@ -89,6 +89,7 @@ class NewSurface {
     surface.points = pick(points_, order);
     surface.normals = pick(normals_, order);
     surface.colours = pick(colours_, order);
+    surface.own_heights = pick(own_heights_, order);
     measures = {pick(k_, order), pick(spacing_, order)};
     const std::vector<Vec2> plane = in_plane(surface.points);
     surface.triangulation = delaunay(plane);
@@ -146,6 +147,7 @@ class NewSurface {
     points_.push_back(surface_.points[i]);
     normals_.push_back(surface_.normals[i]);
     if (!surface_.colours.empty()) colours_.push_back(surface_.colours[i]);
+    if (!surface_.own_heights.empty()) own_heights_.push_back(surface_.own_heights[i]);
     k_.push_back(measures_.k[i]);
     if (!measures_.spacing.empty()) spacing_.push_back(measures_.spacing[i]);
     places_.push_back(Place::scan);
@@ -163,6 +165,7 @@ class NewSurface {
       points_.push_back(value.point);
       normals_.push_back(value.normal);
       if (!surface_.colours.empty()) colours_.push_back(value.colour);
+      if (!surface_.own_heights.empty()) own_heights_.push_back(value.own_height);
       k_.push_back(value.k);
       if (!measures_.spacing.empty()) spacing_.push_back(value.spacing);
       places_.push_back(rows[r].place);
@@ -221,6 +224,7 @@ class NewSurface {
   std::vector<Vec3> points_;
   std::vector<Vec3f> normals_;
   std::vector<Colour> colours_;
+  std::vector<float> own_heights_;
   std::vector<double> k_;
   std::vector<float> spacing_;
   std::vector<Place> places_;

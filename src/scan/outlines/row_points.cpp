@@ -212,6 +212,7 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   value.point << p.at, depth_at(p.at, normal, matches);
   const Index nearest = matches.front().first;
   if (!surface_.colours.empty()) value.colour = surface_.colours[nearest];
+  if (!surface_.own_heights.empty()) value.own_height = surface_.own_heights[nearest];
   if (!measures_.spacing.empty()) value.spacing = measures_.spacing[nearest];
   return value;
 }

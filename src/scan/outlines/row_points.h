@@ -64,6 +64,7 @@ class SideInterpolation {
     Vec3 point;
     Vec3f normal;
     Colour colour = {};
+    float own_height = 0;
     double k = 0;
     float spacing = 0;
   };

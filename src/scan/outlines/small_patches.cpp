@@ -63,6 +63,7 @@ bool drop_small_patches(Surface& surface, PointMeasures& measures) {
   keep_where(surface.points, stays);
   keep_where(surface.normals, stays);
   keep_where(surface.colours, stays);
+  keep_where(surface.own_heights, stays);
   keep_where(measures.k, stays);
   keep_where(measures.spacing, stays);
   return true;
