@@ -201,12 +201,15 @@ TEST(OwnHeights, RefusesHeightsOutOfRangeAndThePaper) {
     const auto made = prepare(Job{legend_beside_head(share)});
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().kind, ErrorKind::option);
+    EXPECT_TRUE(made.error().expected.contains("expected a height from 0.01 to 0.9 of the relief's, found "));
   }
   Job job{legend_beside_head(.2)};
   job.options.method = Method::paper;
   const auto made = prepare(job);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().input, "method");
+  EXPECT_EQ(made.error().expected,
+            "expected another than paper for a scene in which a model has its own height");
 }
 
 }  // namespace

@@ -97,59 +97,84 @@ double balls(double x, double y) {
   return z;
 }
 
+Height disc(Height f) {
+  return [=](double x, double y) { return std::hypot(x, y) < 1 ? f(x, y) : nothing; };
+}
+
+Height plate(double width, double height, Height f) {
+  return [=](double x, double y) { return std::abs(x) < width && std::abs(y) < height ? f(x, y) : nothing; };
+}
+
+Height coin(double rim_height, double of_head) {
+  return disc([=](double x, double y) { return std::max(rim_height * rim(x, y), of_head * head(x, y)); });
+}
+
+double legend(double x, double y) {
+  return .04 * std::max(rim(x, y), letters(x, y));
+}
+
+double dish(double x, double y) {
+  return .08 * (x * x + y * y) + .15 * head(x, y);
+}
+
+double framed_letters(double x, double y) {
+  return .05 * std::max(letters(x, y), 1 - slab({0, 0}, {.9, .5}, x, y));
+}
+
+double inscription(double x, double y) {
+  return .1 * (1 - x * x) * (1 - y * y) - .01 * letters(x, y);
+}
+
+double half_ball(double x, double y) {
+  return std::sqrt(1 - x * x - y * y);
+}
+
+double shell(double x, double y) {
+  return .4 * half_ball(x, y) + .05 * std::hypot(x, y) * std::abs(std::sin(8 * std::atan2(y, x)));
+}
+
+double mane(double x, double y) {
+  return .5 * half_ball(x, y) + .04 * std::hypot(x, y) * std::sin(14 * std::atan2(y, x));
+}
+
+double ring(double x, double y) {
+  const double d = std::hypot(x, y) - .6;
+  return std::abs(d) < .2 ? std::sqrt(.04 - d * d) : 0;
+}
+
+double steps(double x, double y) {
+  return .1 * (slab({0, 0}, {.6, .5}, x, y) + slab({0, 0}, {.4, .3}, x, y) + slab({0, 0}, {.2, .15}, x, y));
+}
+
+Height scaled(double factor, Height f) {
+  return [=](double x, double y) { return factor * f(x, y); };
+}
+
 // Returns 22 things that are scanned from one side: coins, plaques, faces, busts, ornaments.
 std::vector<Scan> one_sided_scans() {
-  const auto disc = [](Height f) -> Height {
-    return [=](double x, double y) { return std::hypot(x, y) < 1 ? f(x, y) : nothing; };
-  };
-  const auto plate = [](double width, double height, Height f) -> Height {
-    return
-        [=](double x, double y) { return std::abs(x) < width && std::abs(y) < height ? f(x, y) : nothing; };
-  };
-  const auto sphere = [](double x, double y) { return std::sqrt(1 - x * x - y * y); };
-  const auto angle = [](double x, double y) { return std::atan2(y, x); };
-  const auto coin = [&](double rim_height, double of_head) {
-    return disc([=](double x, double y) { return std::max(rim_height * rim(x, y), of_head * head(x, y)); });
-  };
-  return {
-      {"coin", coin(.06, .1)},
-      {"coin without a rim", coin(0, .1)},
-      {"coin with a high rim", coin(.15, .1)},
-      {"worn coin", coin(.015, .015)},
-      {"coin with letters",
-       disc([](double x, double y) { return .04 * std::max(rim(x, y), letters(x, y)); })},
-      {"dish", disc([](double x, double y) { return .08 * (x * x + y * y) + .15 * head(x, y); })},
-      {"letters", plate(1, .6, [](double x, double y) { return .05 * letters(x, y); })},
-      {"framed letters", plate(1, .6,
-                               [](double x, double y) {
-                                 return .05 * std::max(letters(x, y), 1 - slab({0, 0}, {.9, .5}, x, y));
-                               })},
-      {"inscription",
-       plate(1, .6, [](double x, double y) { return .1 * (1 - x * x) * (1 - y * y) - .01 * letters(x, y); })},
-      {"plaque", plate(.8, 1, [](double x, double y) { return .25 * head(x, y); })},
-      {"bust on a wall", plate(1, 1, [](double x, double y) { return .6 * head(x, y); })},
-      {"face", face},
-      {"part of a face", plate(.5, .65, face)},
-      {"bust", bust},
-      {"dome", disc(sphere)},
-      {"low dome", disc([](double x, double y) { return .2 * (1 - x * x - y * y); })},
-      {"shell", disc([=](double x, double y) {
-         return .4 * sphere(x, y) + .05 * std::hypot(x, y) * std::abs(std::sin(8 * angle(x, y)));
-       })},
-      {"mane", disc([=](double x, double y) {
-         return .5 * sphere(x, y) + .04 * std::hypot(x, y) * std::sin(14 * angle(x, y));
-       })},
-      {"flower", disc(petals)},
-      {"balls", plate(1, 1, balls)},
-      {"ring", plate(1, 1,
-                     [](double x, double y) {
-                       const double d = std::hypot(x, y) - .6;
-                       return std::abs(d) < .2 ? std::sqrt(.04 - d * d) : 0;
-                     })},
-      {"steps", plate(1, .7, [](double x, double y) {
-         return .1 *
-                (slab({0, 0}, {.6, .5}, x, y) + slab({0, 0}, {.4, .3}, x, y) + slab({0, 0}, {.2, .15}, x, y));
-       })}};
+  const auto low_dome = [](double x, double y) { return .2 * (1 - x * x - y * y); };
+  return {{"coin", coin(.06, .1)},
+          {"coin without a rim", coin(0, .1)},
+          {"coin with a high rim", coin(.15, .1)},
+          {"worn coin", coin(.015, .015)},
+          {"coin with letters", disc(legend)},
+          {"dish", disc(dish)},
+          {"letters", plate(1, .6, scaled(.05, letters))},
+          {"framed letters", plate(1, .6, framed_letters)},
+          {"inscription", plate(1, .6, inscription)},
+          {"plaque", plate(.8, 1, scaled(.25, head))},
+          {"bust on a wall", plate(1, 1, scaled(.6, head))},
+          {"face", face},
+          {"part of a face", plate(.5, .65, face)},
+          {"bust", bust},
+          {"dome", disc(half_ball)},
+          {"low dome", disc(low_dome)},
+          {"shell", disc(shell)},
+          {"mane", disc(mane)},
+          {"flower", disc(petals)},
+          {"balls", plate(1, 1, balls)},
+          {"ring", plate(1, 1, ring)},
+          {"steps", plate(1, .7, steps)}};
 }
 
 // Returns points on a thing, turned and without normals.
