@@ -85,9 +85,13 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list) {
   const auto count = [&](std::string_view flag) {
     return std::ranges::count(kinds, flag, &OutputKind::flag);
   };
-  if (count("--output") != 1)
+  if (count("--output") > 1)
     return option_error("files", cat("expected one kind of solid, found ", count("--output")));
   if (count("--heightmap") > 1) return option_error("files", "expected one kind of height map, found 2");
+  if (count("--output") + count("--heightmap") == 0)
+    return option_error("files", "expected a kind of solid or of height map, found neither");
+  // Without a solid, the height map is what is made.
+  if (count("--output") == 0) std::ranges::find(kinds, "--heightmap", &OutputKind::flag)->flag = "--output";
   return kinds;
 }
 

@@ -20,7 +20,7 @@ struct OutputKind {
 };
 
 // Returns the kinds of a list such as "stl,preview,report". The preview is always among them, because the
-// pages need it. Errors: kind option for other words, for no solid or two of them, and for two height maps.
+// pages need it. Errors: kind option for other words, for two solids or two height maps, and for neither.
 Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 
 // Returns the path of an output, relative to the folder of the outputs.

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -7,6 +9,7 @@
 #include "cli/make_options.h"
 #include "cli/terminal.h"
 #include "common/export_file.h"
+#include "common/files.h"
 #include "common/make_order.h"
 #include "common/relief_files.h"
 #include "relievo/core/parallel.h"
@@ -17,9 +20,32 @@ namespace relievo::app::cli {
 namespace {
 
 struct MakeArguments : MakeOptions {
+  std::string output;
   int threads = 0;
   bool is_quiet = false;
 };
+
+constexpr std::array<std::string_view, 3> map_endings{".png", ".tif", ".tiff"};
+
+// Returns the endings of files that the flag --output can name.
+std::vector<std::string_view> output_endings() {
+  std::vector<std::string_view> endings = solid_endings();
+  endings.insert(endings.end(), map_endings.begin(), map_endings.end());
+  return endings;
+}
+
+// Sets the path of the solid or, if the output is a picture, of the height map, which needs no solid then.
+Result<void> take_output(MakeArguments& arguments) {
+  const std::string& path = arguments.output;
+  ReliefFiles& files = arguments.files;
+  if (path.empty())
+    return option_error("output", cat("expected a file ending in ", either(output_endings())));
+  const bool is_map = std::ranges::count(map_endings, cat(".", ending_of(path))) > 0;
+  if (is_map && !files.heightmap.empty())
+    return option_error("heightmap", cat("expected one height map, found ", path, " as output, too"));
+  (is_map ? files.heightmap : files.solid) = path;
+  return {};
+}
 
 // Sets the unit of the files, and returns the checked order.
 Result<CheckedOrder> order_of(MakeArguments& arguments) {
@@ -27,8 +53,7 @@ Result<CheckedOrder> order_of(MakeArguments& arguments) {
   RELIEVO_TRY(arguments.files.unit, parse_unit(arguments.units));
   RELIEVO_TRY(order.in, parse_input_texts(arguments.in));
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
-  if (arguments.files.solid.empty())
-    return option_error("output", cat("expected a file ending in ", either(solid_endings())));
+  RELIEVO_CHECK(take_output(arguments));
   RELIEVO_CHECK(check_outputs(arguments.files, known.paths(), known.options.tool.has_value()));
   return known;
 }
@@ -40,8 +65,8 @@ std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
   const Vec3 size = Box::of(made.solid.points).size();
   const std::string_view unit = name_of(outputs.unit);
   const double below_ground = in_units(report.below_ground_mm);
-  return cat(outputs.solid, ": ", report.visible_points, " of ", report.input_points, " points, height ",
-             in_units(report.height_mm), " ", unit,
+  return cat(outputs.solid.empty() ? outputs.heightmap : outputs.solid, ": ", report.visible_points, " of ",
+             report.input_points, " points, height ", in_units(report.height_mm), " ", unit,
              below_ground > 0 ? cat(" (", below_ground, " of it below the ground)") : "", ", body ",
              in_units(size.x()), " x ", in_units(size.y()), " x ", in_units(size.z()), " ", unit);
 }
@@ -59,11 +84,12 @@ Result<Finished> run(CheckedOrder order, const ReliefFiles& outputs, Progress& p
     relief.inputs.remarks.push_back(
         cat("view ", side->name, side->up.empty() ? "" : cat(" with up ", side->up)));
   (void)progress.stage("files", .97);
-  RELIEVO_TRY(std::vector<OutputFile> files, relief_files(outputs, relief.made, relief.draft_deg));
+  RELIEVO_TRY(MadeFiles made, relief_files(outputs, relief.made, relief.draft_deg));
   relief.end(progress);
-  if (!outputs.report.empty()) files.push_back(report_file(outputs, relief));
-  Finished finished{std::move(files), relief.remarks()};
+  if (!outputs.report.empty()) made.files.push_back(report_file(outputs, relief, made.height_map));
+  Finished finished{std::move(made.files), relief.remarks()};
   finished.lines.push_back(outcome(outputs, relief.made));
+  if (!made.height_map.is_null()) finished.lines.push_back(line_of(made.height_map));
   return finished;
 }
 
@@ -104,7 +130,9 @@ void add_input(CLI::App& command, MakeArguments& arguments) {
 }
 
 void add_files(CLI::App& command, MakeArguments& arguments) {
-  command.add_option("-o,--output", arguments.files.solid, cat("the solid: ", either(solid_endings())))
+  command
+      .add_option("-o,--output", arguments.output,
+                  cat("the solid, or a height map alone: ", either(output_endings())))
       ->required()
       ->type_name("OUT");
   for (const TextFlag& flag : outputs)

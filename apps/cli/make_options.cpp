@@ -1,6 +1,7 @@
 #include "cli/make_options.h"
 
 #include "cli/flags.h"
+#include "relievo/core/text.h"
 
 namespace relievo::app::cli {
 
@@ -12,6 +13,8 @@ void add_make_options(CLI::App& command, MakeOptions& options) {
       ->capture_default_str();
   add_number(command, "--heightmap-size", options.files.heightmap_px, CLI::Range(16, 16384),
              "longer side of the height map in pixels [16 to 16384]");
+  for (const HeightMapFlag& flag : height_map_flags)
+    command.add_option(cat("--", flag.name), options.files.map.*flag.text, flag.help)->type_name(flag.unit);
   add_number(command, "--preview-size", options.files.preview_px, CLI::Range(16, 4096),
              "longer side of each of the preview's two views in pixels [16 to 4096]");
   command

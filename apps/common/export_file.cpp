@@ -10,7 +10,6 @@
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"
-#include "relievo/picture/height_map.h"
 
 namespace relievo::app {
 namespace {
@@ -85,35 +84,15 @@ Image8 preview_of(const MadeRelief& made, PreviewOptions options) {
   return render_preview(made.solid, options);
 }
 
-ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order) {
-  const auto bytes = [&] {
+Result<ExportedFile> export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order) {
+  const auto bytes = [&]() -> Result<std::vector<std::byte>> {
     if (format.write_solid) return format.write_solid(made.solid);
     if (format.name == "preview") return write_png(preview_of(made, {.material = order.material}));
-    return height_map_file(made, {order.heightmap_px, format.name == "tiff"});
+    RELIEVO_TRY(HeightMapFile map, height_map_file(made, order.map));
+    return std::move(map.bytes);
   };
-  return {std::string(text_in(bytes())), std::string(format.type)};
-}
-
-std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order) {
-  const auto& wrap = made.report.wrap;
-  const Solid& solid = wrap ? made.flat : made.solid;
-  if (order.is_tiff) {
-    HeightsMm heights = make_heights_mm(solid, order.longer_side_px);
-    if (wrap) heights.note = cat("diameter_mm=", wrap->diameter_mm, ", mm_per_degree=", wrap->mm_per_degree);
-    return write_tiff(heights);
-  }
-  const HeightMap map = make_height_map(solid, order.longer_side_px);
-  std::vector<std::pair<std::string, std::string>> scale{{"mm_per_pixel", cat(map.mm_per_pixel)},
-                                                         {"mm_per_grey", cat(map.mm_per_grey)}};
-  if (order.unit == LengthUnit::inch) {
-    scale.emplace_back("in_per_pixel", cat(map.mm_per_pixel / mm_per_inch));
-    scale.emplace_back("in_per_grey", cat(map.mm_per_grey / mm_per_inch));
-  }
-  if (wrap) {
-    scale.emplace_back("diameter_mm", cat(wrap->diameter_mm));
-    scale.emplace_back("mm_per_degree", cat(wrap->mm_per_degree));
-  }
-  return write_png(map.image, scale, map.mm_per_pixel);
+  RELIEVO_TRY(const std::vector<std::byte> content, bytes());
+  return ExportedFile{std::string(text_in(content)), std::string(format.type)};
 }
 
 }  // namespace relievo::app

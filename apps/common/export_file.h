@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "relievo/core/length.h"
+#include "common/height_map_file.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/material.h"
 #include "relievo/picture/preview.h"
@@ -42,26 +42,17 @@ struct ExportedFile {
 };
 
 struct ExportOrder {
-  int heightmap_px = 2048;                // the longer side of a height map
+  HeightMapOrder map = {{.longer_side_px = 2048}};
   Material material = Material::plaster;  // material of the picture
 };
 
 // Returns the relief as a file of that format. With plaster these are the bytes that `relievo make` writes.
-ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order);
-
-struct HeightMapOrder {
-  int longer_side_px = 1024;
-  bool is_tiff = false;  // else PNG
-  LengthUnit unit = LengthUnit::mm;
-};
+// Errors: those of height_map_file().
+Result<ExportedFile> export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order);
 
 // Returns the picture of a relief. A lithophane is lit by a lamp behind it unless a material other than
 // plaster is given. If the relief is on the inside of a wrap, the front view shows it unrolled; the oblique
 // view cuts open a wrap of more than half a turn.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
-
-// Returns the height map as a file that also states its scale. A plate that was bent around a wrap is shown
-// flat, for machines that turn the stock.
-std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
 }  // namespace relievo::app

@@ -22,6 +22,15 @@ Result<std::vector<std::byte>> solid_file(const ReliefFiles& files, const Solid&
   return write(other);
 }
 
+Result<HeightMapOrder> map_order(const ReliefFiles& files) {
+  HeightMapOrder order;
+  order.longer_side_px = files.heightmap_px;
+  order.is_tiff = ending_of(files.heightmap) != "png";
+  order.unit = files.unit;
+  RELIEVO_CHECK(take_texts(files.map, order));
+  return order;
+}
+
 }  // namespace
 
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool) {
@@ -38,28 +47,40 @@ Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> in
   }
   if (!files.tool_picture.empty() && !has_tool)
     return option_error("tool-picture", "expected a tool, which it shows");
+  if (files.heightmap.empty() && files.map != HeightMapTexts())
+    return option_error("heightmap", "expected a height map, as options of one are given");
+  RELIEVO_CHECK(map_order(files));
   return {};
 }
 
-Result<std::vector<OutputFile>> relief_files(const ReliefFiles& to, const MadeRelief& made,
-                                             std::optional<double> draft_deg) {
-  std::vector<OutputFile> files;
+Result<MadeFiles> relief_files(const ReliefFiles& to, const MadeRelief& made,
+                               std::optional<double> draft_deg) {
+  MadeFiles out;
+  const auto add = [&](const std::string& path, std::vector<std::byte> bytes) {
+    out.files.push_back({path, std::move(bytes)});
+  };
   if (!to.solid.empty()) {
     RELIEVO_TRY(std::vector<std::byte> solid, solid_file(to, made.solid, draft_deg));
-    files.push_back({to.solid, std::move(solid)});
+    add(to.solid, std::move(solid));
   }
-  const HeightMapOrder map{to.heightmap_px, ending_of(to.heightmap) != "png", to.unit};
-  if (!to.heightmap.empty()) files.push_back({to.heightmap, height_map_file(made, map)});
-  if (!to.preview.empty()) files.push_back({to.preview, write_png(preview_of(made, {to.preview_px}))});
-  if (!to.tool_picture.empty())
-    files.push_back({to.tool_picture, write_png(render_reach(*made.report.reach, 1600))});
-  return files;
+  if (!to.heightmap.empty()) {
+    RELIEVO_TRY(const HeightMapOrder order, map_order(to));
+    RELIEVO_TRY(HeightMapFile map, height_map_file(made, order));
+    add(to.heightmap, std::move(map.bytes));
+    out.height_map = std::move(map.facts);
+  }
+  if (!to.preview.empty()) add(to.preview, write_png(preview_of(made, {to.preview_px})));
+  if (!to.tool_picture.empty()) add(to.tool_picture, write_png(render_reach(*made.report.reach, 1600)));
+  return out;
 }
 
-OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief) {
+OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief,
+                       const nlohmann::json& height_map) {
+  nlohmann::json report = relief.report(files.unit);
+  if (!height_map.is_null()) report["height_map"] = height_map;
   // Names of files need not be UTF-8, but JSON is.
   const auto replace = nlohmann::json::error_handler_t::replace;
-  return {files.report, bytes_of(relief.report(files.unit).dump(2, ' ', false, replace) + "\n")};
+  return {files.report, bytes_of(report.dump(2, ' ', false, replace) + "\n")};
 }
 
 }  // namespace relievo::app

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/height_map_file.h"
 #include "common/make_order.h"
 #include "common/output_files.h"
 #include "relievo/core/length.h"
@@ -16,21 +17,29 @@ namespace relievo::app {
 // Paths of the files to write. A file with an empty path is not written.
 struct ReliefFiles {
   std::string solid, preview, heightmap, tool_picture, report;
-  int heightmap_px = 1024;  // its longer side
+  HeightMapTexts map = {};
+  int heightmap_px = 1024;  // its longer side, unless the texts give the size of a pixel
   int preview_px = 1200;    // the longer side of each of its two views
   LengthUnit unit = LengthUnit::mm;
 };
 
 // Checks, before the work begins, that the outputs have different paths and that each path can be written to.
-// Errors: those of check_output(); kind option for a picture of the tool if there is no tool.
+// Errors: those of check_output() and take_texts(); kind option for a picture of the tool if there is no tool,
+// and for options of a height map if there is none.
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
 
+struct MadeFiles {
+  std::vector<OutputFile> files;
+  nlohmann::json height_map;  // the facts of HeightMapFile; null without such a file
+};
+
 // Returns all files but the report, not yet written. `draft_deg` is the draft angle with which the relief was
-// made. Errors: those of enforce_draft_in_float().
-Result<std::vector<OutputFile>> relief_files(const ReliefFiles& files, const MadeRelief& made,
-                                             std::optional<double> draft_deg);
+// made. Errors: those of enforce_draft_in_float() and height_map_file().
+Result<MadeFiles> relief_files(const ReliefFiles& files, const MadeRelief& made,
+                               std::optional<double> draft_deg);
 
 // Returns the file of the report.
-OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief);
+OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief,
+                       const nlohmann::json& height_map);
 
 }  // namespace relievo::app

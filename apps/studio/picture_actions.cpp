@@ -93,6 +93,14 @@ Result<Answer> reach(Engine& engine, const Json& json) {
   return answer_of(Json{{"height_mm", height_mm}});
 }
 
+// Returns the height of the front, rim included.
+double front_mm(const Solid& solid) {
+  Box box;
+  for (std::size_t t = 0; t < solid.front_triangles; ++t)
+    for (const Index i : solid.triangles[t]) box.extend(solid.points[i]);
+  return box.size().z();
+}
+
 // Makes the piece as export writes it, and answers with its size.
 Result<Answer> piece(Engine& engine, const Json& json) {
   RELIEVO_TRY(const ReliefOptions options, options_in(json));
@@ -102,7 +110,8 @@ Result<Answer> piece(Engine& engine, const Json& json) {
   return answer_of(Json{{"triangles", solid.triangles.size()},
                         {"points", solid.points.size()},
                         {"size_mm", {size.x(), size.y(), size.z()}},
-                        {"height_mm", relief_height_mm(*made, options)}});
+                        {"height_mm", relief_height_mm(*made, options)},
+                        {"front_mm", front_mm(made->report.wrap ? made->flat : solid)}});
 }
 
 Result<Answer> cancel_piece(Engine& engine, const Json&) {
@@ -115,7 +124,7 @@ Result<Answer> make_file(Engine& engine, const Json& json) {
   RELIEVO_TRY(const ExportOrder order, export_order_from(json));
   RELIEVO_TRY(const FileFormat* const format, find_format(json.value("format", "")));
   RELIEVO_TRY(const auto made, engine.piece(options));
-  ExportedFile file = export_file(*made, *format, order);
+  RELIEVO_TRY(ExportedFile file, export_file(*made, *format, order));
   return Answer{200, std::move(file.type), std::move(file.bytes)};
 }
 

@@ -176,8 +176,13 @@ OptionValues first_view() {
 Result<ExportOrder> export_order_from(const Json& json) {
   const auto pixels = number(json, "pixels", {16, 16384, 2048});
   if (!pixels) return wrong("pixels", "expected a number from 16 to 16384");
-  RELIEVO_TRY(const Material material, material_from(json));
-  return ExportOrder{static_cast<int>(*pixels), material};
+  ExportOrder order;
+  order.map.longer_side_px = static_cast<int>(*pixels);
+  order.map.is_tiff = json.value("format", Json()) == "tiff";
+  RELIEVO_TRY(const HeightMapTexts texts, height_map_texts(json));
+  RELIEVO_CHECK(take_texts(texts, order.map));
+  RELIEVO_TRY(order.material, material_from(json));
+  return order;
 }
 
 // Returns the options for preparing a scan. Those without a value are empty texts, or null if they are

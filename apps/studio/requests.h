@@ -18,7 +18,7 @@ Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
 
-// Returns the export order: the longer side of a height map, and the material of a picture.
+// Returns the export order: the options of a height map, and the material of a picture.
 Result<ExportOrder> export_order_from(const nlohmann::json& json);
 
 // Returns the page's options for preparing a scan; missing ones get their defaults.

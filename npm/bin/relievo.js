@@ -8,7 +8,8 @@ import { optionTable, version } from "../src/options.js";
 import { writeAll } from "./write_all.js";
 
 const OUTPUTS = { output: "solid", preview: "preview", heightmap: "heightmap", "tool-picture": "tool_picture", report: "report" };
-const OTHER_VALUES = ["units", "heightmap-size", "preview-size", "camera", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
+const MAP_VALUES = ["pixel", "dpi", "heightmap-bits", "heightmap-area", "heightmap-zero", "heightmap-high"];
+const OTHER_VALUES = [...MAP_VALUES, "units", "heightmap-size", "preview-size", "camera", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
 
 function fail(message) {
   process.stderr.write(`relievo: ${message}\n`);
@@ -92,11 +93,12 @@ async function make(args) {
   engine.progress = showProgress(values.quiet);
   const { json } = engine.call("make", request);
   if (engine.progress) process.stderr.write("\r\x1b[K");
-  const files = [];
-  for (const [flag, kind] of Object.entries(OUTPUTS)) {
+  const files = [], map = Object.fromEntries(MAP_VALUES.filter((name) => name in values).map((name) => [name, values[name]]));
+  for (const [flag, usual] of Object.entries(OUTPUTS)) {
     if (!values[flag]) continue;
+    const kind = flag === "output" && /\.(png|tiff?)$/i.test(values[flag]) ? "heightmap" : usual;
     const bytes = kind === "report" ? JSON.stringify({ ...json.report, units }, null, 2) + "\n"
-      : engine.call("file", { relief: json.relief, kind, path: values[flag], units,
+      : engine.call("file", { relief: json.relief, kind, path: values[flag], units, ...map,
           heightmap_px: Number(values["heightmap-size"] ?? 1024), preview_px: Number(values["preview-size"] ?? 1200) }).bytes;
     files.push([values[flag], bytes]);
   }

@@ -63,16 +63,19 @@ app::ReliefFiles files_of(const py::dict& paths, const std::string& units, Pictu
 void save(const SharedRelief& relief, const app::ReliefFiles& files) {
   value_or_raise(unlocked([&]() -> Result<void> {
     RELIEVO_CHECK(app::check_outputs(files, relief->inputs.paths, relief->made.report.reach.has_value()));
-    RELIEVO_TRY(std::vector<app::OutputFile> made, app::relief_files(files, relief->made, relief->draft_deg));
-    if (!files.report.empty()) made.push_back(app::report_file(files, *relief));
-    return app::write_files(made);
+    RELIEVO_TRY(app::MadeFiles made, app::relief_files(files, relief->made, relief->draft_deg));
+    if (!files.report.empty()) made.files.push_back(app::report_file(files, *relief, made.height_map));
+    return app::write_files(made.files);
   }));
 }
 
 py::bytes to_bytes(const SharedRelief& relief, const std::string& format, int heightmap_px) {
   const app::FileFormat* const known = value_or_raise(app::find_format(format));
+  app::ExportOrder order;
+  order.map.longer_side_px = heightmap_px;
+  order.map.is_tiff = format == "tiff";
   return bytes_of(
-      unlocked([&] { return app::export_file(relief->made, *known, {.heightmap_px = heightmap_px}); }).bytes);
+      value_or_raise(unlocked([&] { return app::export_file(relief->made, *known, order); })).bytes);
 }
 
 py::array preview(const SharedRelief& relief, int size, const std::string& material) {
@@ -84,7 +87,8 @@ py::array heights(const SharedRelief& relief, int size) {
   if (size < 1 || size > 32768)
     raise({ErrorKind::option, "size", {}, cat("expected 1 to 32768 pixels, found ", size)});
   const MadeRelief& made = relief->made;
-  HeightsMm map = unlocked([&] { return make_heights_mm(made.report.wrap ? made.flat : made.solid, size); });
+  HeightsMm map = unlocked(
+      [&] { return make_heights_mm(made.report.wrap ? made.flat : made.solid, {.longer_side_px = size}); });
   return array_of(std::move(map.image));
 }
 

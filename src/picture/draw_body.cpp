@@ -281,7 +281,7 @@ void draw_visible(const VisibilityBuffer& visible, const Painter& painter, Image
 }  // namespace
 
 HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisibility& cache) {
-  HeightField field = flat_height_field(body.front, longer_side_px);
+  HeightField field = flat_height_field(body.front, {longer_side_px});
   if (field.z.empty()) return field;
   ScreenTransform from_above;
   from_above.width = field.z.width;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "plate/height_field.h"
 #include "relievo/core/image.h"
@@ -81,20 +82,41 @@ Image8 render_reach(const ToolReach& reach, int longer_side_px) {
   return image;
 }
 
-HeightMap make_height_map(const Solid& solid, int longer_side_px) {
-  const HeightField field = measure_height_field(solid, longer_side_px);
-  const double span_mm = field.box.size().z();
-  HeightMap map{{}, field.mm_per_pixel, span_mm / 65535};
-  map.image.resize(field.z.width, field.z.height);
-  const double greys_per_mm = span_mm > 0 ? 65535 / span_mm : 0;
-  std::ranges::transform(field.z.pixels, map.image.pixels.begin(),
-                         [&](float z) { return static_cast<std::uint16_t>(z * greys_per_mm + 0.5); });
+HeightsMm make_heights_mm(const Solid& solid, const HeightMapOptions& options) {
+  const bool is_relief_alone = options.area == MapArea::relief;
+  HeightField field =
+      measure_height_field(solid, {options.longer_side_px, options.mm_per_pixel, is_relief_alone});
+  const double zero = options.zero == MapZero::ground ? solid.ground_mm - field.box.min.z() : 0;
+  const double span_mm = std::max(0., field.box.size().z() - zero);
+  for (float& z : field.z.pixels) {
+    z -= static_cast<float>(zero);
+    if (options.is_inverted) z = static_cast<float>(span_mm) - z;
+  }
+  return {std::move(field.z), field.mm_per_pixel, options, span_mm, {}};
+}
+
+HeightMap grey_levels(const HeightsMm& heights, int bits) {
+  const double white = (1 << bits) - 1, span_mm = heights.span_mm;
+  HeightMap map{{}, heights.mm_per_pixel, span_mm / white, bits};
+  map.image.resize(heights.image.width, heights.image.height);
+  const double greys_per_mm = span_mm > 0 ? white / span_mm : 0;
+  const auto grey = [&](float z) {
+    return static_cast<std::uint16_t>(std::clamp(z * greys_per_mm + .5, 0., white));
+  };
+  std::ranges::transform(heights.image.pixels, map.image.pixels.begin(), grey);
   return map;
 }
 
-HeightsMm make_heights_mm(const Solid& solid, int longer_side_px) {
-  HeightField field = measure_height_field(solid, longer_side_px);
-  return {std::move(field.z), field.mm_per_pixel, {}};
+Image8 in_8_bits(const HeightMap& map) {
+  Image8 image{map.image.width, map.image.height, 1, {}};
+  image.pixels.assign(map.image.pixels.begin(), map.image.pixels.end());
+  return image;
+}
+
+int count_greys(const HeightMap& map) {
+  std::vector<bool> is_used(std::size_t{1} << map.bits);
+  for (const std::uint16_t grey : map.image.pixels) is_used[grey] = true;
+  return static_cast<int>(std::ranges::count(is_used, true));
 }
 
 }  // namespace relievo

@@ -91,7 +91,8 @@ class FieldRows {
     for (int column = begin; column < end; ++column) {
       const double share = right > left ? std::clamp((column - left) / (right - left), 0., 1.) : 0;
       float& pixel = field_.z.at(column, row);
-      pixel = std::max(pixel, static_cast<float>(chord.left.y() + share * rise - field_.box.min.z()));
+      const double above = chord.left.y() + share * rise - field_.box.min.z();
+      pixel = std::max({pixel, 0.F, static_cast<float>(above)});
     }
   }
 
@@ -101,23 +102,29 @@ class FieldRows {
 
 }  // namespace
 
-HeightField flat_height_field(const Box& box, int longer_side_px) {
+HeightField flat_height_field(const Box& box, const FieldSampling& sampling) {
   HeightField field;
   field.box = box;
   const Vec3 size = box.size();
   const double longer_mm = std::max(size.x(), size.y());
-  if (longer_side_px < 1 || longer_side_px > RasterInput::most_pixels || !(longer_mm > 0)) return field;
-  field.mm_per_pixel = longer_mm / longer_side_px;
+  const bool has_pitch = sampling.mm_per_pixel > 0;
+  if (!(longer_mm > 0) || (!has_pitch && sampling.longer_side_px < 1)) return field;
+  field.mm_per_pixel = has_pitch ? sampling.mm_per_pixel : longer_mm / sampling.longer_side_px;
+  // A size that is a whole number of pixels may be stored slightly larger, which must not add a pixel.
+  constexpr double rounding_px = 1e-3;
   const auto pixels = [&](double mm) {
-    return std::max(1, static_cast<int>(std::lround(mm / field.mm_per_pixel)));
+    const double count = mm / field.mm_per_pixel;
+    return std::max(1., has_pitch ? std::ceil(count - rounding_px) : std::round(count));
   };
-  field.z = filled_image(pixels(size.x()), pixels(size.y()), 0.F);
+  const double width = pixels(size.x()), height = pixels(size.y());
+  if (std::max(width, height) > RasterInput::most_pixels) return field;
+  field.z = filled_image(static_cast<int>(width), static_cast<int>(height), 0.F);
   return field;
 }
 
 HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   const auto front = std::span(solid.triangles).first(solid.front_triangles);
-  HeightField field = flat_height_field(used_box(solid.points, front), longer_side_px);
+  HeightField field = flat_height_field(used_box(solid.points, front), {longer_side_px});
   if (field.z.empty()) return field;
   field.is_beside = filled_image(field.z.width, field.z.height, std::uint8_t{1});
   draw_bands(front_input(solid, field), 32, [&](const RowBand& band) {
@@ -131,25 +138,34 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   return field;
 }
 
-HeightField measure_height_field(const Solid& solid, int longer_side_px) {
+HeightField measure_height_field(const Solid& solid, const FieldSampling& sampling) {
   const std::vector<Vec3f> stored = stored_points(solid);
   const auto corners_of = [&](std::size_t t) {
     const auto& [a, b, c] = solid.triangles[t];
     return std::array<Vec3, 3>{stored[a].cast<double>(), stored[b].cast<double>(), stored[c].cast<double>()};
   };
+  const auto is_shown = [&](std::size_t t) {
+    return !sampling.is_relief_alone || solid.regions.empty() || solid.regions[t] == Region::relief;
+  };
   Box box;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
-    for (const Vec3& p : corners_of(t)) box.extend(p);
-  HeightField field = flat_height_field(box, longer_side_px);
+    if (is_shown(t))
+      for (const Vec3& p : corners_of(t)) box.extend(p);
+  HeightField field = flat_height_field(box, sampling);
+  constexpr float beside = -1;  // lower than every height, so that the relief's heights replace it
+  if (sampling.is_relief_alone) std::ranges::fill(field.z.pixels, beside);
   const int least_rows = 32, most_bands = 64;
   const int rows = std::max(least_rows, (field.z.height + most_bands - 1) / most_bands);
   const int bands = (field.z.height + rows - 1) / rows;
   const auto draw_band = [&](std::size_t band) {
     const int first = static_cast<int>(band) * rows;
     FieldRows in_band(field, first, std::min(first + rows, field.z.height));
-    for (std::size_t t = 0; t < solid.front_triangles; ++t) in_band.enter(corners_of(t));
+    for (std::size_t t = 0; t < solid.front_triangles; ++t)
+      if (is_shown(t)) in_band.enter(corners_of(t));
   };
   parallel_for(static_cast<std::size_t>(bands), draw_band, 1);
+  const auto ground = static_cast<float>(std::max(0., solid.ground_mm - box.min.z()));
+  if (sampling.is_relief_alone) std::ranges::replace(field.z.pixels, beside, ground);
   return field;
 }
 

@@ -13,11 +13,19 @@
 
 namespace relievo {
 
-// The front's box lies in the picture's middle, and its longer side fills the picture.
+// The resolution of a field, and the part of the front that it shows.
+struct FieldSampling {
+  int longer_side_px = 0;
+  double mm_per_pixel = 0;       // exact size of a pixel, in place of longer_side_px; 0 if it is not given
+  bool is_relief_alone = false;  // true to leave out the flat ground around the relief, and the rim
+};
+
+// The box lies in the picture's middle. Its longer side fills the picture, except that a given size of the
+// pixels can leave a part of a pixel on either side.
 struct HeightField {
   double mm_per_pixel = 0;
-  Box box;         // box of the front
-  Image<float> z;  // millimetres above the front's lowest point; 0 beside the front
+  Box box;         // box of the part that is shown
+  Image<float> z;  // millimetres above the box's lowest point; 0 beside the front
   Image<std::uint8_t> is_beside =
       {};  // 1 for a pixel beside the front; empty if no pixel is, or if they are not marked
 
@@ -30,9 +38,9 @@ struct HeightField {
   }
 };
 
-// Returns a field of zeros for a front with that box. Its longer side has `longer_side_px` pixels. The field
-// has no pixels if this number is not in [1, RasterInput::most_pixels] or the box is empty.
-HeightField flat_height_field(const Box& box, int longer_side_px);
+// Returns a field of zeros for a front with that box. The field has no pixels if a side would have a number of
+// pixels not in [1, RasterInput::most_pixels], or if the box is empty.
+HeightField flat_height_field(const Box& box, const FieldSampling& sampling);
 
 // Returns the heights of a solid's front, quickly. The field has no pixels in the same cases as
 // flat_height_field().
@@ -41,8 +49,9 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px);
 // Returns the heights of a solid's front, with its corners as files store them. Each pixel has the height of
 // the triangle that contains its centre, edges included; of several triangles, the highest.
 // draw_height_field() rounds corners to 1/256 pixel, which can change a height at a wall by as much as the
-// wall is high. The field has no pixels in the same cases as flat_height_field(); `is_beside` is empty.
-HeightField measure_height_field(const Solid& solid, int longer_side_px);
+// wall is high. Beside a relief that is shown alone, the field has the height of the ground. The field has no
+// pixels in the same cases as flat_height_field(); `is_beside` is empty.
+HeightField measure_height_field(const Solid& solid, const FieldSampling& sampling);
 
 // Returns the number of samples along the longer side, in [2048, 4096]. The samples are a twelfth of the
 // tool's radius apart if that range allows it.

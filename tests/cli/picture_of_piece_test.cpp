@@ -139,7 +139,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
 
   const auto made = make_relief(*model, options);
   ASSERT_TRUE(made) << made.error().message();
-  const std::string bytes = app::export_file(*made, **app::find_format("stl"), {}).bytes;
+  const std::string bytes = app::export_file(*made, **app::find_format("stl"), {})->bytes;
   const test::ReadSolid triangles = test::solid_in_stl(bytes);
   expect_lit_piece(triangles, made->solid.ground_mm, drawing, request);
   const auto solid = std::make_shared<const Solid>(solid_with_front(triangles, made->solid.ground_mm));

@@ -96,7 +96,7 @@ TEST(Write3mf, MetadataCannotBreakTheXml) {
 }
 
 TEST(WriteTiff, KeepsEveryHeight) {
-  const HeightsMm heights = make_heights_mm(pyramid(), 200);
+  const HeightsMm heights = make_heights_mm(pyramid(), {.longer_side_px = 200});
   const auto bytes = write_tiff(heights);
   const auto image = value_of(read_depth_image(bytes, "h.tif"));
   EXPECT_EQ(image.format, "TIFF, 32 bits");
@@ -111,13 +111,13 @@ TEST(WriteTiff, KeepsEveryHeight) {
 TEST(WriteTiff, OfNothingIsEmpty) {
   EXPECT_TRUE(write_tiff({}).empty());
   EXPECT_TRUE(write_tiff({{3, 3, 1, {1, 2}}, .1}).empty());
-  EXPECT_TRUE(write_tiff(make_heights_mm({}, 100)).empty());
+  EXPECT_TRUE(write_tiff(make_heights_mm({}, {.longer_side_px = 100})).empty());
 }
 
 TEST(HeightsMm, AreTheHeightMapInMillimetres) {
   const Solid solid = pyramid();
-  const HeightMap map = make_height_map(solid, 64);
-  const HeightsMm heights = make_heights_mm(solid, 64);
+  const HeightMap map = grey_levels(make_heights_mm(solid, {.longer_side_px = 64}));
+  const HeightsMm heights = make_heights_mm(solid, {.longer_side_px = 64});
   ASSERT_EQ(heights.image.pixels.size(), map.image.pixels.size());
   for (std::size_t i = 0; i < map.image.pixels.size(); ++i)
     EXPECT_NEAR(static_cast<double>(heights.image.pixels[i]), map.mm_per_grey * map.image.pixels[i],

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "relievo/make_relief.h"
 #include "support/plate_fronts.h"
@@ -16,6 +17,11 @@ namespace relievo {
 namespace {
 
 using test::flat_front, test::grid_front, test::plate_of, test::pyramid_front;
+
+// Returns the front as greys of 16 bits.
+HeightMap map_of(const Solid& solid, int longer_side_px) {
+  return grey_levels(make_heights_mm(solid, {.longer_side_px = longer_side_px}));
+}
 
 std::uint16_t grey_at(const HeightMap& map, int column, int row) {
   return map.image.pixels[static_cast<std::size_t>(row * map.image.width + column)];
@@ -30,7 +36,7 @@ TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
     return std::max(0.0, 7 * (1 - std::max(std::abs(x - 25) / 20, std::abs(y - 15) / 10)));
   };
   for (const int longer : {33, 500, 1001}) {
-    const HeightMap map = make_height_map(solid, longer);
+    const HeightMap map = map_of(solid, longer);
     ASSERT_EQ(map.image.width, longer);
     ASSERT_EQ(map.image.height, std::lround(longer * 30 / 50.0));
     EXPECT_DOUBLE_EQ(map.mm_per_pixel, 50.0 / longer);
@@ -48,15 +54,45 @@ TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
 TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
   // The groove and the ridge are wide enough to contain pixel centres.
   const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
-  const HeightMap map = make_height_map(plate_of(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
+  const HeightMap map = map_of(plate_of(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
   const auto [low, high] = std::ranges::minmax(map.image.pixels);
   EXPECT_EQ(low, 0);
   EXPECT_EQ(high, 65535);
   EXPECT_EQ(grey_at(map, 2, 2), 65535 / 5);
 }
 
+TEST(HeightMap, BeginsAtTheGroundIfAsked) {
+  const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
+  const Solid solid = plate_of(grid_front({20, 20, 40, 40}, step), {5, 3});
+  HeightMapOptions options{.longer_side_px = 300, .zero = MapZero::ground};
+  const HeightsMm heights = make_heights_mm(solid, options);
+  EXPECT_NEAR(heights.span_mm, 4, 1e-6);
+  EXPECT_NEAR(std::ranges::min(heights.image.pixels), -1, 1e-6);
+  EXPECT_EQ(heights.image.at(2, 2), 0);
+  EXPECT_EQ(grey_at(grey_levels(heights), 2, 2), 0);
+  options.is_inverted = true;
+  const HeightMap down = grey_levels(make_heights_mm(solid, options), 8);
+  EXPECT_EQ(grey_at(down, 2, 2), 255);
+  EXPECT_EQ(count_greys(down), std::set(down.image.pixels.begin(), down.image.pixels.end()).size());
+  EXPECT_NEAR(down.mm_per_grey, 4. / 255, 1e-9);
+}
+
+// The relief's valley is lower than the ground, and its middle is as high as the ground.
+TEST(HeightMap, OfTheReliefAloneHasTheGroundBesideIt) {
+  const auto ring = [](double x, double y) { return std::hypot(x - 10, y - 10) < 4 ? -2. : 1.; };
+  const Solid solid = plate_of(pyramid_front({{0, 0}, {20, 0}, {10, 20}}, -3), {5, 3});
+  HeightMapOptions options{.longer_side_px = 200, .area = MapArea::relief};
+  const HeightsMm hollow = make_heights_mm(solid, options);
+  EXPECT_NEAR(hollow.image.at(0, 0), 3, 1e-6) << "beside the triangle";
+  EXPECT_LT(std::ranges::min(hollow.image.pixels), .05);
+  options.mm_per_pixel = .3;
+  const HeightsMm exact = make_heights_mm(plate_of(grid_front({20, 20, 40, 40}, ring), {5, 3}), options);
+  EXPECT_EQ(exact.image.width, 67);
+  EXPECT_EQ(exact.mm_per_pixel, .3);
+}
+
 TEST(HeightMap, AFlatFrontGivesZeros) {
-  const HeightMap map = make_height_map(plate_of(flat_front({30, 60, 3, 6})), 140);
+  const HeightMap map = map_of(plate_of(flat_front({30, 60, 3, 6})), 140);
   EXPECT_EQ(map.image.width, 80);
   EXPECT_EQ(map.image.height, 140);
   EXPECT_EQ(map.mm_per_grey, 0);
@@ -65,15 +101,15 @@ TEST(HeightMap, AFlatFrontGivesZeros) {
 
 TEST(HeightMap, AVeryThinFrontStillHasARow) {
   const HeightMap map =
-      make_height_map(plate_of(pyramid_front({{0, 0}, {100, 0}, {100, 0.1}, {0, 0.1}}, 1), {0.01, 1}), 50);
+      map_of(plate_of(pyramid_front({{0, 0}, {100, 0}, {100, 0.1}, {0, 0.1}}, 1), {0.01, 1}), 50);
   EXPECT_EQ(map.image.height, 1);
   EXPECT_GT(grey_at(map, 25, 0), 60000);
 }
 
 TEST(HeightMap, NothingToDrawGivesNoPixels) {
-  EXPECT_TRUE(make_height_map({}, 100).image.pixels.empty());
+  EXPECT_TRUE(map_of({}, 100).image.pixels.empty());
   const Solid solid = plate_of(flat_front({10, 10, 1, 1}));
-  for (const int bad : {0, -5, 1 << 20}) EXPECT_TRUE(make_height_map(solid, bad).image.pixels.empty()) << bad;
+  for (const int bad : {0, -5, 1 << 20}) EXPECT_TRUE(map_of(solid, bad).image.pixels.empty()) << bad;
 }
 
 // ------------------------------------------------------------------------------------------------- preview
@@ -251,8 +287,7 @@ TEST(Pictures, AreTheSameBitsForAnyNumberOfThreads) {
   const auto waves = [](double x, double y) { return 2 + std::sin(x) * std::sin(y * 1.3); };
   const Solid solid = plate_of(grid_front({50, 40, 200, 160}, waves));
   test::expect_same_for_any_threads([&] {
-    return std::pair(make_height_map(solid, 777).image.pixels,
-                     render_preview(solid, {.longer_side_px = 250}).pixels);
+    return std::pair(map_of(solid, 777).image.pixels, render_preview(solid, {.longer_side_px = 250}).pixels);
   });
 }
 

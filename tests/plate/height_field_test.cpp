@@ -20,7 +20,7 @@ using test::grid_front, test::plate_of;
 // Expects that the field has the front's heights above the front's lowest point, and 0 beside the front. The
 // expected heights are found by trying all triangles.
 void expect_heights_of(const Solid& solid) {
-  const HeightField field = measure_height_field(solid, 97);
+  const HeightField field = measure_height_field(solid, {97});
   ASSERT_FALSE(field.z.empty());
   std::vector<Vec3> rounded = solid.points;
   for (Vec3& p : rounded) p = p.cast<float>().cast<double>();

@@ -91,7 +91,7 @@ export class Engine {
   // Throws unless the options can be read.
   check = (options) => this.#ask("check", {options});
 
-  // Returns {triangles, points, size_mm, height_mm} of the finished piece, which the engine then has ready for
+  // Returns {triangles, points, size_mm, height_mm, front_mm} of the finished piece, which the engine then has ready for
   // exportFile().
   piece = (options) => this.#make("piece", {options});
   // These return a Blob: the file of a piece, and a project file with its scan.

@@ -2,15 +2,23 @@
 
 import {about} from "./about.js";
 import {$, download, fileSize, make, unbroken} from "./controls.js";
-import {shown, sizeText, typedNumber} from "./lengths.js";
+import {shown, sizeText, typedNumber, withUnit} from "./lengths.js";
 import {inWords} from "./pieces.js";
 
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
+const PIXEL = {label: "Exact size of a pixel", unit: "mm", min: 0.001, max: 100};
+
+// Returns the options of a height map in the words of the flags of `relievo make`. The TIFF has millimetres.
+function mapOptions(format, pixelMm) {
+  const black = $("#map-black").value, bits = format === "heightmap" ? $("#map-bits").value : "";
+  return {pixel: pixelMm ? `${pixelMm}mm` : "", "heightmap-bits": bits, "heightmap-area": $("#map-area").value,
+    "heightmap-zero": black === "ground" ? "ground" : "lowest", "heightmap-high": black === "highest" ? "black" : "white"};
+}
 
 // Returns the sizes of a piece's files as text: exact ones if triangles and points determine them, "about" for
 // compressed files and text files, "at most" for a compressed height map.
-function sizes({triangles, points, size_mm: [x, y]}, pixels) {
-  const share = Math.min(x, y) / Math.max(x, y), area = pixels * pixels * share;
+function sizes({triangles, points, size_mm: [x, y]}, {pixels, pixelMm}) {
+  const longer = Math.max(x, y), side = pixelMm ? longer / pixelMm : pixels, area = side * side * Math.min(x, y) / longer;
   const around = (bytes) => `about ${fileSize(bytes)}`, atMost = (bytes) => `at most ${fileSize(bytes)}`;
   return {
     stl: fileSize(84 + 50 * triangles), ply: fileSize(230 + 12 * points + 13 * triangles),
@@ -23,13 +31,13 @@ export class ExportDialog {
   // `outcome` is an Outcome; `name` returns the default name of the files, `heightText` a height as the page shows it;
   // `say` shows a line to the user.
   constructor({engine, outcome, name, heightText, say}) {
-    Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, piece: null, runs: 0});
+    Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, pixelMm: null, piece: null, runs: 0});
     this.dialog = $("#export-dialog");
     $("#formats").append(...about.formats.map(({name, label, use}, i) => make("label", {},
       make("input", {type: "checkbox", name: "format", value: name, checked: i === 0}),
       make("span", {}, label, make("small", {}, use)), make("span", {class: "muted", id: `size-${name}`}))));
     this.dialog.oninput = () => this.show();
-    $("#pixels").onchange = () => this.choosePixels();
+    for (const id of ["#pixels", "#pixel"]) $(id).onchange = () => this.choosePixels();
     // The dialog may be open again when its close event arrives.
     this.dialog.onclose = () => this.isBusy && !this.dialog.open && this.engine.cancelPiece().catch(() => {});
     $("#export-cancel").onclick = () => this.dialog.close();
@@ -43,12 +51,14 @@ export class ExportDialog {
     return about.formats.filter(({name}) => $(`#formats [value="${name}"]`).checked);
   }
 
-  // Takes the typed number. If it is invalid, says so and returns false.
+  // Takes the typed numbers. If one is invalid, says so and returns false.
   choosePixels() {
     let complaint = "";
-    const pixels = typedNumber($("#pixels").value, PIXELS, (text) => (complaint = text));
+    const say = (text) => (complaint ||= text), size = $("#pixel").value;
+    const pixels = typedNumber($("#pixels").value, PIXELS, say);
+    const pixelMm = size.trim() ? typedNumber(size, PIXEL, say) : null;
     $("#export-note").textContent = complaint;
-    if (!complaint) this.pixels = Math.round(pixels);
+    if (!complaint) Object.assign(this, {pixels: Math.round(pixels), pixelMm});
     this.show();
     return !complaint;
   }
@@ -74,13 +84,15 @@ export class ExportDialog {
 
   show() {
     const pixelsWanted = this.formats.some(({name}) => ["heightmap", "tiff"].includes(name));
-    $("#pixels-row").hidden = !pixelsWanted;
+    $("#map-rows").hidden = !pixelsWanted;
     $("#export-go").disabled = this.isBusy || this.formats.length === 0 || !this.piece;
-    const texts = this.piece ? sizes(this.piece, this.pixels) : {};
+    const texts = this.piece ? sizes(this.piece, this) : {};
     for (const {name} of about.formats) $(`#size-${name}`).textContent = texts[name] ?? "";
-    const {size_mm: size, height_mm: height, triangles} = this.piece ?? {};
+    const {size_mm: size, height_mm: height, front_mm: front, triangles} = this.piece ?? {};
+    const isCoarse = pixelsWanted && $("#map-bits").value === "8";
     const facts = this.piece ? [`${sizeText(size)},`, `relief ${this.heightText(height)} ${shown.unit} high,`,
-      `${triangles.toLocaleString("en-US")} triangles`] : [];
+      `${triangles.toLocaleString("en-US")} triangles`,
+      ...(isCoarse ? [`a grey level of 8 bits is ${withUnit(front / 255, 4)} or less`] : [])] : [];
     $("#export-size").replaceChildren(...facts.flatMap((text) => [" ", unbroken(text)]).slice(1));
   }
 
@@ -122,7 +134,8 @@ export class ExportDialog {
     const isDone = await this.run("Writing the files …", async () => {
       for (const [i, {name: format, ending}] of formats.entries()) {
         $("#export-note").textContent = `Writing file ${i + 1} of ${formats.length} …`;
-        const file = await this.engine.exportFile({options, format, pixels: this.pixels, material});
+        const file = await this.engine.exportFile({options, format, pixels: this.pixels, material,
+          ...mapOptions(format, this.pixelMm)});
         if (!this.dialog.open) return;
         saved.push((typed || name) + ending);
         download(file, saved.at(-1));

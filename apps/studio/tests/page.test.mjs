@@ -451,6 +451,33 @@ test("exports several files at once, named for their form", async () => {
   await untilReady(page);
 });
 
+test("exports height maps of an exact pixel, inverted, of 8 bits and of the relief alone", async () => {
+  await openExport();
+  const dialog = exportDialog(), map = dialog.getByRole("checkbox", {name: /^Height map/});
+  await map.check();
+  await dialog.getByRole("checkbox", {name: /^STL/}).uncheck();
+  const pixel = dialog.getByLabel("Exact size of a pixel instead");
+  await type(pixel, "0.2 furlongs");
+  await dialog.getByText(/^Exact size of a pixel: expected a number from 0.001 to 100 mm/).waitFor();
+  await type(pixel, "0.25mm");
+  await dialog.getByLabel("Grey levels of the PNG").selectOption("8");
+  await dialog.getByText(/a grey level of 8 bits is 0\.\d+ mm or less/).waitFor();
+  await dialog.getByLabel("Black is").selectOption("highest");
+  const [{bytes: plate}] = await exportFiles();
+  await openExport();
+  await dialog.getByLabel("Shown in height maps").selectOption("relief");
+  const [{bytes: relief}] = await exportFiles();
+  const side = (bytes, at) => bytes.readUInt32BE(at), phys = plate.indexOf("pHYs") + 4;
+  assert.equal(plate[24], 8);
+  assert.equal(side(plate, phys), 4000);
+  const margin = 2 * 5 / 0.25;
+  for (const at of [16, 20]) assert.ok(Math.abs(side(plate, at) - margin - side(relief, at)) <= 2, `${at}`);
+  await openExport();
+  await map.uncheck();
+  await dialog.getByRole("checkbox", {name: /^STL/}).check();
+  await page.keyboard.press("Escape");
+});
+
 test("can be used by the keyboard alone", async () => {
   await page.locator("#home").focus();
   const missed = () => page.evaluate(() => [...document.querySelectorAll(

@@ -155,8 +155,11 @@ Result<CallAnswer> file(const Json& json) {
     return option_error("output", cat("expected a file ending in ", either(solid_endings())));
   if (kind == "tool_picture" && !relief->made.report.reach)
     return option_error("tool-picture", "expected a tool, which it shows");
-  RELIEVO_TRY(std::vector<OutputFile> made, relief_files(files, relief->made, relief->draft_deg));
-  return CallAnswer{{}, std::move(made.at(0).bytes)};
+  if (kind == "heightmap") {
+    RELIEVO_TRY(files.map, height_map_texts(json));
+  }
+  RELIEVO_TRY(MadeFiles made, relief_files(files, relief->made, relief->draft_deg));
+  return CallAnswer{{}, std::move(made.files.at(0).bytes)};
 }
 
 Result<CallAnswer> heights(const Json& json) {
@@ -164,7 +167,7 @@ Result<CallAnswer> heights(const Json& json) {
   const int size = integer(json, "size", 1024);
   if (size < 1 || size > 32768) return option_error("size", cat("expected 1 to 32768 pixels, found ", size));
   const MadeRelief& made = relief->made;
-  const HeightsMm map = make_heights_mm(made.report.wrap ? made.flat : made.solid, size);
+  const HeightsMm map = make_heights_mm(made.report.wrap ? made.flat : made.solid, {.longer_side_px = size});
   return CallAnswer{
       {{"width", map.image.width}, {"height", map.image.height}, {"mm_per_pixel", map.mm_per_pixel}},
       bytes_of_all(map.image.pixels)};

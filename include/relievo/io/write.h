@@ -50,7 +50,9 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = 
 // characters, values of at least one character. A positive `mm_per_pixel` is stored as the physical size of a
 // pixel (pHYs). The result is empty for an image without pixels or with a side of more than a million, for a
 // number of pixels other than width times height, and for other keys and values.
-std::vector<std::byte> write_png(const Image8& image);
+std::vector<std::byte> write_png(const Image8& image,
+                                 std::span<const std::pair<std::string, std::string>> text = {},
+                                 double mm_per_pixel = 0);
 std::vector<std::byte> write_png(const Image16& image,
                                  std::span<const std::pair<std::string, std::string>> text = {},
                                  double mm_per_pixel = 0);
@@ -59,5 +61,9 @@ std::vector<std::byte> write_png(const Image16& image,
 // mm_per_pixel and the unit of the heights in its description. The result is empty for an image without
 // pixels.
 std::vector<std::byte> write_tiff(const HeightsMm& heights);
+
+// Returns the greys as a deflated TIFF of 8 or 16 bits with the same tags. `description` becomes its
+// description.
+std::vector<std::byte> write_tiff(const HeightMap& map, const std::string& description);
 
 }  // namespace relievo

@@ -69,7 +69,7 @@ bool set_pixel_size(spng_ctx* spng, double mm_per_pixel) {
 }
 
 template <typename T>
-std::vector<std::byte> encode(const Image<T>& image, Texts texts = {}, double mm_per_pixel = 0) {
+std::vector<std::byte> encode(const Image<T>& image, Texts texts, double mm_per_pixel) {
   const Encoder spng(has_pixels(image) ? spng_ctx_new(SPNG_CTX_ENCODER) : nullptr);
   if (!spng || !set_header(spng.get(), image) || !set_texts(spng.get(), texts) ||
       !set_pixel_size(spng.get(), mm_per_pixel) ||
@@ -86,8 +86,10 @@ std::vector<std::byte> encode(const Image<T>& image, Texts texts = {}, double mm
 
 }  // namespace
 
-std::vector<std::byte> write_png(const Image8& image) {
-  return encode(image);
+std::vector<std::byte> write_png(const Image8& image,
+                                 std::span<const std::pair<std::string, std::string>> text,
+                                 double mm_per_pixel) {
+  return encode(image, text, mm_per_pixel);
 }
 
 std::vector<std::byte> write_png(const Image16& image,

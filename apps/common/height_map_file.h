@@ -1,0 +1,69 @@
+// Makes the file of a relief's height map. Tested by tests/cli/cli_height_maps_test.cpp.
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/length.h"
+#include "relievo/make_relief.h"
+#include "relievo/picture/height_map.h"
+
+namespace relievo::app {
+
+// The options of a height map as typed; empty where the default applies.
+struct HeightMapTexts {
+  std::string pixel, dpi, bits, area, zero, high;
+
+  bool operator==(const HeightMapTexts&) const = default;
+};
+
+struct HeightMapFlag {
+  const char *name, *unit, *help;
+  std::string HeightMapTexts::*text;
+};
+
+// The flags of `make` and `batch`, which are also the names in requests.
+inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
+    {{"pixel", "MM", "exact size of the height map's pixels, in the place of heightmap-size",
+      &HeightMapTexts::pixel},
+     {"dpi", "N", "pixels per inch of the height map, in the place of pixel", &HeightMapTexts::dpi},
+     {"heightmap-bits", "N", "8 or 16 bits for a grey level; a .tif has millimetres in 32 without this",
+      &HeightMapTexts::bits},
+     {"heightmap-area", "AREA", "plate, or the relief alone, without margin and rim", &HeightMapTexts::area},
+     {"heightmap-zero", "ZERO", "height that is black, or 0 mm: the lowest point, or the ground",
+      &HeightMapTexts::zero},
+     {"heightmap-high", "GREY", "white, or black for an inverted map: the highest point",
+      &HeightMapTexts::high}}};
+
+struct HeightMapOrder : HeightMapOptions {
+  int bits = 0;          // of a grey level; 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
+  bool is_tiff = false;  // else PNG
+  LengthUnit unit = LengthUnit::mm;
+
+  int effective_bits() const { return bits != 0 ? bits : is_tiff ? 32 : 16; }
+};
+
+// Sets the options that the texts give; lengths without a unit are in that of the order. Errors: kind option,
+// naming the flag.
+Result<void> take_texts(const HeightMapTexts& texts, HeightMapOrder& order);
+
+// Takes the texts of a JSON object under the names of the flags. Errors: kind option if one is no text.
+Result<HeightMapTexts> height_map_texts(const nlohmann::json& json);
+
+struct HeightMapFile {
+  std::vector<std::byte> bytes;
+  nlohmann::json facts;  // size and meaning of the pixels, for the report
+};
+
+// Returns the height map as a file that also states its scale. A plate that was bent around a wrap is shown
+// flat, for machines that turn the stock. Errors: kind option if the pixels are too small for the piece, or if
+// nothing of it lies above the zero.
+Result<HeightMapFile> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
+
+// Returns the facts as a line for users.
+std::string line_of(const nlohmann::json& height_map);
+
+}  // namespace relievo::app
