@@ -22,14 +22,16 @@ struct NumericOptions {
   std::optional<double> diameter_mm;  // diameter of a round plate; as small as the relief allows
   std::optional<double> height_mm;    // lowest to highest point of the front; see effective_height_mm()
   std::optional<double> height_of_diagonal;  // the height as a share of L_d, in place of height_mm
-  std::optional<double> alpha;               // the paper's height coefficient; 4
-  std::optional<double> saturation;          // the paper's beta; see effective_saturation()
-  std::optional<double> detail;              // the paper's gamma; see effective_detail()
-  std::optional<double> steepest_deg;        // largest target slope; 76
-  std::optional<double> draft_deg;           // least angle of every triangle to the vertical; any
-  std::optional<double> boundary_width;      // width of (7), in units of rho; see effective_boundary_width()
-  double steps = 0;                          // least share of the height for depth jumps, see Shape
-  std::optional<double> planes;              // least step of parts, see Shape; effective_planes()
+  std::optional<double> mm_per_value;    // one vertical scale, in place of a height; see relief_of_values()
+  std::optional<double> ground_value;    // the value at the ground of that scale
+  std::optional<double> alpha;           // the paper's height coefficient; 4
+  std::optional<double> saturation;      // the paper's beta; see effective_saturation()
+  std::optional<double> detail;          // the paper's gamma; see effective_detail()
+  std::optional<double> steepest_deg;    // largest target slope; 76
+  std::optional<double> draft_deg;       // least angle of every triangle to the vertical; any
+  std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
+  double steps = 0;                      // least share of the height for depth jumps, see Shape
+  std::optional<double> planes;          // least step of parts, see Shape; effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // of the subspace, approximately
   double corner_mm = 5;                 // radius of the corners of Outline::round
   std::optional<double> margin_mm;      // least flat ground around the relief; see effective_margin_mm()
@@ -55,7 +57,7 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
     {{"full", Finish::full}, {"reachable", Finish::reachable}}};
 
 struct ReliefOptions : NumericOptions {
-  std::optional<Method> method;   // default: the paper's if alpha is given, else layered
+  std::optional<Method> method;   // default: see effective_method()
   std::optional<ToneCurve> tone;  // replaces (6) and the saturation
   Mode mode = Mode::exact;
   View view;
@@ -73,9 +75,10 @@ struct ReliefOptions : NumericOptions {
   // The values that apply if none is given: the paper's defaults or, for other methods, the defaults that
   // keep most of the model. The width is for a plate without a given size, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
+  // Returns the given method, or else linear with a vertical scale, the paper's with an alpha, and layered.
   Method effective_method() const;
   // Returns the given height or usual_height_mm(). If no height is given, returns nothing for a lithophane,
-  // and for the paper's method, with which the height follows from the shape.
+  // for a vertical scale, and for the paper's method, with which the height follows from the shape.
   std::optional<double> effective_height_mm() const;
   // Returns the given height, or else 2.4 mm for a lithophane and 5 % of the width for other forms: see
   // docs/decisions/default-height.md.

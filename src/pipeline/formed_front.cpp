@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "pipeline/body.h"
+#include "pipeline/vertical_scale.h"
 #include "plate/front/sample_front.h"
 #include "plate/front/silhouette.h"
 #include "relievo/core/text.h"
@@ -126,11 +127,17 @@ Result<FormedFront> full_front(const Surface& surface, const Relief& relief, con
     made.height_mm = relief.height * scale;
     made.front = front_in_mm(surface, relief.heights, scale);
   }
+  std::vector<std::uint8_t> is_smooth = smooth_triangles(surface);
   if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
+  if (options.mm_per_value) {
+    raise_walls(made.front, surface);
+    is_smooth.resize(made.front.triangles.size());  // walls are plane
+    if (options.outline == Outline::none) made.front.is_relief.resize(is_smooth.size(), 1);
+  }
   if (is_sampled(options)) {
     RELIEVO_TRY(const double step_mm, sample_step(surface, options));
     const FrontSampling sampling{step_mm};
-    RELIEVO_TRY(made.front, sample_front(made.front, smooth_triangles(surface), sampling, progress));
+    RELIEVO_TRY(made.front, sample_front(made.front, is_smooth, sampling, progress));
   }
   made.full_triangles = made.front.triangles.size();
   if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "pipeline/body.h"
+#include "pipeline/vertical_scale.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/job.h"
@@ -135,6 +136,8 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
                             Progress* progress) {
   // For a lithophane no height is searched: its height is exact by construction.
   if (options.form == Form::lithophane) return model.make(shape);
+  if (options.mm_per_value)
+    return relief_of_values(model.surface(), options, mm_per_unit(model.surface(), options));
   const double scale = mm_per_unit(model.surface(), options), height = options.height_mm.value_or(0) / scale;
   const Method method = options.effective_method();
   if (!options.draft_deg) {

@@ -43,6 +43,20 @@ Result<void> check_method(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_vertical_scale(const ReliefOptions& options) {
+  if (!options.mm_per_value && options.ground_value)
+    return option_error("ground", "expected mm-per-value with it, found none");
+  if (!options.mm_per_value) return {};
+  if (options.height_mm || options.height_of_diagonal)
+    return option_error("mm-per-value", "expected no height beside it, found one");
+  if (options.effective_method() != Method::linear)
+    return option_error("mm-per-value",
+                        cat("expected method linear with it, found ", name_of(options.effective_method())));
+  if (options.form == Form::lithophane || options.draft_deg)
+    return option_error("mm-per-value", "expected neither a lithophane nor a draft beside it, found one");
+  return {};
+}
+
 Result<void> check_rim(const ReliefOptions& options) {
   if (!options.rim_mm && options.rim_height_mm)
     return option_error("rim-height", "expected a rim with it, found none");
@@ -140,11 +154,11 @@ Result<OptionTargets> read_values(const OptionValues& values, bool is_of_relief)
 }  // namespace
 
 Method ReliefOptions::effective_method() const {
-  return method.value_or(alpha ? Method::paper : Method::layered);
+  return method.value_or(mm_per_value ? Method::linear : alpha ? Method::paper : Method::layered);
 }
 
 std::optional<double> ReliefOptions::effective_height_mm() const {
-  if (effective_method() == Method::paper || form == Form::lithophane) return height_mm;
+  if (effective_method() == Method::paper || form == Form::lithophane || mm_per_value) return height_mm;
   return usual_height_mm();
 }
 
@@ -171,6 +185,7 @@ double ReliefOptions::effective_planes() const {
 Result<void> check(const ReliefOptions& options) {
   RELIEVO_CHECK(check_ranges(options));
   RELIEVO_CHECK(check_height(options));
+  RELIEVO_CHECK(check_vertical_scale(options));
   if (options.mode == Mode::exact && options.control_points != NumericOptions{}.control_points)
     return option_error("control-points", "expected mode subspace or auto with it, found exact");
   if (options.finish == Finish::reachable && !options.tool)

@@ -193,6 +193,7 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
+    if (placed.cloud.units_per_value) all.units_per_value = 0;  // models are scaled, each by its own factor
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {
       append(parts.mesh, front_in_scene(placed, view));

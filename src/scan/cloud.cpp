@@ -46,6 +46,7 @@ Cloud erase_points(const Cloud& cloud, std::span<const Index> erased) {
   Cloud kept;
   kept.outlines = cloud.outlines;
   kept.is_height_field = cloud.is_height_field;
+  kept.units_per_value = cloud.units_per_value;
   auto next = erased.begin();
   for (Index i = 0; i < cloud.size(); ++i) {
     if (next != erased.end() && *next == i) {

@@ -120,6 +120,7 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   out.cloud = points_of(grid, z, is_hole);
   scale_pixels(out.cloud, image.pixel_shape());
   out.cloud.is_height_field = true;
+  out.cloud.units_per_value = grid.units_per_value;
   return out;
 }
 

@@ -43,6 +43,8 @@ class HeightScale {
     if (kind_ == DepthValues::depth) return std::isfinite(v) && v > 0;
     return std::isfinite(v) && (v >= 0 || kind_ != DepthValues::inverse);
   }
+  // See Cloud::units_per_value, in pixels of the image.
+  double units_per_value() const { return is_log_ ? 0 : scale_; }
   double height(double v) const { return scale_ * (is_log_ ? std::log(std::max(v, floor_)) : v); }
 
  private:
@@ -200,6 +202,7 @@ DepthGrid make_grid(const DepthImage& image, const DepthOptions& options) {
   const int k = reduction_for(image, options.points);
   DepthGrid grid;
   grid.reduction = k;
+  grid.units_per_value = scale.units_per_value() / k;
   BoundedGrid& b = grid.bounds;
   b.width = image.values.width / k, b.height = image.values.height / k;
   const std::size_t n = b.at(0, b.height);

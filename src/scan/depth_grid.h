@@ -32,6 +32,7 @@ struct DepthGrid {
   BoundedGrid bounds;         // the intervals in which the heights lie
   std::vector<float> height;  // heights of known grid points
   int reduction = 1;
+  double units_per_value = 0;  // see Cloud
   double noise = 0;
   std::size_t missing = 0;
   bool is_sensor = false;  // the steps of the values are coarser than the file's, as from depth cameras

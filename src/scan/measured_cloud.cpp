@@ -108,7 +108,8 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
                       pick(measured->cloud_.colours, order),
                       std::move(measured->cloud_.outlines),
                       cloud.is_height_field,
-                      pick(measured->cloud_.own_heights, order)};
+                      pick(measured->cloud_.own_heights, order),
+                      cloud.units_per_value};
   RELIEVO_CHECK(measured->measure_points(view, progress));
   RELIEVO_CHECK(check_digits(cloud, measured->spacing().rho));
   measured->repeated_points_ = cloud.size() - measured->cloud_.size();

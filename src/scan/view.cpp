@@ -121,6 +121,7 @@ Cloud cropped(const Cloud& cloud, const View& view) {
   };
   Cloud part;
   part.is_height_field = cloud.is_height_field;
+  part.units_per_value = cloud.units_per_value;
   for (const OutlineSegment& s : cloud.outlines)
     if (is_part(s.from) && is_part(s.to)) part.outlines.push_back(s);
   for (std::size_t i = 0; i < cloud.size(); ++i) {

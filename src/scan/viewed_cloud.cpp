@@ -78,6 +78,7 @@ Surface surface_of_view(const MeasuredCloud& measured, const View& view) {
   surface.diagonal = measured.diagonal();
   surface.input_points = measured.input_points();
   surface.repeated_points = measured.repeated_points();
+  surface.units_per_value = measured.cloud().units_per_value;
   return surface;
 }
 

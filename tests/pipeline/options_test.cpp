@@ -102,6 +102,25 @@ TEST(Options, HaveOneHeightAtMost) {
             "height-of-diagonal: expected either height or height-of-diagonal, found both");
 }
 
+TEST(Options, HaveAVerticalScaleOrAHeight) {
+  ReliefOptions options;
+  options.ground_value = 3;
+  EXPECT_EQ(complaint(options), "ground: expected mm-per-value with it, found none");
+  options.mm_per_value = .1;
+  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(options.effective_method(), Method::linear);
+  EXPECT_FALSE(options.effective_height_mm());
+  options.height_mm = 3;
+  EXPECT_EQ(complaint(options), "mm-per-value: expected no height beside it, found one");
+  options.height_mm.reset();
+  options.method = Method::layered;
+  EXPECT_EQ(complaint(options), "mm-per-value: expected method linear with it, found layered");
+  options.method.reset();
+  options.draft_deg = 10;
+  EXPECT_EQ(complaint(options),
+            "mm-per-value: expected neither a lithophane nor a draft beside it, found one");
+}
+
 TEST(Options, HaveControlPointsInASubspaceOnly) {
   ReliefOptions options;
   options.control_points = 4000;

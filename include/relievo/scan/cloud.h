@@ -1,6 +1,7 @@
 // Scattered point clouds, and operations that need no view.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct Cloud {
   // For each point the height of its model in the scene, Pose::height, or 0 if that is not given; empty if no
   // model's is.
   std::vector<float> own_heights = {};
+  // Of a depth image seen from +Z: z of a value, in units of the points, divided by the value. It is negative
+  // if values grow away from the viewer, and 0 if z is not proportional to them.
+  std::optional<double> units_per_value = {};
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }

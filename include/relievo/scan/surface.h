@@ -24,9 +24,10 @@ struct Surface {
   Boundary boundary;
 
   View view;
-  Vec3 centre = Vec3::Zero();  // centre of the cloud's box, in the model's frame
-  double rho = 0;              // sampling distance of the cloud
-  double diagonal = 0;         // L_d, the diagonal of the whole cloud's box
+  Vec3 centre = Vec3::Zero();                  // centre of the cloud's box, in the model's frame
+  std::optional<double> units_per_value = {};  // see Cloud
+  double rho = 0;                              // sampling distance of the cloud
+  double diagonal = 0;                         // L_d, the diagonal of the whole cloud's box
   std::size_t input_points = 0;
   std::size_t repeated_points = 0;  // points that were left out by without_repeated_points()
   std::size_t visible_points = 0;   // number of visible points; the rest of `points` are hole fill points
