@@ -1,7 +1,9 @@
 #include "relievo/option_table.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/number.h"
 #include "pipeline/option_targets.h"
 #include "relievo/core/text.h"
 
@@ -36,6 +38,23 @@ Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
 
 // The words of options that drop or keep crumbs or a support plane.
 constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", true}}};
+
+Result<void> read_crumbs(const OptionValue& value, OptionTargets& to) {
+  const std::string& text = std::get<std::string>(value);
+  constexpr double most_pieces = 1e6;
+  const auto [number, end, failed] = parse_double(text);
+  const bool is_number = failed == std::errc{} && end == text.data() + text.size();
+  View& view = to.relief.view;
+  view.most_pieces = text == "largest" ? 1 : 0;
+  if (is_number && number >= 1 && number <= most_pieces && number == std::floor(number))
+    view.most_pieces = static_cast<int>(number);
+  if (view.most_pieces > 0) return {};
+  const Result<bool> has_crumbs = parse_choice({}, text, keep_choices);
+  if (!has_crumbs)
+    return option_error({}, cat("expected drop, keep, largest or a number of pieces, found '", text, "'"));
+  view.has_crumbs = *has_crumbs;
+  return {};
+}
 
 // A row is easier to read in few long lines than with a line for each member.
 // clang-format off
@@ -132,8 +151,8 @@ std::vector<OptionRow> view_rows() {
                "part of its depth, too",
        .otherwise = "all of it", .access = text<&View::crop, parse_crop>},
       {.name = "crumbs", .unit = "WHAT", .stage = view, .choices = names_of(keep_choices),
-       .help = "drop or keep pieces of less than 0.5 % of what is seen",
-       .initial = "drop", .access = word<&View::has_crumbs, keep_choices>},
+       .help = "drop or keep pieces of less than 0.5 % of what is seen; largest, or a number of pieces, drops all others",
+       .initial = "drop", .access = {read_crumbs}},
       {.name = "plane", .unit = "WHAT", .stage = view, .choices = names_of(keep_choices),
        .help = "keep or drop a table or background that is found: a plane that the figure stands on or before, and "
                "what lies behind it",

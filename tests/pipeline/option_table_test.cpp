@@ -153,5 +153,17 @@ TEST(OptionTable, ChoicesAreWhatIsRead) {
     }
 }
 
+TEST(ParseOptions, CrumbsMayBeANumberOfPieces) {
+  const auto view = [](const char* crumbs) { return parse_options({{"crumbs", crumbs}}).value().view; };
+  EXPECT_EQ(view("largest").most_pieces, 1);
+  EXPECT_EQ(view("12").most_pieces, 12);
+  EXPECT_EQ(view("drop").most_pieces, 0);
+  EXPECT_TRUE(view("keep").has_crumbs);
+  for (const char* wrong : {"0", "-1", "1.5", "two", "2x", "1e9"})
+    EXPECT_EQ(
+        complaint({{"crumbs", wrong}}),
+        std::string("crumbs: expected drop, keep, largest or a number of pieces, found '") + wrong + "'");
+}
+
 }  // namespace
 }  // namespace relievo

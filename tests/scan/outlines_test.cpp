@@ -152,18 +152,36 @@ TEST(Outlines, OfASliverHaveNoGap) {
   }
 }
 
+// Returns the width of the triangles that are parts of the surface.
+double width(const Surface& surface) {
+  Box box;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+    if (surface.boundary.is_inside[t])
+      for (const Index i : surface.triangulation.triangles[t]) box.extend(surface.points[i]);
+  return box.size().x();
+}
+
+// From the left: a sphere, the button, which is larger, and a sphere that is smaller. None is a crumb.
+TEST(Outlines, LeaveOutAllButTheLargestPieces) {
+  const Cloud button = test::button(40000, 1, .15);
+  const Cloud cloud = test::joined(test::joined(button, test::moved(test::sphere(6000, .4), {-1.8, 0, 0})),
+                                   test::moved(test::sphere(3000, .3), {1.6, 0, 0}));
+  const double rho = surface_of(button).rho;
+  View view;
+  EXPECT_NEAR(width(surface_of(cloud)), 2.2 + 1.9, 2 * rho);
+  for (const auto& [most, expected] : {std::pair(1, 2.3), {2, 2.2 + 1.15}, {3, 2.2 + 1.9}, {9, 2.2 + 1.9}}) {
+    view.most_pieces = most;
+    const Surface surface = surface_of(cloud, view);
+    EXPECT_NEAR(width(surface), expected, 2 * rho) << most;
+    EXPECT_EQ(surface.crumbs, most < 3 ? 3U - static_cast<unsigned>(most) : 0U);
+  }
+}
+
 TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
   const Cloud button = test::button(40000, 1, .15);
   const double rho = surface_of(button).rho;
   const Cloud crumb = test::sphere(200, .03);  // its area is 0.07 % of the button's, and 13 rho^2 or more
   const Cloud cloud = test::joined(button, test::moved(crumb, {1.6, 0, 0}));
-  const auto width = [](const Surface& surface) {
-    Box box;
-    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-      if (surface.boundary.is_inside[t])
-        for (const Index i : surface.triangulation.triangles[t]) box.extend(surface.points[i]);
-    return box.size().x();
-  };
   View view;
   view.has_crumbs = true;
   const Surface without = surface_of(cloud), with = surface_of(cloud, view);

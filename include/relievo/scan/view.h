@@ -29,6 +29,7 @@ struct View {
   Mat3 R_view_model = Mat3::Identity();
   Crop crop = {};
   bool has_crumbs = false;             // shows small pieces of the surface (crumbs), see find_surface()
+  int most_pieces = 0;                 // shows only so many pieces, the largest ones; 0: any number
   bool has_plane = true;               // shows a table or background, see find_support_plane()
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
   // True if the surface is found by the rules of Nie et al. alone, for Method::paper: see src/paper/surface.h.

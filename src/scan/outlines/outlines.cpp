@@ -1,7 +1,9 @@
 #include "scan/outlines/outlines.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/disjoint_sets.h"
 #include "geometry/neighbours.h"
@@ -273,16 +275,20 @@ bool is_occlusion(const Surface& surface, Index a, Index b) {
 bool drop_crumbs(Surface& surface) {
   Pieces pieces(surface);
   const double unit = surface.rho * surface.rho;
-  double largest = 0, all = 0;
+  std::vector<double> areas;
+  double all = 0;
   auto& inside = surface.boundary.is_inside;
   for (Index t = 0; t < inside.size(); ++t) {
     if (!inside[t]) continue;
-    largest = std::max(largest, pieces.area(t));
+    if (pieces.is_first(t)) areas.push_back(pieces.area(t));
     all += area_of(surface, surface.triangulation.triangles[t]);
   }
   const double least =
       std::max(least_piece * unit, surface.view.has_crumbs ? 0 : ScanLimits::crumb_share * all);
-  const double crumb = std::min(least, .5 * largest);
+  std::ranges::sort(areas, std::greater<>());
+  double crumb = areas.empty() ? 0 : std::min(least, .5 * areas.front());
+  const auto most = static_cast<std::size_t>(surface.view.most_pieces);
+  if (most > 0 && most < areas.size()) crumb = std::max(crumb, areas[most - 1]);
   for (Index t = 0; t < inside.size(); ++t)
     surface.crumbs += inside[t] && pieces.is_first(t) && pieces.area(t) < crumb;
   bool is_any = false;

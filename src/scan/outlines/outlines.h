@@ -75,8 +75,8 @@ bool is_occlusion(const Surface& surface, Index a, Index b);
 
 // Leaves out pieces of less than 0.5 % of the surface, which are crumbs of the scan, and closes holes of less
 // than 4 rho^2: changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less
-// than 20 rho^2 are left out, because they are too small for an outline. Returns whether the surface has any
-// triangle left.
+// than 20 rho^2 are left out, because they are too small for an outline. If it shows a number of pieces, all
+// but the largest are left out, too. Returns whether the surface has any triangle left.
 bool drop_crumbs(Surface& surface);
 
 // Returns first the silhouettes, which are closed, then the depth jumps. The surface's triangulation must
