@@ -54,8 +54,12 @@ Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
 std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   std::string line =
       cat(image.values.width, " x ", image.values.height, " depths, ", made.missing, " missing");
-  if (made.background > 0) line += cat(", ", made.background, " points of background taken out");
-  if (made.cut > 0) line += cat(", ", made.cut, " blurred across depth jumps taken out");
+  if (made.marked > 0) line += cat(", ", made.marked, " of them at ", made.marker, ", where nothing is");
+  if (made.background > 0)
+    line += cat(", ", made.background,
+                " points of background taken out, behind a depth jump (--background keep keeps them)");
+  if (made.blur > 0)
+    line += cat(", ", made.blur, " blurred between two depths taken out (--blur keep keeps them)");
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 

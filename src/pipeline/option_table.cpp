@@ -265,9 +265,14 @@ std::vector<OptionRow> depth_rows() {
       {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
        .help = "of a depth image without camera: nearest to farthest, in picture widths",
        .initial = DepthOptions{}.range, .access = {read_number<&DepthOptions::range>}},
-      {.name = "background", .unit = "B", .stage = input, .choices = names_of(background_choices),
-       .help = "of a depth image: keep, remove or auto (remove if there is no camera)",
-       .initial = "auto", .access = word<&DepthOptions::background, background_choices>},
+      {.name = "background", .unit = "B", .stage = input, .choices = names_of(removal_choices),
+       .help = "of a depth image: what lies behind a depth jump all around the figure; auto drops it, but keeps it "
+               "with a camera and in heights; drop without such a jump takes the far depths",
+       .initial = "auto", .access = word<&DepthOptions::background, removal_choices>},
+      {.name = "blur", .unit = "B", .stage = input, .choices = names_of(removal_choices),
+       .help = "of a depth image: points between two levels that continue neither; auto drops them over at most 3 "
+               "pixels, but keeps them in heights; drop over at most 12, as auto does for depth cameras",
+       .initial = "auto", .access = word<&DepthOptions::blur, removal_choices>},
   };
 }
 

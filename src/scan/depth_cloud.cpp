@@ -2,59 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/depth_image.h"
 #include "scan/depth_grid.h"
 
 namespace relievo {
 namespace {
-
-// Returns a mask of the grid points without a depth that are enclosed by known ones. Finds them by flooding
-// all other unknown grid points from the image's border.
-std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
-  std::vector<std::uint8_t> is_hole(b.is_known.size());
-  for (std::size_t i = 0; i < is_hole.size(); ++i) is_hole[i] = !b.is_known[i];
-  std::vector<std::pair<int, int>> open;
-  const auto flood = [&](int c, int r) {
-    if (c < 0 || r < 0 || c >= b.width || r >= b.height || !is_hole[b.at(c, r)]) return;
-    is_hole[b.at(c, r)] = 0;
-    open.emplace_back(c, r);
-  };
-  for (int c = 0; c < b.width; ++c) flood(c, 0), flood(c, b.height - 1);
-  for (int r = 0; r < b.height; ++r) flood(0, r), flood(b.width - 1, r);
-  while (!open.empty()) {
-    const auto [c, r] = open.back();
-    open.pop_back();
-    flood(c - 1, r), flood(c + 1, r), flood(c, r - 1), flood(c, r + 1);
-  }
-  return is_hole;
-}
-
-// Gives each grid point of a hole a height: the lowest of the nearest known heights in the four directions
-// along its row and column. The lowest is right because a hole beside an outline belongs to the surface
-// behind it.
-void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::vector<float>& z) {
-  const std::vector<float> known = z;
-  parallel_for(
-      static_cast<std::size_t>(b.height),
-      [&](std::size_t row) {
-        const int r = static_cast<int>(row);
-        for (int c = 0; c < b.width; ++c) {
-          if (!is_hole[b.at(c, r)]) continue;
-          float lowest = std::numeric_limits<float>::infinity();
-          const auto look = [&](int dc, int dr) {
-            int x = c, y = r;
-            while (x >= 0 && y >= 0 && x < b.width && y < b.height && !b.is_known[b.at(x, y)])
-              x += dc, y += dr;
-            if (x >= 0 && y >= 0 && x < b.width && y < b.height) lowest = std::min(lowest, known[b.at(x, y)]);
-          };
-          look(1, 0), look(-1, 0), look(0, 1), look(0, -1);
-          z[b.at(c, r)] = std::isfinite(lowest) ? lowest : 0;
-        }
-      },
-      16);
-}
 
 // Returns the mean of the differences to the joined neighbours on both sides; 0 if there are none.
 float slope_between(float before, float here, float after, bool joins_before, bool joins_after) {
@@ -81,19 +34,62 @@ void scale_pixels(Cloud& cloud, const Vec2& shape) {
   }
 }
 
-Cloud points_of(const DepthGrid& grid, const std::vector<float>& z,
-                const std::vector<std::uint8_t>& is_hole) {
+Cloud points_of(const DepthGrid& grid, const std::vector<float>& z) {
   const BoundedGrid& b = grid.bounds;
   Cloud cloud;
   for (int r = 0; r < b.height; ++r)
     for (int c = 0; c < b.width; ++c) {
       const std::size_t i = b.at(c, r);
-      if (!b.is_known[i] && !is_hole[i]) continue;
+      if (!b.is_known[i]) continue;
       const double x = c - (b.width - 1) / 2.0, y = (b.height - 1) / 2.0 - r;
       cloud.points.emplace_back(x, y, double{z[i]});
-      cloud.normals.push_back(is_hole[i] ? Vec3f(Vec3f::UnitZ()) : normal_at(b, z, c, r));
+      cloud.normals.push_back(normal_at(b, z, c, r));
     }
   return cloud;
+}
+
+// Counts the values that are no depths, and those of them that could be.
+void count_missing(const DepthImage& image, const ValueRange& valid, DepthValues kind, DepthCloud& out) {
+  for (const float v : image.values.pixels) {
+    if (valid.contains(v)) continue;
+    ++out.missing;
+    const bool could_be = kind == DepthValues::depth ? v > 0 : kind != DepthValues::inverse || v >= 0;
+    if (!std::isfinite(v) || !could_be) continue;
+    if (out.marked == 0 || double{v} > out.marker) out.marker = double{v};
+    ++out.marked;
+  }
+}
+
+bool is_background_sought(const DepthOptions& options) {
+  if (options.background != Removal::automatic) return options.background == Removal::drop;
+  return !options.camera && options.values != DepthValues::height;
+}
+
+// Returns the limits within which blur is sought; nothing if it is kept.
+std::optional<BlurLimits> blur_limits(const DepthGrid& grid, const DepthOptions& options) {
+  // The walls of shallow letters are no blur, so that its levels differ by a part of all depths.
+  constexpr BlurLimits narrow{3, .1F}, wide{12, 0};
+  const bool is_kept = options.blur == Removal::automatic ? grid.is_terrain : options.blur == Removal::keep;
+  if (is_kept) return std::nullopt;
+  return options.blur == Removal::drop || grid.is_sensor ? wide : narrow;
+}
+
+// Returns the grid without background and blur, whose range of depths is that of what is left.
+DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCloud& out) {
+  DepthGrid grid = maker.make({});
+  GridMask is_left_out(grid.height.size(), 0);
+  if (is_background_sought(options)) is_left_out = find_background(grid, options.background == Removal::drop);
+  out.background = static_cast<std::size_t>(std::ranges::count(is_left_out, 1));
+  if (out.background > 0) grid = maker.make(is_left_out);
+  // With blur a part of the range goes, and then slighter blur shows.
+  const std::optional<BlurLimits> limits = blur_limits(grid, options);
+  while (const std::size_t added = limits ? add_blur(grid, *limits, is_left_out) : 0) {
+    out.blur += added;
+    grid = maker.make(is_left_out);
+  }
+  for (std::size_t i = 0; i < is_left_out.size(); ++i)
+    if (is_left_out[i]) grid.bounds.is_known[i] = 0;
+  return grid;
 }
 
 }  // namespace
@@ -101,23 +97,17 @@ Cloud points_of(const DepthGrid& grid, const std::vector<float>& z,
 Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options, Progress* progress) {
   RELIEVO_CHECK(check(options));
   RELIEVO_CHECK(begin_stage(progress, "depths", 0));
-  DepthGrid grid = make_grid(image, options);
+  const GridMaker maker(image, options);
   DepthCloud out;
-  out.reduction = grid.reduction;
-  out.missing = grid.missing;
+  count_missing(image, maker.valid(), options.values, out);
+  DepthGrid grid = kept_grid(maker, options, out);
+  out.reduction = maker.reduction();
   out.noise = grid.noise;
-  const bool is_removed = options.background == Background::remove ||
-                          (options.background == Background::automatic && !options.camera);
-  if (is_removed) out.background = remove_background(grid);
   join(grid);
-  out.cut = cut_ramps(grid);
   const auto known = std::ranges::count(grid.bounds.is_known, 1);
   if (known < 16) return geometry_error(cat("expected at least 16 pixels with a depth, found ", known));
   RELIEVO_CHECK(begin_stage(progress, "smooth depths", 0));
-  std::vector<float> z = smoothest(grid.bounds);
-  const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);
-  fill(grid.bounds, is_hole, z);
-  out.cloud = points_of(grid, z, is_hole);
+  out.cloud = points_of(grid, smoothest(grid.bounds));
   scale_pixels(out.cloud, image.pixel_shape());
   out.cloud.is_height_field = true;
   out.cloud.units_per_value = grid.units_per_value;

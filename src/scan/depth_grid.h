@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "relievo/scan/depth_image.h"
+#include "scan/depth_values.h"
 
 namespace relievo {
 
@@ -31,26 +32,86 @@ std::vector<float> smoothest(const BoundedGrid& grid);
 struct DepthGrid {
   BoundedGrid bounds;         // the intervals in which the heights lie
   std::vector<float> height;  // heights of known grid points
-  int reduction = 1;
   double units_per_value = 0;  // see Cloud
   double noise = 0;
-  std::size_t missing = 0;
-  bool is_sensor = false;  // the steps of the values are coarser than the file's, as from depth cameras
+  bool is_sensor = false;   // the steps of the values are coarser than the file's, as from depth cameras
+  bool is_terrain = false;  // heights of one surface, whose steepest parts are walls and no depth jumps
+
+  // Returns whether the heights of two known neighbours differ by less than 76 degrees, or by no more than
+  // their bounds explain.
+  bool is_near(std::size_t i, std::size_t j) const;
 };
 
-// Returns the grid, reduced to about options.points grid points. The bounds account for the step of the
-// values and the noise. No grid points are joined yet.
-DepthGrid make_grid(const DepthImage& image, const DepthOptions& options);
+// A mask of grid points.
+using GridMask = std::vector<std::uint8_t>;
 
-// Joins neighbouring grid points unless there is a depth jump between them.
+// Makes grids of an image, reduced to about options.points grid points.
+class GridMaker {
+ public:
+  GridMaker(const DepthImage& image, const DepthOptions& options);
+
+  int reduction() const { return reduction_; }
+  const ValueRange& valid() const { return valid_; }
+
+  // Returns the grid. The bounds account for the step of the values and the noise. The grid points of the
+  // mask, none if it is empty, are in the grid, but do not count for the range of depths and for the steps.
+  // No grid points are joined yet.
+  DepthGrid make(const GridMask& is_left_out) const;
+
+ private:
+  bool counts(int x, int y, const GridMask& is_left_out) const;
+  DepthImage counted(const GridMask& is_left_out) const;
+
+  const DepthImage& image_;
+  const DepthOptions& options_;
+  ValueRange valid_;
+  int reduction_;
+};
+
+// A row or a column of a grid. Its grid points have the numbers from 0 to size - 1; between the points i and
+// i + 1 lies the step i.
+struct GridLine {
+  const DepthGrid& grid;
+  std::size_t first, stride;
+  int size;
+
+  std::size_t at(int i) const { return first + static_cast<std::size_t>(i) * stride; }
+  bool has_step(int i) const {
+    return i >= 0 && i + 1 < size && grid.bounds.is_known[at(i)] && grid.bounds.is_known[at(i + 1)];
+  }
+  float step(int i) const { return has_step(i) ? grid.height[at(i + 1)] - grid.height[at(i)] : 0; }
+  // Returns whether the step i continues the slope of the step `next`, which lies before or after it. The last
+  // step of a round side is steeper than the one before, on a sphere by up to 2.4 times.
+  bool continues(int i, int next) const;
+  // Returns whether the points i and i + 1 are known and the step between them is no jump.
+  bool is_smooth(int i) const;
+};
+
+GridLine row_of(const DepthGrid& grid, int row);
+GridLine column_of(const DepthGrid& grid, int column);
+
+// Calls f for all rows and all columns.
+template <typename F>
+void each_line(const DepthGrid& grid, F&& f) {
+  for (int r = 0; r < grid.bounds.height; ++r) f(row_of(grid, r));
+  for (int c = 0; c < grid.bounds.width; ++c) f(column_of(grid, c));
+}
+
+// Joins neighbouring grid points unless there is a depth jump between them, which terrain does not have.
 void join(DepthGrid& grid);
 
-// Removes the grid points on ramps, which a blurred outline causes between two surfaces. Returns their
-// number.
-std::size_t cut_ramps(DepthGrid& grid);
+// Returns a mask of the background: what lies behind a depth jump all around the figure and reaches most of
+// the image's border. Without strong evidence it is empty, or if `is_wanted` the grid points behind the depth
+// that best separates two groups of depths, of which the far one covers most of the border.
+GridMask find_background(const DepthGrid& grid, bool is_wanted);
 
-// Removes all grid points behind the depth that best separates two groups of depths, if the groups are
-// distinct and the far one covers most of the image's border. Returns their number.
-std::size_t remove_background(DepthGrid& grid);
+struct BlurLimits {
+  int widest = 0;         // number of blurred points beside each other
+  float least_share = 0;  // least distance between the two levels, as a share of all depths
+};
+
+// Adds to the mask the grid points between two levels which continue neither, as blurred outlines have, in
+// rows and columns. Returns the number of points that were added.
+std::size_t add_blur(const DepthGrid& grid, const BlurLimits& limits, GridMask& is_left_out);
 
 }  // namespace relievo

@@ -110,7 +110,7 @@ TEST(ParseDepth, ReadsAndChecksTheRowsOfDepthImages) {
   EXPECT_EQ(options->values, DepthValues::inverse);
   EXPECT_EQ(options->range, 2);
   EXPECT_EQ(options->channel, 3);
-  EXPECT_EQ(options->background, Background::keep);
+  EXPECT_EQ(options->background, Removal::keep);
   EXPECT_EQ(depth_complaint({{"depth-values", "far"}}),
             "depth-values: expected one of depth, height, inverse or luminance, found 'far'");
   EXPECT_TRUE(depth_complaint({{"background", "cut"}}).starts_with("background: "));

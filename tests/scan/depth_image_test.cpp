@@ -84,7 +84,7 @@ Errors errors_of(const Cloud& cloud, double scale) {
 DepthOptions as_heights() {
   DepthOptions options;
   options.values = DepthValues::height;
-  options.background = Background::keep;
+  options.background = Removal::keep;
   return options;
 }
 
@@ -176,7 +176,7 @@ TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
     return 4 - (d > 0 ? .5 * std::sqrt(d) : 0);
   };
   DepthOptions options;
-  options.background = Background::keep;
+  options.background = Removal::keep;
   options.camera = DepthCamera{264, 264, 119.5, 89.5};
   const auto by_depth = depth_cloud(image_of(depth, 0), options);
   options.camera.reset();
@@ -188,63 +188,15 @@ TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
     EXPECT_LT(angle_deg(by_depth->cloud.normals[k], by_inverse->cloud.normals[k]), 1) << k;
 }
 
-// Returns a disc at 200 before a wall at 60, with an outline that is blurred over `blur` pixels on each side.
-DepthImage blurred_disc(double blur) {
-  return image_of(
-      [&](int c, int r) {
-        const double from_rim = std::hypot(c - 120, r - 90) - 50;
-        const double share = std::clamp(.5 - from_rim / (2 * blur), 0.0, 1.0);
-        return std::round(60 + 140 * share);
-      },
-      1);
-}
-
-TEST(DepthCloud, RampsOfABlurredOutlineAreCut) {
-  for (const double blur : {1.0, 2.5, 4.0}) {
-    const auto made = value_of(depth_cloud(blurred_disc(blur), as_heights()));
-    EXPECT_GT(made.cut, 200U) << blur;
-    const auto [low, high] = std::ranges::minmax(made.cloud.points, {}, [](const Vec3& p) { return p.z(); });
-    std::size_t between = 0;
-    for (const Vec3& p : made.cloud.points) {
-      const double share = (p.z() - low.z()) / (high.z() - low.z());
-      between += share > .15 && share < .85;
-    }
-    EXPECT_LT(between, 40U) << blur;
-    // The normals of the remaining points must not be tilted by the ramp, either.
-    std::size_t steep = 0;
-    for (const Vec3f& n : made.cloud.normals) steep += n.z() < .7F;
-    EXPECT_LT(steep, 60U) << blur;
+TEST(DepthCloud, HolesHaveNoPoints) {
+  const auto is_missing = [](int c, int r) { return std::hypot(c - 100, r - 90) < 10 || c > 200; };
+  const auto made = value_of(depth_cloud(
+      image_of([&](int c, int r) { return is_missing(c, r) ? 0.0 : 1000 + .1 * c; }, 1), DepthOptions()));
+  EXPECT_EQ(made.cloud.size() + made.missing, static_cast<std::size_t>(width * height));
+  for (const Vec3& p : made.cloud.points) {
+    const auto i = static_cast<int>(pixel_of(p));
+    EXPECT_FALSE(is_missing(i % width, i / width));
   }
-}
-
-TEST(DepthCloud, BackgroundIsTakenOutWhereThereIsOne) {
-  DepthOptions options;
-  options.values = DepthValues::height;
-  const auto made = value_of(depth_cloud(blurred_disc(2), options));
-  const double disc = std::numbers::pi * 50 * 50;
-  EXPECT_NEAR(static_cast<double>(made.background), width * height - disc, .03 * disc);
-  EXPECT_NEAR(static_cast<double>(made.cloud.size()), disc, .1 * disc);
-  EXPECT_EQ(depth_cloud(image_of(hills, 0), as_heights())->background, 0U);
-  // A slope over the whole image is no background, however much its depth changes.
-  EXPECT_EQ(depth_cloud(image_of([](int c, int) { return c + 1; }, 1), options)->background, 0U);
-}
-
-TEST(DepthCloud, HolesInsideBecomeFlatPointsAndOpenOnesNone) {
-  const auto value = [](int c, int r) {
-    const bool is_hole = std::hypot(c - 100, r - 90)<10, is_open = c> 200;
-    return is_hole || is_open ? 0.0 : 1000 + .1 * c;
-  };
-  DepthOptions options;
-  options.background = Background::keep;
-  const auto made = value_of(depth_cloud(image_of(value, 1), options));
-  EXPECT_EQ(made.cloud.size(), 201U * height);
-  std::size_t flat = 0;
-  for (std::size_t k = 0; k < made.cloud.size(); ++k) {
-    const auto i = static_cast<int>(pixel_of(made.cloud.points[k]));
-    EXPECT_LE(i % width, 200);
-    flat += made.cloud.normals[k] == Vec3f::UnitZ();
-  }
-  EXPECT_GE(flat, 300U);
 }
 
 TEST(DepthCloud, LargeImagesAreReduced) {

@@ -48,21 +48,24 @@ inline constexpr std::array<Choice<DepthValues>, 4> depth_value_choices{
      {"inverse", DepthValues::inverse},
      {"luminance", DepthValues::luminance}}};
 
-enum class Background {
-  keep,
-  remove,    // removes the depths behind the largest gap, if these are most of the border
-  automatic  // `remove` without a camera, `keep` with one
-};
+// What becomes of parts of a depth image that are often not wanted.
+enum class Removal { keep, drop, automatic };
 
-inline constexpr std::array<Choice<Background>, 3> background_choices{
-    {{"keep", Background::keep}, {"remove", Background::remove}, {"auto", Background::automatic}}};
+inline constexpr std::array<Choice<Removal>, 3> removal_choices{
+    {{"auto", Removal::automatic}, {"keep", Removal::keep}, {"drop", Removal::drop}}};
 
 struct DepthOptions {
   DepthValues values = DepthValues::depth;
   int channel = 0;  // number of the channel to read, from 1; 0: the only one
   std::optional<DepthCamera> camera;
   double range = .5;  // without a camera: depth from the nearest to the farthest, in picture widths
-  Background background = Background::automatic;
+  // What lies behind a depth jump all around the figure. `automatic` keeps it with a camera and in heights.
+  // `drop` without such a jump takes the far depths, if these are most of the border.
+  Removal background = Removal::automatic;
+  // Points between two levels that continue neither. `automatic` keeps them in heights, whose walls are
+  // surface, and in other images finds them over at most 3 points; `drop`, and `automatic` in images of depth
+  // cameras, over at most 12.
+  Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this number of points
 };
 
@@ -74,8 +77,10 @@ struct DepthCloud {
   Cloud cloud;                 // seen from +Z, +Y up, in pixels; all normals face the viewer
   int reduction = 1;           // each point represents reduction x reduction pixels
   std::size_t missing = 0;     // number of pixels without a depth
-  std::size_t cut = 0;         // number of points removed from ramps between two surfaces
+  std::size_t marked = 0;      // number of these with a value that stands for a missing depth, such as 1e10
+  double marker = 0;           // that value; the largest, if there are several
   std::size_t background = 0;  // number of points removed with the background
+  std::size_t blur = 0;        // number of points removed because they lie between two levels
   double noise = 0;            // median uncertainty of a depth, in pixels
 };
 
@@ -85,9 +90,9 @@ struct DepthCloud {
 //
 // Rounding steps and noise are removed: of all surfaces whose depths lie within the intervals given by the
 // step of the values and the noise measured in the image, the smoothest is returned. It is not smoothed
-// across depth jumps. Pixels on ramps between two surfaces, which blurred outlines cause, are removed.
-// Enclosed holes are filled with points whose normal is (0, 0, 1). Errors: those of check(); kind geometry if
-// fewer than 16 pixels have a depth; kind cancelled.
+// across depth jumps. Missing values are found first, then the background and blur; the range of depths is
+// measured on what is left. Errors: those of check(); kind geometry if fewer than 16 pixels have a depth; kind
+// cancelled.
 Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options,
                                Progress* progress = nullptr);
 

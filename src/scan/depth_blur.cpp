@@ -1,0 +1,104 @@
+// Finds the blur of a depth image: values between two levels, which belong to neither. Tested by
+// tests/scan/depth_image_test.cpp.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scan/depth_grid.h"
+
+namespace relievo {
+namespace {
+
+constexpr float least_jump =
+    8;  // least distance between two levels that have blur between them, in grid points
+
+// Returns whether one point of a run, of the steps from `first` to `last`, has a level of its own: the step
+// to its neighbour in the run is small beside the steps around both.
+bool has_plateau(const GridLine& line, int first, int last) {
+  for (int s = first + 1; s < last; ++s) {
+    const float around = std::min(std::abs(line.step(s - 1)), std::abs(line.step(s + 1)));
+    if (std::abs(line.step(s)) < .25F * around) return true;
+  }
+  return false;
+}
+
+// Finds runs of blurred points in rows and columns.
+class BlurFinder {
+ public:
+  BlurFinder(const DepthGrid& grid, int widest, float least_levels)
+      : grid_(grid), widest_(widest), least_levels_(least_levels), is_candidate_(grid.height.size(), 0) {}
+
+  GridMask find() {
+    each_line(grid_, [&](const GridLine& line) { mark_runs(line); });
+    GridMask is_blurred = is_candidate_;
+    if (!grid_.is_sensor) each_line(grid_, [&](const GridLine& line) { keep_surface(line, is_blurred); });
+    return is_blurred;
+  }
+
+ private:
+  bool is_jump(const GridLine& line, int i) const {
+    return line.has_step(i) && !grid_.is_near(line.at(i), line.at(i + 1));
+  }
+
+  // Returns whether the step is a jump away from the surface on the side of the step `next`. The noise of depth
+  // cameras hides whether it continues that surface's slope.
+  bool leaves(const GridLine& line, int i, int next) const {
+    return is_jump(line, i) && (grid_.is_sensor || !line.continues(i, next));
+  }
+
+  void mark_runs(const GridLine& line) {
+    for (int i = 0; i < line.size; ++i)
+      if (leaves(line, i, i - 1)) mark_run_from(line, i);
+  }
+
+  // Marks the shortest run that begins after the jump `first`.
+  void mark_run_from(const GridLine& line, int first) {
+    float whole = line.step(first);
+    for (int last = first + 1; last <= first + widest_ && line.step(last) * whole > 0; ++last) {
+      whole += line.step(last);
+      if (!leaves(line, last, last + 1)) continue;
+      if (std::abs(whole) < least_levels_ || has_plateau(line, first, last)) return;
+      for (int i = first + 1; i <= last; ++i) is_candidate_[line.at(i)] = 1;
+      return;
+    }
+  }
+
+  // Unmarks the points that continue a surface in this direction: the other direction alone made them look
+  // blurred, as it does at the tips of round shapes.
+  void keep_surface(const GridLine& line, GridMask& is_blurred) const {
+    for (int i = 0; i + 1 < line.size; ++i) {
+      const std::size_t here = line.at(i), next = line.at(i + 1);
+      if (is_candidate_[here] == is_candidate_[next] || !line.is_smooth(i)) continue;
+      is_blurred[here] = is_blurred[next] = 0;
+    }
+  }
+
+  const DepthGrid& grid_;
+  int widest_;
+  float least_levels_;
+  GridMask is_candidate_;
+};
+
+float range_of_heights(const DepthGrid& grid, const GridMask& is_left_out) {
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (std::size_t i = 0; i < grid.height.size(); ++i)
+    if (grid.bounds.is_known[i] && !is_left_out[i])
+      low = std::min(low, grid.height[i]), high = std::max(high, grid.height[i]);
+  return high > low ? high - low : 0;
+}
+
+}  // namespace
+
+std::size_t add_blur(const DepthGrid& grid, const BlurLimits& limits, GridMask& is_left_out) {
+  const float least_levels = std::max(least_jump, limits.least_share * range_of_heights(grid, is_left_out));
+  const GridMask is_blurred = BlurFinder(grid, limits.widest, least_levels).find();
+  std::size_t added = 0;
+  for (std::size_t i = 0; i < is_blurred.size(); ++i) {
+    if (!is_blurred[i] || is_left_out[i]) continue;
+    is_left_out[i] = 1;
+    ++added;
+  }
+  return added;
+}
+
+}  // namespace relievo
