@@ -76,7 +76,7 @@ TEST(DepthCloud, IsStretchedByTheSizeOfPixels) {
   image.pixel_size = Vec2(10, 20);
   DepthOptions options;
   options.values = DepthValues::height;
-  options.background = Background::keep;
+  options.background = Removal::keep;
   const Cloud cloud = value_of(depth_cloud(image, options)).cloud;
   EXPECT_EQ(bounds(cloud).size().x(), 79 / 2.);
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -184,7 +184,7 @@ std::optional<Cloud> without_repeated_points(const Cloud& cloud, const KdTree<Ve
   const std::optional<double> distance = merging_distance(cloud, tree);
   if (!distance) return std::nullopt;
   std::optional<Cloud> merged(
-      Cloud{{}, {}, {}, cloud.outlines, cloud.is_height_field, cloud.units_per_value});
+      Cloud{{}, {}, {}, cloud.outlines, cloud.is_height_field, {}, cloud.units_per_value});
   Merging merging(cloud, *merged);
   std::vector<KdTree<Vec3>::Match> around;
   for (Index i = 0; i < cloud.size(); ++i) {
