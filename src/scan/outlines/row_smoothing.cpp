@@ -11,11 +11,12 @@ namespace relievo {
 namespace {
 
 using Value = SideInterpolation::Value;
-using Numbers = Eigen::Vector4d;  // depth in rho, n_x, n_y, curvature
+using Numbers = Eigen::Vector4d;            // depth in rho, n_x, n_y, curvature
+using Curve = Eigen::Matrix<double, 3, 4>;  // numbers at a point, and their powers along the row
 
 constexpr double window = 3;                            // in rho
 constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a point has half of its weight
-constexpr double stiffness = .2;    // keeps the fitted line level where few points are on one side
+constexpr double stiffness = .001;                      // keeps fits of few points solvable
 constexpr double other_face = .35;  // least difference of (n_x, n_y) between the faces at a crease
 constexpr int passes = 3;
 
@@ -27,16 +28,16 @@ class RowSmoother {
   Value at(std::size_t point) const {
     const std::vector<Sample> samples = samples_near(point);
     std::vector<double> trust(samples.size(), 1);
-    Eigen::Matrix<double, 2, 4> line;
+    Curve curve;
     for (int pass = 0; pass < passes; ++pass) {
-      line = fitted(samples, trust);
+      curve = fitted(samples, trust);
       for (std::size_t s = 0; s < samples.size(); ++s) {
-        const Numbers off = samples[s].numbers - line.transpose() * Vec2(1, samples[s].along);
+        const Numbers off = samples[s].numbers - curve.transpose() * powers(samples[s].along);
         const double depth = off[0] / trusted_depth, lean = off.segment<2>(1).norm() / trusted_lean;
         trust[s] = 1 / (1 + depth * depth + lean * lean);
       }
     }
-    return with_numbers(values_[point], line.row(0).transpose());
+    return with_numbers(values_[point], curve.row(0).transpose());
   }
 
  private:
@@ -74,17 +75,22 @@ class RowSmoother {
     return {v.point.z() / rho_, static_cast<double>(v.normal.x()), static_cast<double>(v.normal.y()), v.k};
   }
 
-  static Eigen::Matrix<double, 2, 4> fitted(const std::vector<Sample>& samples,
-                                            const std::vector<double>& trust) {
-    Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
-    Eigen::Matrix<double, 2, 4> products = Eigen::Matrix<double, 2, 4>::Zero();
+  static Vec3 powers(double along) {
+    const double share = along / window;
+    return {1, share, share * share};
+  }
+
+  static Curve fitted(const std::vector<Sample>& samples, const std::vector<double>& trust) {
+    Mat3 moments = Mat3::Zero();
+    Curve products = Curve::Zero();
     for (std::size_t s = 0; s < samples.size(); ++s) {
-      const double share = samples[s].along / window, rest = 1 - share * share;
-      const Vec2 powers(1, samples[s].along);
-      moments += trust[s] * rest * rest * powers * powers.transpose();
-      products += trust[s] * rest * rest * powers * samples[s].numbers.transpose();
+      const Vec3 p = powers(samples[s].along);
+      const double weight = trust[s] * (1 - p[2]) * (1 - p[2]);
+      moments += weight * p * p.transpose();
+      products += weight * p * samples[s].numbers.transpose();
     }
     moments(1, 1) += stiffness * moments(0, 0);
+    moments(2, 2) += stiffness * moments(0, 0);
     return moments.ldlt().solve(products);
   }
 
