@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/pictures.h"
+#include "io/pictures/pictures.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

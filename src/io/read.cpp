@@ -4,7 +4,7 @@
 
 #include "core/lists.h"
 #include "io/formats.h"
-#include "io/pictures.h"
+#include "io/pictures/pictures.h"
 #include "io/ply.h"
 #include "io/text.h"
 #include "relievo/core/parallel.h"

@@ -11,7 +11,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/plate/solid.h"
 #include "relievo/scan/surface.h"
-#include "scan/flat_picture.h"
+#include "scan/depth/flat_picture.h"
 
 namespace relievo {
 namespace {

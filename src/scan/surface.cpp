@@ -16,7 +16,7 @@
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/support_plane.h"
 #include "scan/coarse_visibility.h"
-#include "scan/flat_picture.h"
+#include "scan/depth/flat_picture.h"
 #include "scan/measured_cloud.h"
 #include "scan/noise/noise.h"
 #include "scan/outlines/outline_points.h"

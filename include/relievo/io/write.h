@@ -46,16 +46,15 @@ std::vector<std::byte> write_zip(std::span<const ZipEntry> entries, unsigned lev
 // times its diagonal from the origin. `comment` goes into the header, in one line.
 std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = {});
 
-// Return the image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
-// characters, values of at least one character. A positive `mm_per_pixel` is stored as the physical size of a
-// pixel (pHYs). The result is empty for an image without pixels or with a side of more than a million, for a
-// number of pixels other than width times height, and for other keys and values.
-std::vector<std::byte> write_png(const Image8& image,
-                                 std::span<const std::pair<std::string, std::string>> text = {},
-                                 double mm_per_pixel = 0);
-std::vector<std::byte> write_png(const Image16& image,
-                                 std::span<const std::pair<std::string, std::string>> text = {},
-                                 double mm_per_pixel = 0);
+// Keys and values of a PNG's tEXt chunks.
+using PngTexts = std::span<const std::pair<std::string, std::string>>;
+
+// Returns the image of 8-bit or 16-bit greys as PNG. Keys of `text` have 1 to 79 Latin-1 characters, values at least one character. A
+// positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs). The result is empty for an image
+// without pixels or with a side of more than a million, for a number of pixels other than width times height,
+// and for other keys and values.
+template <typename Grey>
+std::vector<std::byte> write_png(const Image<Grey>& image, PngTexts text = {}, double mm_per_pixel = 0);
 
 // Returns the heights as a deflated float32 TIFF, with pixels per centimetre in its resolution tags, and
 // mm_per_pixel and the unit of the heights in its description. The result is empty for an image without

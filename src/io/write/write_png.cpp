@@ -13,7 +13,6 @@
 namespace relievo {
 namespace {
 
-using Texts = std::span<const std::pair<std::string, std::string>>;
 using Encoder = std::unique_ptr<spng_ctx, decltype([](spng_ctx* spng) { spng_ctx_free(spng); })>;
 using Encoded = std::unique_ptr<void, decltype([](void* bytes) { std::free(bytes); })>;
 
@@ -48,7 +47,7 @@ bool set_header(spng_ctx* spng, const Image<T>& image) {
                          SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP | SPNG_FILTER_CHOICE_PAETH) == 0;
 }
 
-bool set_texts(spng_ctx* spng, Texts texts) {
+bool set_texts(spng_ctx* spng, PngTexts texts) {
   std::vector<spng_text> chunks;
   for (const auto& [key, value] : texts) {
     spng_text& chunk = chunks.emplace_back();
@@ -68,12 +67,14 @@ bool set_pixel_size(spng_ctx* spng, double mm_per_pixel) {
   return spng_set_phys(spng, &size) == 0;
 }
 
-template <typename T>
-std::vector<std::byte> encode(const Image<T>& image, Texts texts, double mm_per_pixel) {
+}  // namespace
+
+template <typename Grey>
+std::vector<std::byte> write_png(const Image<Grey>& image, PngTexts text, double mm_per_pixel) {
   const Encoder spng(has_pixels(image) ? spng_ctx_new(SPNG_CTX_ENCODER) : nullptr);
-  if (!spng || !set_header(spng.get(), image) || !set_texts(spng.get(), texts) ||
+  if (!spng || !set_header(spng.get(), image) || !set_texts(spng.get(), text) ||
       !set_pixel_size(spng.get(), mm_per_pixel) ||
-      spng_encode_image(spng.get(), image.pixels.data(), image.pixels.size() * sizeof(T), SPNG_FMT_PNG,
+      spng_encode_image(spng.get(), image.pixels.data(), image.pixels.size() * sizeof(Grey), SPNG_FMT_PNG,
                         SPNG_ENCODE_FINALIZE) != 0)
     return {};
   std::size_t size = 0;
@@ -84,18 +85,7 @@ std::vector<std::byte> encode(const Image<T>& image, Texts texts, double mm_per_
   return {first, first + size};
 }
 
-}  // namespace
-
-std::vector<std::byte> write_png(const Image8& image,
-                                 std::span<const std::pair<std::string, std::string>> text,
-                                 double mm_per_pixel) {
-  return encode(image, text, mm_per_pixel);
-}
-
-std::vector<std::byte> write_png(const Image16& image,
-                                 std::span<const std::pair<std::string, std::string>> text,
-                                 double mm_per_pixel) {
-  return encode(image, text, mm_per_pixel);
-}
+template std::vector<std::byte> write_png(const Image8&, PngTexts, double);
+template std::vector<std::byte> write_png(const Image16&, PngTexts, double);
 
 }  // namespace relievo

@@ -2,7 +2,7 @@
 #include <new>
 #include <type_traits>
 
-#include "io/tiff_bytes.h"
+#include "io/pictures/tiff_bytes.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"

@@ -1,4 +1,4 @@
-#include "scan/depth_values.h"
+#include "scan/depth/depth_values.h"
 
 #include <algorithm>
 #include <array>

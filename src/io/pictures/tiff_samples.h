@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/samples.h"
+#include "io/pictures/samples.h"
 
 namespace relievo::io {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "relievo/scan/depth_image.h"
-#include "scan/depth_values.h"
+#include "scan/depth/depth_values.h"
 
 namespace relievo {
 
@@ -30,8 +30,8 @@ std::vector<float> smoothest(const BoundedGrid& grid);
 
 // Heights towards the viewer, in pixels of the reduced grid, each with an interval that contains it.
 struct DepthGrid {
-  BoundedGrid bounds;         // the intervals in which the heights lie
-  std::vector<float> height;  // heights of known grid points
+  BoundedGrid bounds;          // the intervals in which the heights lie
+  std::vector<float> height;   // heights of known grid points
   double units_per_value = 0;  // see Cloud
   double noise = 0;
   bool is_sensor = false;   // the steps of the values are coarser than the file's, as from depth cameras

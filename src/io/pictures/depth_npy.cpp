@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "io/pictures.h"
-#include "io/samples.h"
+#include "io/pictures/pictures.h"
+#include "io/pictures/samples.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

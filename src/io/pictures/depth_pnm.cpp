@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "io/pictures.h"
-#include "io/samples.h"
+#include "io/pictures/pictures.h"
+#include "io/pictures/samples.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

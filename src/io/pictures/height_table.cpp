@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/formats.h"
-#include "io/pictures.h"
+#include "io/pictures/pictures.h"
 #include "io/xyz.h"
 
 namespace relievo::io {

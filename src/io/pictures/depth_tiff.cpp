@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "io/geotiff.h"
-#include "io/pictures.h"
+#include "io/pictures/geotiff.h"
+#include "io/pictures/pictures.h"
+#include "io/pictures/tiff_bytes.h"
+#include "io/pictures/tiff_samples.h"
 #include "io/text.h"
-#include "io/tiff_bytes.h"
-#include "io/tiff_samples.h"
 #include "relievo/core/text.h"
 
 namespace relievo::io {

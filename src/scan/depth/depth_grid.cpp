@@ -1,4 +1,4 @@
-#include "scan/depth_grid.h"
+#include "scan/depth/depth_grid.h"
 
 #include <algorithm>
 #include <array>

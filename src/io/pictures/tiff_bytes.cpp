@@ -1,4 +1,4 @@
-#include "io/tiff_bytes.h"
+#include "io/pictures/tiff_bytes.h"
 
 #include <algorithm>
 #include <cstdio>

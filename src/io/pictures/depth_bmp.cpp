@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "io/pictures.h"
-#include "io/samples.h"
+#include "io/pictures/pictures.h"
+#include "io/pictures/samples.h"
 
 namespace relievo::io {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "io/geotiff.h"
-#include "io/pictures.h"
+#include "io/pictures/geotiff.h"
+#include "io/pictures/pictures.h"
 #include "io/text.h"
 
 namespace relievo::io {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scan/depth_grid.h"
+#include "scan/depth/depth_grid.h"
 
 namespace relievo {
 namespace {

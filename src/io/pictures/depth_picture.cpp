@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/formats.h"
-#include "io/pictures.h"
+#include "io/pictures/pictures.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"

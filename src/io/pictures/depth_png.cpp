@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "io/pictures.h"
+#include "io/pictures/pictures.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

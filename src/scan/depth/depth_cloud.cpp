@@ -4,7 +4,7 @@
 
 #include "relievo/core/text.h"
 #include "relievo/scan/depth_image.h"
-#include "scan/depth_grid.h"
+#include "scan/depth/depth_grid.h"
 
 namespace relievo {
 namespace {

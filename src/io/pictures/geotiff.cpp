@@ -1,5 +1,5 @@
 // Tags and keys of OGC GeoTIFF 1.1.
-#include "io/geotiff.h"
+#include "io/pictures/geotiff.h"
 
 #include <algorithm>
 #include <cmath>

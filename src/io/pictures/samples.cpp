@@ -1,4 +1,4 @@
-#include "io/samples.h"
+#include "io/pictures/samples.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "scan/depth_grid.h"
+#include "scan/depth/depth_grid.h"
 
 namespace relievo {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/tiff_samples.h"
+#include "io/pictures/tiff_samples.h"
 
 #include <tiff.h>
 
