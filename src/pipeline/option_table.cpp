@@ -157,6 +157,9 @@ std::vector<OptionRow> view_rows() {
        .help = "keep or drop a table or background that is found: a plane that the figure stands on or before, and "
                "what lies behind it",
        .initial = "keep", .access = word<&View::has_plane, keep_choices>},
+      {.name = "gap", .unit = "N", .stage = view, .min = 1, .max = 6,
+       .help = "widest gap between parts of a cloud, such as fingers, that is closed, in sampling distances",
+       .initial = View{}.gap, .access = number<&View::gap>},
       {.name = "denoise", .unit = "NOISE", .stage = view,
        .help = "noise that is removed while creases stay, as standard deviation in sampling distances, 0 to 1; auto: "
                "as much as is measured",

@@ -13,8 +13,8 @@ namespace {
 constexpr double half_opening = .1;  // slope of each lip's edge against the x axis
 
 // Returns two lips: half cylinders of radius 0.2. Their edges cross at x = 0, and between them a notch opens
-// towards +x. The upper lip is farther from the viewer.
-Cloud lips(std::size_t n) {
+// towards +x. The upper lip is that much farther from the viewer.
+Cloud lips(std::size_t n, double behind) {
   test::Random random(5);
   Cloud cloud;
   for (std::size_t i = 0; i < n; ++i) {
@@ -23,7 +23,7 @@ Cloud lips(std::size_t n) {
     const Vec3 up(-along.y(), along.x(), 0);
     const Vec3 normal = std::cos(angle) * up + std::sin(angle) * Vec3::UnitZ();
     const Vec3 axis = random.uniform(-1, 1) * along + side * .2 * up;
-    test::add(cloud, axis + .2 * normal - Vec3(0, 0, side > 0 ? .5 : 0), normal);
+    test::add(cloud, axis + .2 * normal - Vec3(0, 0, side > 0 ? behind : 0), normal);
   }
   return cloud;
 }
@@ -45,11 +45,24 @@ double end_of_notch(const Surface& surface) {
 }
 
 TEST(Notches, BetweenTwoSurfacesAreOpenAsFarAsPointsShow) {
-  for (const std::size_t n : {40000, 160000}) {
-    const Surface surface = *find_surface(lips(n), View{});
+  for (const std::size_t n : {40000, 160000})
+    for (const double behind : {.5, 0.}) {
+      const Surface surface = *find_surface(lips(n, behind), View{});
+      const double width = 2 * half_opening * end_of_notch(surface) / surface.rho;
+      EXPECT_LT(width, 3) << behind;
+      EXPECT_GT(width, 0) << behind;
+    }
+}
+
+TEST(Notches, AreClosedUpToTheViewsGap) {
+  double before = 0;
+  for (const double gap : {2.4, 3.5, 5.0}) {
+    View view;
+    view.gap = gap;
+    const Surface surface = *find_surface(lips(40000, 0), view);
     const double width = 2 * half_opening * end_of_notch(surface) / surface.rho;
-    EXPECT_LT(width, 3);
-    EXPECT_GT(width, 0);
+    EXPECT_GT(width, before + .3) << gap;
+    before = width;
   }
 }
 

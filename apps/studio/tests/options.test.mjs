@@ -34,7 +34,7 @@ const CASES = {
   alpha: {value: 3, first: {saturation: 0.5}},
   method: {value: "paper"}, mode: {value: "exact"}, steepest: {value: 66}, draft: {value: 12},
   steps: {value: 0.2}, planes: {value: 0.1}, tone: {value: "0,0.8;0.5,0.6;1,0.45"}, view: {value: "left"}, up: {value: "1,0,0"},
-  crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, plane: {value: "drop"}, denoise: {value: "0.5"},
+  crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, plane: {value: "drop"}, gap: {value: 3}, denoise: {value: "0.5"},
   points: {value: 20000},
   outline: {value: "ellipse"}, corner: {value: 9, first: {outline: "round"}}, diameter: {value: 77, kind: "coin"},
   plate: {value: "140x120"}, shift: {value: "5,-3", first: {plate: "180x160"}},

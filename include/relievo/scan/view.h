@@ -28,9 +28,12 @@ struct Crop {
 struct View {
   Mat3 R_view_model = Mat3::Identity();
   Crop crop = {};
-  bool has_crumbs = false;             // shows small pieces of the surface (crumbs), see find_surface()
-  int most_pieces = 0;                 // shows only so many pieces, the largest ones; 0: any number
-  bool has_plane = true;               // shows a table or background, see find_support_plane()
+  bool has_crumbs = false;  // shows small pieces of the surface (crumbs), see find_surface()
+  int most_pieces = 0;      // shows only so many pieces, the largest ones; 0: any number
+  bool has_plane = true;    // shows a table or background, see find_support_plane()
+  // The widest gap, in rho, that is closed between two surfaces that turn away from the viewer, such as fingers.
+  // Sampling leaves gaps of up to 2.4 rho there. Meshes know their gaps, whatever this is.
+  double gap = 2.4;
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
   // True if the surface is found by the rules of Nie et al. alone, for Method::paper: see src/paper/surface.h.
   bool is_paper = false;

@@ -230,9 +230,6 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
-// The radius, in rho, of the largest empty circle that sampling leaves where a surface is seen edge on.
-// Points are dense there.
-constexpr double widest_circle = 1.2;
 // The least length of (n_x, n_y) at which a surface turns away from the viewer, as in outlines.cpp.
 constexpr double least_turned = .75;
 
@@ -250,6 +247,13 @@ bool ends_at_jump(const Surface& surface, Index front, Index back) {
   return surface.normals[back].head<2>().cast<double>().dot(step) > least_turned * step.norm();
 }
 
+// Returns whether both surfaces end in the gap between two points: their normals lean towards each other.
+bool ends_on_both_sides(const Surface& surface, Index a, Index b) {
+  const Vec2 step = (surface.points[b] - surface.points[a]).head<2>();
+  const auto lean = [&](Index i) { return surface.normals[i].head<2>().cast<double>().dot(step); };
+  return lean(a) > least_turned * step.norm() && lean(b) < -least_turned * step.norm();
+}
+
 std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
   const std::vector<Triangle>& triangles = surface.triangulation.triangles;
   std::vector<std::uint8_t> is_gap(triangles.size(), 0);
@@ -257,8 +261,11 @@ std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
     if (!surface.boundary.is_inside[t]) return;
     const auto [a, b, c] = triangles[t];
     const auto at = [&](Index i) -> Vec2 { return surface.points[i].head<2>(); };
-    is_gap[t] = circle_radius(at(a), at(b), at(c)) > widest_circle * surface.rho &&
-                (ends_at_jump(surface, a, b) || ends_at_jump(surface, b, c) || ends_at_jump(surface, c, a));
+    const auto ends_between = [&](Index p, Index q) {
+      return ends_at_jump(surface, p, q) || ends_on_both_sides(surface, p, q);
+    };
+    is_gap[t] = circle_radius(at(a), at(b), at(c)) > surface.view.gap / 2 * surface.rho &&
+                (ends_between(a, b) || ends_between(b, c) || ends_between(c, a));
   });
   return is_gap;
 }
