@@ -61,8 +61,8 @@ std::vector<std::byte> grey_file(const HeightMap& map, const Scale& scale, bool 
     for (const auto& [key, value] : scale) description += cat(", ", key, "=", value);
     return write_tiff(map, description);
   }
-  if (map.bits == 8) return write_png(in_8_bits(map), scale, map.mm_per_pixel);
-  return write_png(map.image, scale, map.mm_per_pixel);
+  const PngLabel label{scale, map.mm_per_pixel};
+  return map.bits == 8 ? write_labelled_png(in_8_bits(map), label) : write_png(map.image, label);
 }
 
 std::vector<std::byte> millimetre_file(HeightsMm heights, const MadeRelief& made) {

@@ -98,7 +98,7 @@ TEST(WritePng, StoresTextAndThePixelsSizeIfAsked) {
   const std::vector<std::pair<std::string, std::string>> text{{"Software", "relievo"},
                                                               {"mm per grey", "0.000123"}};
   const Image16 image = pattern<std::uint16_t>(5, 4, 1);
-  const Decoded asked = decode(write_png(image, text, 0.25)), unasked = decode(write_png(image));
+  const Decoded asked = decode(write_png(image, {text, 0.25})), unasked = decode(write_png(image));
   EXPECT_EQ(asked.text, (std::map<std::string, std::string>(text.begin(), text.end())));
   EXPECT_EQ(asked.pixels_per_metre, 4000U);
   EXPECT_TRUE(unasked.text.empty());
@@ -116,9 +116,9 @@ TEST(WritePng, GivesNoBytesForWhatIsNoPicture) {
 TEST(WritePng, GivesNoBytesWhenLibspngRefuses) {
   const Image16 image = pattern<std::uint16_t>(5, 4, 1);
   const std::vector<std::pair<std::string, std::string>> no_key{{"", "value"}};
-  EXPECT_TRUE(write_png(image, no_key).empty());
+  EXPECT_TRUE(write_png(image, {no_key}).empty());
   const std::vector<std::pair<std::string, std::string>> no_value{{"empty", ""}};
-  EXPECT_TRUE(write_png(image, no_value).empty());
+  EXPECT_TRUE(write_png(image, {no_value}).empty());
   const Image8 too_wide{2000000, 1, 1, std::vector<std::uint8_t>(2000000)};
   EXPECT_TRUE(write_png(too_wide).empty());
 }

@@ -458,8 +458,10 @@ test("exports height maps of an exact pixel, inverted, of 8 bits and of the reli
   await dialog.getByRole("checkbox", {name: /^STL/}).uncheck();
   const pixel = dialog.getByLabel("Exact size of a pixel instead");
   await type(pixel, "0.2 furlongs");
+  await page.keyboard.press("Tab");
   await dialog.getByText(/^Exact size of a pixel: expected a number from 0.001 to 100 mm/).waitFor();
   await type(pixel, "0.25mm");
+  await page.keyboard.press("Tab");
   await dialog.getByLabel("Grey levels of the PNG").selectOption("8");
   await dialog.getByText(/a grey level of 8 bits is 0\.\d+ mm or less/).waitFor();
   await dialog.getByLabel("Black is").selectOption("highest");

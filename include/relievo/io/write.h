@@ -49,12 +49,19 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = 
 // Keys and values of a PNG's tEXt chunks.
 using PngTexts = std::span<const std::pair<std::string, std::string>>;
 
-// Returns the image of 8-bit or 16-bit greys as PNG. Keys of `text` have 1 to 79 Latin-1 characters, values at least one character. A
-// positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs). The result is empty for an image
-// without pixels or with a side of more than a million, for a number of pixels other than width times height,
-// and for other keys and values.
-template <typename Grey>
-std::vector<std::byte> write_png(const Image<Grey>& image, PngTexts text = {}, double mm_per_pixel = 0);
+// What a PNG says about itself. Keys have 1 to 79 Latin-1 characters, values at least one character. A positive
+// `mm_per_pixel` is stored as the physical size of a pixel (pHYs).
+struct PngLabel {
+  PngTexts text = {};
+  double mm_per_pixel = 0;
+};
+
+// Return the image as PNG. The result is empty for an image without pixels or with a side of more than a
+// million, for a number of pixels other than width times height, and for other keys and values than PngLabel
+// allows.
+std::vector<std::byte> write_png(const Image8& image);
+std::vector<std::byte> write_png(const Image16& image, const PngLabel& label = {});
+std::vector<std::byte> write_labelled_png(const Image8& image, const PngLabel& label);
 
 // Returns the heights as a deflated float32 TIFF, with pixels per centimetre in its resolution tags, and
 // mm_per_pixel and the unit of the heights in its description. The result is empty for an image without

@@ -67,13 +67,11 @@ bool set_pixel_size(spng_ctx* spng, double mm_per_pixel) {
   return spng_set_phys(spng, &size) == 0;
 }
 
-}  // namespace
-
 template <typename Grey>
-std::vector<std::byte> write_png(const Image<Grey>& image, PngTexts text, double mm_per_pixel) {
+std::vector<std::byte> encode(const Image<Grey>& image, const PngLabel& label) {
   const Encoder spng(has_pixels(image) ? spng_ctx_new(SPNG_CTX_ENCODER) : nullptr);
-  if (!spng || !set_header(spng.get(), image) || !set_texts(spng.get(), text) ||
-      !set_pixel_size(spng.get(), mm_per_pixel) ||
+  if (!spng || !set_header(spng.get(), image) || !set_texts(spng.get(), label.text) ||
+      !set_pixel_size(spng.get(), label.mm_per_pixel) ||
       spng_encode_image(spng.get(), image.pixels.data(), image.pixels.size() * sizeof(Grey), SPNG_FMT_PNG,
                         SPNG_ENCODE_FINALIZE) != 0)
     return {};
@@ -85,7 +83,18 @@ std::vector<std::byte> write_png(const Image<Grey>& image, PngTexts text, double
   return {first, first + size};
 }
 
-template std::vector<std::byte> write_png(const Image8&, PngTexts, double);
-template std::vector<std::byte> write_png(const Image16&, PngTexts, double);
+}  // namespace
+
+std::vector<std::byte> write_png(const Image8& image) {
+  return encode(image, {});
+}
+
+std::vector<std::byte> write_png(const Image16& image, const PngLabel& label) {
+  return encode(image, label);
+}
+
+std::vector<std::byte> write_labelled_png(const Image8& image, const PngLabel& label) {
+  return encode(image, label);
+}
 
 }  // namespace relievo
