@@ -57,6 +57,8 @@ app::ReliefFiles files_of(const py::dict& paths, const std::string& units, Pictu
         std::pair("heightmap", &files.heightmap), std::pair("tool_picture", &files.tool_picture),
         std::pair("report", &files.report)})
     if (paths.contains(name)) *path = path_of(paths[name]);
+  for (const app::HeightMapFlag& flag : app::height_map_flags)
+    if (paths.contains(flag.name)) files.map.*flag.text = paths[flag.name].cast<std::string>();
   return files;
 }
 

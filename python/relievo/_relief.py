@@ -76,12 +76,19 @@ class Relief:
         report: Optional[Path] = None,
         units: str = "mm",
         heightmap_size: int = 1024,
+        pixel_mm: Optional[float] = None,
+        dpi: Optional[float] = None,
+        heightmap_bits: Optional[int] = None,
+        heightmap_area: Optional[str] = None,
+        heightmap_zero: Optional[str] = None,
+        heightmap_high: Optional[str] = None,
         preview_size: int = 1200,
     ) -> None:
         """Writes files, with the bytes that `relievo make` writes: all of them or, on any error, none.
 
         The solid ends in .stl, .3mf, .ply or .obj, in units "mm" or "in"; the preview in .png; the height map in .png (16
-        bits) or .tif (millimetres). The sizes are of the longer side, in pixels. The tool's picture needs the option tool. The report is
+        bits) or .tif (millimetres). The sizes are of the longer side, in pixels; pixel_mm or dpi give the exact size of a
+        pixel of the height map, whose other keywords are the flags of `relievo make`. The tool's picture needs the option tool. The report is
         JSON.
         """
         paths = {
@@ -94,6 +101,15 @@ class Relief:
         wanted = {name: os.fsdecode(path) for name, path in paths.items() if path is not None}
         if not wanted:
             raise TypeError("save() expected the path of at least one file")
+        map_flags = {
+            "pixel": None if pixel_mm is None else f"{pixel_mm!r}mm",
+            "dpi": dpi,
+            "heightmap-bits": heightmap_bits,
+            "heightmap-area": heightmap_area,
+            "heightmap-zero": heightmap_zero,
+            "heightmap-high": heightmap_high,
+        }
+        wanted.update({flag: str(value) for flag, value in map_flags.items() if value is not None})
         self._native.save(wanted, units, heightmap_size, preview_size)
 
     def to_bytes(self, format: str, *, heightmap_size: int = 1024) -> bytes:

@@ -154,7 +154,8 @@ void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
 
 bool MeasuredCloud::serves(const View& view) const {
   // With a new field of View this line does not compile: decide here whether the field needs other measures.
-  const auto& [R_view_model, crop, has_crumbs, most_pieces, has_plane, gap, denoise, is_paper, is_best] = view;
+  const auto& [R_view_model, crop, has_crumbs, most_pieces, has_plane, gap, denoise, is_paper, is_best] =
+      view;
   if (denoise != view_.denoise || crop != view_.crop) return false;
   const bool is_of_any_view = crop == Crop{} && cloud_.outlines.empty();
   return is_of_any_view || R_view_model == view_.R_view_model;
