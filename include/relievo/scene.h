@@ -24,8 +24,8 @@ struct Pose {
   std::optional<Vec3> translate = {};  // movement, in the units of the files
   double scale = 1;                    // above 0
   bool is_mirrored = false;            // x is reversed before scaling and turning
-  // How high the model's highest point stands over what is behind it in the relief, as a share of the relief's
-  // height, in [0.01, 0.9]; see OwnHeights. If not given, the relief's method decides.
+  // The height of the model's highest point over the surface behind it, as a share of the relief's height, in
+  // [0.01, 0.9]; see OwnHeights. If not given, the relief's method decides.
   std::optional<double> height = {};
 
   bool operator==(const Pose& other) const;

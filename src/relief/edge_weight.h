@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <span>
 
+#include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "relievo/core/types.h"
 
@@ -38,6 +39,15 @@ inline double needle_share(double stiffest) {
 inline float edge_weight(float sum, std::span<const float> weights, Index a, Index b) {
   const float weight = std::clamp(sum, least_edge_weight, largest_edge_weight);
   return weights.empty() ? weight : weight * (weights[a] + weights[b]) / 2;
+}
+
+// Returns the weight of the edge on which the sides lie, of triangles between points in view coordinates.
+inline float edge_weight(std::span<const Vec3> points, std::span<const TriangleSide> sides) {
+  const auto plane = [&](Index i) { return Vec2(points[i].head<2>()); };
+  float sum = 0;
+  for (const TriangleSide& s : sides)
+    sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
+  return edge_weight(sum, {}, sides[0].low(), sides[0].high());
 }
 
 }  // namespace relievo

@@ -57,18 +57,13 @@ Result<OwnHeights::Model> OwnHeights::model_of(const Surface& surface, float sha
     unknown[i] = static_cast<Index>(points.size());
     points.push_back(i);
   }
-  const auto plane = [&](Index i) { return Vec2(surface.points[i].head<2>()); };
   const auto is_wanted = [&](const TriangleSide& side) {
     return surface.boundary.is_inside[side.triangle] &&
            (unknown[side.from] != no_index || unknown[side.to] != no_index);
   };
   std::vector<Link> links;
   each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
-    const Index a = sides[0].low(), b = sides[0].high();
-    float sum = 0;
-    for (const TriangleSide& s : sides)
-      sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
-    links.push_back({a, b, edge_weight(sum, {}, a, b)});
+    links.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
   });
   std::vector<std::uint8_t> is_edge(unknown.size(), 0);
   for (const auto& [a, b, weight] : links)

@@ -16,10 +16,10 @@ struct Surface;
 
 // The models of a scene with heights of their own, see Pose::height. Models of the same height count as one.
 //
-// What is behind a model is the surface without curvature (harmonic) that continues the heights around it, and
-// the base where it meets that. The model's heights over that surface are scaled until the highest of them is
-// the one asked for, but not beyond the depth of the model itself. What is still missing is a wall along the
-// model's edge, as high everywhere: letters, which are level, consist of that alone.
+// The heights around a model, and the base where the model meets it, are continued behind the model by the
+// surface without curvature (harmonic). The model's heights over that surface are scaled until the highest of
+// them is the one asked for, but not beyond the depth of the model itself. What is still missing is a wall
+// along the model's edge, as high everywhere: letters, which are level, consist of that alone.
 //
 // All other heights keep their values, unless the highest point of the relief changes: then they are scaled, so
 // that the relief keeps its height.

@@ -24,17 +24,12 @@ struct JumpEdge {
 // Returns the edges of triangles inside the relief across which the depth jumps, with their weights in (9).
 std::vector<JumpEdge> jump_edges(const Surface& surface) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
-  const auto plane = [&](Index i) { return Vec2(surface.points[i].head<2>()); };
   const auto is_wanted = [&](const TriangleSide& side) {
     return jumps[side.triangle] && is_jump(surface, side.from, side.to);
   };
   std::vector<JumpEdge> edges;
   each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
-    const Index a = sides[0].low(), b = sides[0].high();
-    float sum = 0;
-    for (const TriangleSide& s : sides)
-      sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
-    edges.push_back({a, b, edge_weight(sum, {}, a, b)});
+    edges.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
   });
   return edges;
 }

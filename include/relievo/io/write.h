@@ -49,8 +49,8 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = 
 // Keys and values of a PNG's tEXt chunks.
 using PngTexts = std::span<const std::pair<std::string, std::string>>;
 
-// What a PNG says about itself. Keys have 1 to 79 Latin-1 characters, values at least one character. A positive
-// `mm_per_pixel` is stored as the physical size of a pixel (pHYs).
+// The texts and the size of a pixel that a PNG file states. Keys have 1 to 79 Latin-1 characters, values at
+// least one character. A positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs).
 struct PngLabel {
   PngTexts text = {};
   double mm_per_pixel = 0;

@@ -31,7 +31,7 @@ struct Cloud {
   // For each point the height of its model in the scene, Pose::height, or 0 if that is not given; empty if no
   // model's is.
   std::vector<float> own_heights = {};
-  // Of a depth image seen from +Z: z of a value, in units of the points, divided by the value. It is negative
+  // If the points come from a depth image, the ratio of z to the image's values, seen from +Z. It is negative
   // if values grow away from the viewer, and 0 if z is not proportional to them.
   std::optional<double> units_per_value = {};
 

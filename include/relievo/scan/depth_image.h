@@ -48,7 +48,8 @@ inline constexpr std::array<Choice<DepthValues>, 4> depth_value_choices{
      {"inverse", DepthValues::inverse},
      {"luminance", DepthValues::luminance}}};
 
-// What becomes of parts of a depth image that are often not wanted.
+// States whether a part of a depth image that is often not wanted, background or blur, is kept or dropped.
+// `automatic` decides by the image.
 enum class Removal { keep, drop, automatic };
 
 inline constexpr std::array<Choice<Removal>, 3> removal_choices{
@@ -59,12 +60,12 @@ struct DepthOptions {
   int channel = 0;  // number of the channel to read, from 1; 0: the only one
   std::optional<DepthCamera> camera;
   double range = .5;  // without a camera: depth from the nearest to the farthest, in picture widths
-  // What lies behind a depth jump all around the figure. `automatic` keeps it with a camera and in heights.
-  // `drop` without such a jump takes the far depths, if these are most of the border.
+  // The background lies behind a depth jump all around the figure. `automatic` keeps it with a camera
+  // and in heights. `drop` without such a jump takes the far depths, if these are most of the border.
   Removal background = Removal::automatic;
-  // Points between two levels that continue neither. `automatic` keeps them in heights, whose walls are
-  // surface, and in other images finds them over at most 3 points; `drop`, and `automatic` in images of depth
-  // cameras, over at most 12.
+  // Blur consists of points between two levels that continue neither. `automatic` keeps them in heights,
+  // whose walls are surface, and in other images finds them over at most 3 points; `drop`, and
+  // `automatic` in images of depth cameras, over at most 12.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this number of points
 };

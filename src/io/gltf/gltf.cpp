@@ -78,7 +78,7 @@ class GltfReader {
     if (has_lines_) raw.remarks.emplace_back("left out the lines");
   }
 
-  // Where a mesh stands: the transforms of its copies, or its skin, which then places it alone.
+  // The transforms of a mesh's copies, or the number of its skin, which then places the mesh alone.
   struct Placement {
     std::vector<Transform> copies;
     std::size_t skin = no_index;

@@ -47,7 +47,7 @@ Result<PnmHeader> read_pnm_header(const Source& source) {
                    at + 1};
 }
 
-// How the values of a picture are stored.
+// The format in which a file stores the values of a picture.
 struct PnmValues {
   SampleFormat format;
   std::size_t channels = 1;
