@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/files.h"
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
@@ -10,12 +11,28 @@
 
 namespace relievo::app {
 
+namespace {
+
+// Replaces the name of a file of strokes by its text.
+Result<void> read_strokes(OptionValues& values) {
+  const auto strokes = values.find("strokes");
+  if (strokes == values.end() || !std::holds_alternative<std::string>(strokes->second)) return {};
+  auto& text = std::get<std::string>(strokes->second);
+  if (text.empty() || text.starts_with('[') || !is_there(text)) return {};
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(text));
+  text = text_in(bytes);
+  return {};
+}
+
+}  // namespace
+
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
   if (stored) project = stored->project;
   OptionValues values = order.values;
   if (project) values = with_given(project->options, values);
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
+  RELIEVO_CHECK(read_strokes(values));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,

@@ -11,6 +11,7 @@
 #include "relievo/plate/tool.h"
 #include "relievo/plate/wrap.h"
 #include "relievo/relief/method.h"
+#include "relievo/relief/stroke.h"
 #include "relievo/relief/tone_curve.h"
 #include "relievo/scan/view.h"
 
@@ -59,6 +60,7 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
 struct ReliefOptions : NumericOptions {
   std::optional<Method> method;   // default: see effective_method()
   std::optional<ToneCurve> tone;  // replaces (6) and the saturation
+  Strokes strokes;                // local changes that were painted onto the model
   Mode mode = Mode::exact;
   View view;
   Outline outline = Outline::rectangle;

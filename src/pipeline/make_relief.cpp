@@ -233,6 +233,7 @@ Shape shape_of(const ReliefOptions& options) {
   shape.steps = options.steps;
   shape.planes = options.effective_planes();
   if (options.tone) shape.compression.curve = std::make_shared<const ToneCurve>(*options.tone);
+  if (!options.strokes.empty()) shape.strokes.list = std::make_shared<const Strokes>(options.strokes);
   return shape;
 }
 

@@ -125,6 +125,9 @@ std::vector<OptionRow> limit_rows() {
       {.name = "tone", .unit = "X,Y;..", .stage = shape,
        .help = "tone curve that replaces the saturation: share of the slope kept over the square root of the curvature",
        .otherwise = "none", .access = text<&ReliefOptions::tone, parse_tone_curve>},
+      {.name = "strokes", .unit = "JSON", .stage = shape,
+       .help = "local changes painted onto the model, as JSON or a file with it: brush, amount, radius and points of each",
+       .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::strokes, parse_strokes>},
       {.name = "mode", .unit = "MODE", .stage = model, .choices = names_of(mode_choices),
        .help = "subspace solves for control points: half the memory, 1 to 4 % of the height off; auto does "
                "so above 1.5 million visible points",

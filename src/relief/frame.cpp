@@ -12,6 +12,7 @@
 #include "relief/paper_frames.h"
 #include "relief/sliced_ell_matrix.h"
 #include "relief/step_heights.h"
+#include "relief/stroke_fields.h"
 #include "relief/style.h"
 #include "relief/weight_table.h"
 #include "relievo/core/parallel.h"
@@ -38,6 +39,7 @@ struct OwnFrames {
                            model.system() ? &model.system()->divergence_matrix() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
   OwnHeights::Workspace<float> own_workspace = {};
+  StrokeFields<float> strokes{surface};
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
@@ -139,14 +141,27 @@ struct OwnFrames {
     });
   }
 
+  static void scale(RaisedHeights<float>& heights, double factor) {
+    heights.span = heights.change_all([&](std::size_t, float& z) { z *= static_cast<float>(factor); });
+  }
+
   // Scales the relief down if the search ended above the requested height, see HeightSearch::bracket().
   static void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))
       return;
-    const auto scale = static_cast<float>(*height / frame.height);
-    heights.span = heights.change_all([&](std::size_t, float& z) { z *= scale; });
+    scale(heights, *height / frame.height);
     frame.height = *height;
+  }
+
+  void apply_strokes(RaisedHeights<float>& heights, Frame& frame) {
+    const Strokes none, *const wanted = frame.options.shape.strokes.list.get();
+    strokes.take(wanted ? *wanted : none);
+    if (strokes.empty()) return;
+    strokes.apply(frame.height, heights.z);
+    heights.span = heights.measured();
+    const auto height = static_cast<double>(heights.span.size());
+    if (height > 0 && height != frame.height) scale(heights, frame.height / height);
   }
 
   void finish(Frame& frame) {
@@ -160,6 +175,7 @@ struct OwnFrames {
         model.own_heights().apply<float>(frame.height, heights.z, own_workspace);
         heights.span = heights.measured();
       }
+      apply_strokes(heights, frame);
       if (const std::vector<float>* base = frame.options.base.get())
         heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "relief/height_search.h"
+#include "relief/stroke_fields.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/relief.h"
@@ -49,6 +50,8 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
   Relief relief = info.make(model, height);
   if (!(relief.height > 0)) return out_of_reach(0, height * unit_mm);
   give_own_heights(model, relief);
+  relief.shape.strokes = shape.strokes;
+  apply_strokes(model.surface(), relief);
   return relief;
 }
 

@@ -11,6 +11,7 @@
 #include "relief/own_heights.h"
 #include "relief/paper_relief.h"
 #include "relief/step_heights.h"
+#include "relief/stroke_fields.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -222,6 +223,7 @@ class ReliefModel::Maker {
                [&](const auto& style) { style.finish(heights, model_.correction(), make_workspace); });
     relief.height = heights.height;
     give_own_heights(model_, relief);
+    apply_strokes(model_.surface(), relief);
   }
 
  private:

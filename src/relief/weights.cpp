@@ -6,6 +6,7 @@
 
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
+#include "relievo/relief/stroke.h"
 #include "relievo/relief/tone_curve.h"
 
 namespace relievo {
@@ -14,6 +15,10 @@ bool Compression::operator==(const Compression& other) const {
   const bool is_same_curve =
       curve && other.curve ? curve->points() == other.curve->points() : curve == other.curve;
   return u == other.u && beta == other.beta && is_same_curve;
+}
+
+bool SharedStrokes::operator==(const SharedStrokes& other) const {
+  return list == other.list || (list && other.list && *list == *other.list);
 }
 
 Compression Compression::from_alpha(double alpha, double beta) {

@@ -4,9 +4,11 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace relievo {
 
+struct Stroke;
 class ToneCurve;
 
 enum class Style {
@@ -36,6 +38,13 @@ struct Compression {
   double alpha() const;
 };
 
+// Strokes that shapes share; null for none. Two are equal if they hold equal strokes.
+struct SharedStrokes {
+  std::shared_ptr<const std::vector<Stroke>> list = nullptr;
+
+  bool operator==(const SharedStrokes& other) const;
+};
+
 struct Shape {
   Compression compression;    // height and saturation
   double gamma = 0;           // detail coefficient, [0, 1]; in the layered style it attenuates coarse layers
@@ -53,6 +62,9 @@ struct Shape {
   bool is_corrected = true;  // whether HeightCorrection compresses the heights
   // Least share of the height by which a part stands off what is behind it, and off the base, [0, 0.3].
   double planes = 0;
+  // Local changes of the finished heights, of any method but the paper's. The highest point keeps
+  // its height: if strokes raise or sink it, all heights are scaled.
+  SharedStrokes strokes = {};
 
   bool operator==(const Shape&) const = default;
 };

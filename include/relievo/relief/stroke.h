@@ -1,0 +1,59 @@
+// Strokes: local changes of a relief that users paint onto the model.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/choice.h"
+#include "relievo/core/error.h"
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// What a stroke does to the heights z under it. Every brush adds a field to z that is 0 outside of the stroke, so no
+// other height moves. The blurs are Gaussian, along the surface, and do not reach across depth jumps.
+enum class Brush {
+  strengthen,  // adds amount * (z - wide blur of z), so that shapes as wide as a finger or a brow grow
+  sharpen,     // adds amount * (z - narrow blur of z)
+  soften,      // subtracts amount * (z - narrow blur of z)
+  raise,       // adds amount * height of the relief
+  sink,        // subtracts amount * height of the relief
+  level        // adds amount * (mean height under the stroke - z)
+};
+
+inline constexpr std::array<Choice<Brush>, 6> brushes{{{"strengthen", Brush::strengthen},
+                                                       {"sharpen", Brush::sharpen},
+                                                       {"soften", Brush::soften},
+                                                       {"raise", Brush::raise},
+                                                       {"sink", Brush::sink},
+                                                       {"level", Brush::level}}};
+
+// Standard deviations of the two blurs, as shares of the longer side.
+inline constexpr double narrow_blur = .008, wide_blur = .03;
+
+// A line on the model and the change around it. It belongs to the model, so that it keeps its place in other views,
+// where it acts on the part of the model that is visible.
+struct Stroke {
+  std::string name;
+  Brush brush = Brush::soften;
+  double amount = 1;           // [0, 1]; strengthen and sharpen: [0, 4]
+  double radius = 0;           // largest distance from the line, in the units of the scan, > 0
+  double softness = 1;         // share of the radius over which the change fades, [0.05, 1]
+  bool is_muted = false;       // a muted stroke changes nothing
+  std::vector<Vec3> points{};  // corners of the line, in the coordinates of the scan; one is a dab
+
+  bool operator==(const Stroke&) const = default;
+};
+using Strokes = std::vector<Stroke>;
+
+inline constexpr std::size_t most_strokes = 10'000, most_stroke_points = 100'000;
+
+// Reads a JSON array of strokes, such as
+//   [{"brush": "soften", "amount": 0.5, "radius": 3, "points": [[0, 1, 2], [1, 1, 2]], "name": "cheek"}].
+// Amount, softness, name and muted may be missing. An empty text is no strokes. Errors: kind option, naming the stroke
+// and what was expected of it.
+Result<Strokes> parse_strokes(std::string_view json);
+
+}  // namespace relievo

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "relievo/core/json_place.h"
+#include "relievo/core/text.h"
+#include "relievo/relief/stroke.h"
+
+namespace relievo {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t most_of_a_value = 40;  // of a wrong value, in errors
+
+std::string found(const Json& value) {
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return cat(", found ", text.size() <= most_of_a_value ? text : text.substr(0, most_of_a_value) + "...");
+}
+
+// Reads one stroke. Errors name its number and the key.
+class StrokeReader {
+ public:
+  StrokeReader(const Json& json, std::size_t number) : json_(json), number_(number) {}
+
+  Result<Stroke> read() const {
+    if (!json_.is_object()) return fail(cat("expected an object", found(json_)));
+    for (const auto& [key, value] : json_.items())
+      if (std::ranges::find(keys, key) == keys.end())
+        return fail(cat("expected ", either({keys.begin(), keys.end()}), ", found '", key, "'"));
+    Stroke stroke;
+    RELIEVO_CHECK(read_words(stroke));
+    const bool may_exceed = stroke.brush == Brush::strengthen || stroke.brush == Brush::sharpen;
+    RELIEVO_CHECK(read_number("amount", {0, may_exceed ? 4.0 : 1.0}, stroke.amount));
+    RELIEVO_CHECK(read_number("softness", {.05, 1}, stroke.softness));
+    if (!json_.contains("radius")) return fail("expected a radius in the units of the scan");
+    RELIEVO_CHECK(read_number("radius", {1e-9, 1e9}, stroke.radius));
+    RELIEVO_CHECK(read_points(stroke.points));
+    return stroke;
+  }
+
+ private:
+  struct Range {
+    double least, most;
+  };
+  static constexpr std::array<std::string_view, 7> keys{"brush",  "amount", "radius", "softness",
+                                                        "points", "name",   "muted"};
+
+  std::unexpected<Error> fail(std::string expected) const {
+    return option_error("strokes", cat("stroke ", number_ + 1, ": ", expected));
+  }
+
+  Result<void> read_words(Stroke& stroke) const {
+    const Json brush = json_.value("brush", Json()), name = json_.value("name", Json("")),
+               muted = json_.value("muted", Json(false));
+    const Result<Brush> known = parse_choice({}, brush.is_string() ? brush.get<std::string>() : "", brushes);
+    if (!known) return fail(cat("expected ", either(names_of(brushes)), " as brush", found(brush)));
+    if (!name.is_string()) return fail(cat("expected a text as name", found(name)));
+    if (!muted.is_boolean()) return fail(cat("expected muted to be true or false", found(muted)));
+    stroke.brush = *known;
+    stroke.name = name.get<std::string>();
+    stroke.is_muted = muted.get<bool>();
+    return {};
+  }
+
+  Result<void> read_number(const char* key, Range range, double& to) const {
+    const auto value = json_.find(key);
+    if (value == json_.end()) return {};
+    if (value->is_number()) to = value->get<double>();
+    if (value->is_number() && to >= range.least && to <= range.most) return {};
+    return fail(cat("expected ", key, " from ", range.least, " to ", range.most, found(*value)));
+  }
+
+  Result<void> read_points(std::vector<Vec3>& to) const {
+    const Json points = json_.value("points", Json());
+    if (!points.is_array() || points.empty() || points.size() > most_stroke_points)
+      return fail(cat("expected 1 to ", most_stroke_points, " points [x, y, z]", found(points)));
+    for (const Json& point : points) {
+      const bool is_point = point.is_array() && point.size() == 3 &&
+                            std::ranges::all_of(point, [](const Json& x) { return x.is_number(); });
+      if (!is_point) return fail(cat("expected a point [x, y, z]", found(point)));
+      to.emplace_back(point[0].get<double>(), point[1].get<double>(), point[2].get<double>());
+    }
+    return {};
+  }
+
+  const Json& json_;
+  std::size_t number_;
+};
+
+}  // namespace
+
+Result<Strokes> parse_strokes(std::string_view text) {
+  if (text.empty()) return Strokes();
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded())
+    return option_error("strokes",
+                        cat("expected strokes in JSON, found text that is none at ", json_error_place(text)));
+  if (!json.is_array() || json.size() > most_strokes)
+    return option_error("strokes",
+                        cat("expected a JSON array of at most ", most_strokes, " strokes", found(json)));
+  Strokes strokes;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    RELIEVO_TRY(Stroke stroke, StrokeReader(json[i], i).read());
+    strokes.push_back(std::move(stroke));
+  }
+  return strokes;
+}
+
+}  // namespace relievo

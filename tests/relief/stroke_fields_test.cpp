@@ -1,0 +1,281 @@
+#include "relief/stroke_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/height_span.h"
+#include "relievo/relief/frame.h"
+#include "relievo/relief/weights.h"
+#include "support/shapes.h"
+#include "support/surfaces.h"
+
+namespace relievo {
+namespace {
+
+using test::surface_of;
+
+// Returns a level square of side 2.
+Surface square(std::size_t points = 20000) {
+  return surface_of(test::height_field(
+      points, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
+}
+
+Stroke dab(Brush brush, const Vec3& at, double radius = .3, double amount = 1) {
+  return {.name = {}, .brush = brush, .amount = amount, .radius = radius, .points = {at}};
+}
+
+template <typename Real = double>
+std::vector<Real> applied(const Surface& surface, const Strokes& strokes, std::vector<Real> z,
+                          double height = 1) {
+  StrokeFields<Real> fields(surface);
+  fields.take(strokes);
+  fields.apply(height, std::span<Real>(z));
+  return z;
+}
+
+double profile(double distance, double radius) {
+  const double x = distance / radius;
+  return x < 1 ? (1 - x * x) * (1 - x * x) : 0;
+}
+
+// Returns the place of a point of the surface in the scan's coordinates.
+Vec3 place_of(const Surface& surface, Index i) {
+  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
+}
+
+TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
+  const Surface surface = square();
+  Stroke stroke = dab(Brush::raise, {-.4, .1, 0}, .25);
+  stroke.points.emplace_back(.4, .1, 0);
+  const StrokeMask mask = stroke_mask(surface, stroke);
+  std::vector<float> weights(surface.points.size(), 0);
+  for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
+  for (Index i = 0; i < weights.size(); ++i) {
+    const Vec3 p = place_of(surface, i);
+    const double beyond = std::max(0.0, std::abs(p.x()) - .4);
+    EXPECT_NEAR(weights[i], profile(std::hypot(beyond, p.y() - .1), .25), 1e-6) << p.transpose();
+  }
+}
+
+TEST(StrokeMask, IsFullInsideAHardStroke) {
+  const Surface surface = square();
+  Stroke stroke = dab(Brush::raise, {0, 0, 0}, .4);
+  stroke.softness = .25;
+  const StrokeMask mask = stroke_mask(surface, stroke);
+  for (std::size_t k = 0; k < mask.points.size(); ++k)
+    if (place_of(surface, mask.points[k]).norm() < .29) {
+      EXPECT_FLOAT_EQ(mask.weights[k], 1);
+    }
+  EXPECT_GT(mask.points.size(), 20000 * std::numbers::pi * .16 / 4 * .95);
+}
+
+TEST(StrokeMask, BelongsToTheModelInEveryView) {
+  const Cloud ball = test::sphere(40000, 1);
+  const Vec3 at = Vec3(.2, .3, .93).normalized();
+  for (const Vec2& turn_deg : {Vec2(0, 0), Vec2(20, 0), Vec2(-25, 10), Vec2(15, -20), Vec2(0, 30)}) {
+    const Mat3 turn = (Eigen::AngleAxisd(turn_deg.x() / 57.3, Vec3::UnitY()) *
+                       Eigen::AngleAxisd(turn_deg.y() / 57.3, Vec3::UnitX()))
+                          .toRotationMatrix();
+    View view;
+    view.R_view_model = turn;
+    const Surface surface = surface_of(ball, view);
+    const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, at));
+    ASSERT_GT(mask.points.size(), 400U);
+    for (std::size_t k = 0; k < mask.points.size(); ++k)
+      EXPECT_NEAR(mask.weights[k], profile((place_of(surface, mask.points[k]) - at).norm(), .3), .01);
+  }
+}
+
+TEST(StrokeMask, IsEmptyWhereTheViewShowsNothingOfTheLine) {
+  const Surface front = surface_of(test::sphere(20000, 1));
+  EXPECT_TRUE(stroke_mask(front, dab(Brush::raise, {0, 0, -1})).points.empty());
+  EXPECT_TRUE(stroke_mask(front, Stroke{.name = {}, .radius = 1}).points.empty());
+}
+
+TEST(StrokeMask, DoesNotReachAcrossADepthJump) {
+  // A square before another: they are near each other in the view plane alone, or within the radius.
+  Cloud cloud = test::height_field(
+      40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; }, [](double, double) { return Vec2(0, 0); });
+  const Surface surface = surface_of(cloud);
+  const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, {-.1, 0, .25}, .5));
+  ASSERT_GT(mask.points.size(), 1000U);
+  for (const Index i : mask.points) EXPECT_LT(place_of(surface, i).x(), .02);
+}
+
+TEST(StrokeFields, RaiseAndSinkByAShareOfTheHeight) {
+  const Surface surface = square();
+  const std::vector<double> z(surface.points.size(), .5);
+  const auto changed = applied(
+      surface, {dab(Brush::raise, {.3, .3, 0}, .2, .1), dab(Brush::sink, {-.4, -.4, 0}, .3, .05)}, z, 2);
+  for (Index i = 0; i < z.size(); ++i) {
+    const Vec3 p = place_of(surface, i);
+    EXPECT_NEAR(changed[i],
+                .5 + .2 * profile((p - Vec3(.3, .3, 0)).norm(), .2) -
+                    .1 * profile((p - Vec3(-.4, -.4, 0)).norm(), .3),
+                1e-6);
+  }
+}
+
+TEST(StrokeFields, KeepEveryHeightOutside) {
+  const Surface surface = surface_of(test::sphere(30000, 1));
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(.1 * (p.z() + 1) + .01 * std::sin(30 * p.x()));
+  const Vec3 at(.2, .1, std::sqrt(1 - .05));
+  for (const auto& [word, brush] : brushes) {
+    const auto changed = applied(surface, {dab(brush, at)}, z, .2);
+    double most = 0;
+    for (Index i = 0; i < z.size(); ++i) {
+      const bool is_inside = (place_of(surface, i) - at).norm() < .3;
+      EXPECT_TRUE(is_inside || changed[i] == z[i]) << word;
+      most = std::max(most, std::abs(changed[i] - z[i]));
+    }
+    EXPECT_GT(most, 1e-4) << word;
+  }
+}
+
+TEST(StrokeFields, LevelToTheMean) {
+  const Surface surface = square();
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(1 + .3 * p.x());
+  Stroke stroke = dab(Brush::level, {.2, 0, 0}, .4);
+  stroke.softness = .05;
+  const auto changed = applied(surface, {stroke}, z);
+  for (Index i = 0; i < z.size(); ++i) {
+    const double distance = (place_of(surface, i) - Vec3(.2, 0, 0)).norm();
+    if (distance < .37) {
+      EXPECT_NEAR(changed[i], 1.06, .002);
+    }
+  }
+}
+
+// Two solves of half the variance each pass 1 / (1 + sigma^2 k^2 / 4)^2 of a wave of that length.
+TEST(StrokeFields, BlurWavesAsTheirTransferFunctionSays) {
+  const Surface surface = square(80000);
+  for (const auto& [brush, sigma, sign] :
+       {std::tuple(Brush::soften, 2 * narrow_blur, -1), std::tuple(Brush::sharpen, 2 * narrow_blur, 1),
+        std::tuple(Brush::strengthen, 2 * wide_blur, 1)}) {
+    const double k = 1 / sigma;
+    std::vector<double> z;
+    for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(k * p.x()));
+    Stroke stroke = dab(brush, {0, 0, 0}, .8);
+    stroke.softness = .3;
+    const auto changed = applied(surface, {stroke}, z);
+    const double removed = 1 - 1 / std::pow(1 + sigma * sigma * k * k / 4, 2);
+    double product = 0, square_sum = 0;
+    for (Index i = 0; i < z.size(); ++i) {
+      if (surface.points[i].norm() > .4) continue;
+      product += (changed[i] - 1) * (z[i] - 1);
+      square_sum += (z[i] - 1) * (z[i] - 1);
+    }
+    EXPECT_NEAR(product / square_sum, 1 + sign * removed, .06 * removed);
+  }
+}
+
+TEST(StrokeFields, ChangeNothingWhenMuted) {
+  const Surface surface = square();
+  const std::vector<double> z(surface.points.size(), .5);
+  Stroke stroke = dab(Brush::raise, {0, 0, 0});
+  stroke.is_muted = true;
+  EXPECT_EQ(applied(surface, {stroke}, z), z);
+  EXPECT_EQ(applied(surface, {}, z), z);
+}
+
+TEST(StrokeFields, AreThoseOfTheLastStrokesAlone) {
+  const Surface surface = square();
+  const Strokes first{dab(Brush::raise, {0, 0, 0}), dab(Brush::soften, {.5, 0, 0})},
+      last{dab(Brush::raise, {0, 0, 0}), dab(Brush::level, {-.5, 0, 0})};
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(20 * p.x()));
+  StrokeFields<double> fields(surface);
+  std::vector<double> twice = z;
+  fields.take(first);
+  fields.apply(1, std::span<double>(twice));
+  twice = z;
+  fields.take(last);
+  fields.apply(1, std::span<double>(twice));
+  EXPECT_EQ(twice, applied(surface, last, z));
+}
+
+TEST(StrokeFields, NeverFallBelowTheBase) {
+  const Surface surface = square();
+  const auto changed =
+      applied(surface, {dab(Brush::sink, {0, 0, 0})}, std::vector<double>(surface.points.size(), .2));
+  EXPECT_GE(*std::ranges::min_element(changed), 0);
+}
+
+TEST(StrokeFields, AgreeInBothPrecisions) {
+  const Surface surface = surface_of(test::sphere(20000, 1));
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(.1 * (p.z() + 1) + .01 * std::sin(30 * p.x()));
+  const Strokes strokes{dab(Brush::sharpen, {0, 0, 1}), dab(Brush::strengthen, {.3, 0, .95}),
+                        dab(Brush::level, {-.3, 0, .95})};
+  const auto exact = applied<double>(surface, strokes, z, .2);
+  const auto quick = applied<float>(surface, strokes, {z.begin(), z.end()}, .2);
+  for (std::size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(quick[i], exact[i], 1e-6);
+}
+
+// Returns the layered shape with strokes beside the highest point of bumps.
+Shape painted(const Strokes& strokes) {
+  Shape shape = layered_shape();
+  shape.strokes.list = std::make_shared<const Strokes>(strokes);
+  return shape;
+}
+
+FrameOptions options_of(const Shape& shape) {
+  FrameOptions options;
+  options.shape = shape;
+  return options;
+}
+
+const Strokes beside_the_top{dab(Brush::sharpen, {.3, -.9, .3}, .2),
+                             dab(Brush::sink, {-.5, .4, -.8}, .2, .2)};
+
+TEST(StrokesOfReliefs, MoveNothingElseAndKeepTheHeight) {
+  const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
+  const Relief plain = value_of(model.make_at_height(.2, layered_shape(), 1)),
+               changed = value_of(model.make_at_height(.2, painted(beside_the_top), 1));
+  EXPECT_DOUBLE_EQ(changed.height, .2);
+  EXPECT_EQ(height_span(changed.heights), .2);
+  std::vector<std::uint8_t> is_painted(plain.heights.size(), 0);
+  for (const Stroke& stroke : beside_the_top)
+    for (const Index i : stroke_mask(model.surface(), stroke).points) is_painted[i] = 1;
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < plain.heights.size(); ++i) {
+    if (!is_painted[i]) {
+      EXPECT_NEAR(changed.heights[i], plain.heights[i], 1e-12);
+    }
+    moved += is_painted[i] && std::abs(changed.heights[i] - plain.heights[i]) > 1e-4;
+  }
+  EXPECT_GT(moved, 100U);
+}
+
+TEST(StrokesOfReliefs, KeepTheHeightOfARaisedTop) {
+  const ReliefModel model = test::prepared(test::sphere(10000, 1));
+  const Relief raised =
+      value_of(model.make_at_height(.2, painted({dab(Brush::raise, {0, 0, 1}, .3, .5)}), 1));
+  EXPECT_DOUBLE_EQ(raised.height, .2);
+  EXPECT_EQ(height_span(raised.heights), .2);
+}
+
+TEST(StrokesOfReliefs, AreThoseOfFrames) {
+  const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
+  const Relief relief = model.make(painted(beside_the_top));
+  FrameMaker frames(model);
+  Frame frame;
+  frames.make(options_of(painted(beside_the_top)), frame);
+  EXPECT_NEAR(frame.height, relief.height, 1e-4 * relief.height);
+  for (std::size_t i = 0; i < relief.heights.size(); ++i)
+    EXPECT_NEAR(frame.heights[i], relief.heights[i], 2e-3 * relief.height);
+  // Without strokes the frame is that of a model on which nothing was painted.
+  frames.make(options_of(layered_shape()), frame);
+  Frame plain;
+  FrameMaker(model).make(options_of(layered_shape()), plain);
+  EXPECT_EQ(frame.heights, plain.heights);
+}
+
+}  // namespace
+}  // namespace relievo
