@@ -112,8 +112,8 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
-// Checks that the model was prepared for the method of the options, see ReliefModel::serves(). Errors: kind
-// option.
+// Checks that the model was prepared for the method of the options, see ReliefModel::serves(), and that the
+// surface has colours if lines shall sink. Errors: kind option.
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
 
 // Checks that the bevel of the options' rim leans at least as much as the draft angle requires, for a relief
@@ -128,8 +128,8 @@ Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Pro
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Returns the shape that the options ask for. If the relief must have a given or the usual height, the search
-// for that height starts from this shape.
-Shape shape_of(const ReliefOptions& options);
+// for that height starts from this shape. The depth of lines is in units of `mm_per_unit` millimetres.
+Shape shape_of(const ReliefOptions& options, double mm_per_unit = 1);
 
 // Returns the options with a width: the given width; without one, the largest width with which the relief,
 // margin and rim included, fits into a plate of the given size; without a size, the default. make_relief()

@@ -29,6 +29,7 @@ struct NumericOptions {
   std::optional<double> saturation;      // the paper's beta; see effective_saturation()
   std::optional<double> detail;          // the paper's gamma; see effective_detail()
   std::optional<double> steepest_deg;    // largest target slope; 76
+  double colour_mm = 0;                  // depth of lines that are dark in the scan
   std::optional<double> draft_deg;       // least angle of every triangle to the vertical; any
   std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height for depth jumps, see Shape

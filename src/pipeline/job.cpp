@@ -63,7 +63,7 @@ struct LiveModel::State {
   // Returns the options of a frame. The tone curve object is reused as long as its points are the same, so
   // that equal frames compare as equal.
   FrameOptions frame_options(const ReliefOptions& options) {
-    FrameOptions wanted{shape_of(options), std::nullopt, nullptr};
+    FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side), std::nullopt, nullptr};
     wanted.shape.boundary_width *= shown.spacing_ratio;
     if (!options.tone) return wanted;
     if (!curve || curve->points() != options.tone->points()) curve = wanted.shape.compression.curve;

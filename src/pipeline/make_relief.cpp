@@ -157,14 +157,15 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
 // for the usual height, the slopes stay uncompressed, and the height follows from them. For a given height
 // that is an error.
 Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
+  const double scale = mm_per_unit(model.surface(), options);
   const bool is_usual = !options.height_mm && options.effective_height_mm();
   options.height_mm = options.effective_height_mm();
-  Result<Relief> relief = shape_relief(model, options, shape_of(options), progress);
+  Result<Relief> relief = shape_relief(model, options, shape_of(options, scale), progress);
   const bool is_too_high = !relief && relief.error().kind == ErrorKind::geometry;
   if (!is_usual || !is_too_high || !has_shape(options.effective_method())) return relief;
   options.method = options.effective_method();
   options.height_mm.reset();
-  Result<Relief> highest = shape_relief(model, options, uncompressed(shape_of(options)), progress);
+  Result<Relief> highest = shape_relief(model, options, uncompressed(shape_of(options, scale)), progress);
   return highest ? std::move(highest) : std::move(relief);
 }
 
@@ -223,7 +224,7 @@ ScanReport ScanReport::of(const Surface& surface) {
   return report;
 }
 
-Shape shape_of(const ReliefOptions& options) {
+Shape shape_of(const ReliefOptions& options, double mm_per_unit) {
   Shape shape{Compression::from_alpha(options.effective_alpha(), options.effective_saturation()),
               options.effective_detail()};
   shape.style = default_shape(options.effective_method()).style;
@@ -233,6 +234,7 @@ Shape shape_of(const ReliefOptions& options) {
   shape.steps = options.steps;
   shape.planes = options.effective_planes();
   if (options.tone) shape.compression.curve = std::make_shared<const ToneCurve>(*options.tone);
+  shape.line_depth = options.colour_mm / mm_per_unit;
   if (!options.strokes.empty()) shape.strokes.list = std::make_shared<const Strokes>(options.strokes);
   return shape;
 }
@@ -262,6 +264,8 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
 
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options) {
   const Method method = options.effective_method();
+  if (options.colour_mm > 0 && model.surface().colours.empty())
+    return option_error("colour", "expected a scan with colours, found one without");
   if (model.serves(method)) return {};
   return option_error("method",
                       cat("expected ", model.paper() ? "paper" : cat("another than ", name_of(method)),

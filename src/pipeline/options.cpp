@@ -31,10 +31,11 @@ Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
   if (method != Method::paper && options.alpha)
     return option_error("alpha", cat("expected method paper with it, found ", name_of(method)));
-  const bool has_more = options.tone || options.steps > 0 || options.planes || !options.strokes.empty();
+  const bool has_more = options.tone || options.steps > 0 || options.planes || !options.strokes.empty() ||
+                        options.colour_mm > 0;
   if (method == Method::paper && has_more)
-    return option_error("method",
-                        "expected none of tone, steps, planes and strokes with method paper, found some");
+    return option_error(
+        "method", "expected none of tone, steps, planes, colour and strokes with method paper, found some");
   const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
                          options.boundary_width || options.tone || options.steps > 0 || options.planes;
   if (is_shaped && !has_shape(method))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/quantile.h"
+#include "core/srgb.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/solid.h"
 #include "relievo/scan/surface.h"
@@ -21,15 +22,6 @@ namespace {
 // tenth of the points if these are darker still.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
-
-// Returns the relative luminance of an sRGB colour (IEC 61966-2-1, Rec. 709 weights).
-double luminance(const Colour& colour) {
-  const auto linear = [](std::uint8_t value) {
-    const double v = value / 255.0;
-    return v <= .04045 ? v / 12.92 : std::pow((v + .055) / 1.055, 2.4);
-  };
-  return .2126 * linear(colour[0]) + .7152 * linear(colour[1]) + .0722 * linear(colour[2]);
-}
 
 // Returns the brightness of a white surface under a large lamp at the upper left. The lamp's light goes
 // around edges, so that surfaces that face away still show their form.

@@ -7,6 +7,7 @@
 
 #include "core/memory.h"
 #include "core/stopwatch.h"
+#include "relief/colour_lines.h"
 #include "relief/height_search.h"
 #include "relief/own_heights.h"
 #include "relief/paper_frames.h"
@@ -40,6 +41,7 @@ struct OwnFrames {
   SolverWorkspace workspace = make_workspace(model);
   OwnHeights::Workspace<float> own_workspace = {};
   StrokeFields<float> strokes{surface};
+  std::optional<std::vector<float>> lines = {};  // dark_lines(), once they are wanted
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
@@ -164,6 +166,13 @@ struct OwnFrames {
     if (height > 0 && height != frame.height) scale(heights, frame.height / height);
   }
 
+  void sink_lines(RaisedHeights<float>& heights, const Shape& shape) {
+    if (!(shape.line_depth > 0)) return;
+    if (!lines) lines = dark_lines(surface);
+    relievo::sink_lines<float>(*lines, shape.line_depth, heights.z);
+    heights.span = heights.measured();
+  }
+
   void finish(Frame& frame) {
     const auto workspace_of_correction = [&]() -> HeightCorrection::Workspace& {
       return correction_workspace;
@@ -176,6 +185,7 @@ struct OwnFrames {
         heights.span = heights.measured();
       }
       apply_strokes(heights, frame);
+      sink_lines(heights, frame.options.shape);
       if (const std::vector<float>* base = frame.options.base.get())
         heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "relief/colour_lines.h"
 #include "relief/height_search.h"
 #include "relief/stroke_fields.h"
 #include "relievo/core/choice.h"
@@ -51,7 +52,9 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
   if (!(relief.height > 0)) return out_of_reach(0, height * unit_mm);
   give_own_heights(model, relief);
   relief.shape.strokes = shape.strokes;
+  relief.shape.line_depth = shape.line_depth;
   apply_strokes(model.surface(), relief);
+  sink_lines(model.surface(), relief);
   return relief;
 }
 

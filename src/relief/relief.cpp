@@ -6,6 +6,7 @@
 
 #include "core/height_span.h"
 #include "paper/surface.h"
+#include "relief/colour_lines.h"
 #include "relief/correction/height_correction.h"
 #include "relief/height_search.h"
 #include "relief/own_heights.h"
@@ -224,6 +225,7 @@ class ReliefModel::Maker {
     relief.height = heights.height;
     give_own_heights(model_, relief);
     apply_strokes(model_.surface(), relief);
+    sink_lines(model_.surface(), relief);
   }
 
  private:

@@ -1,0 +1,82 @@
+#include "relief/colour_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/height_span.h"
+#include "core/srgb.h"
+#include "relievo/relief/weights.h"
+#include "relievo/scan/surface.h"
+#include "scan/surface_blur.h"
+
+namespace relievo {
+namespace {
+
+// Standard deviations of the Gaussians as shares of the longer side. The narrow one removes the noise of colours, and
+// is at least one and a half sampling distances wide.
+constexpr double narrow = .0025, wide = .025, least_narrow_rho = 1.5;
+// By how much lines are darker than what is around them, as a share of the range of lightness.
+constexpr float least_darker = .04F, most_darker = .12F;
+
+std::vector<Vec2f> blurred(const Surface& surface, std::vector<Vec2f> values, double sigma) {
+  SurfaceBlur(surface.points, sigma).apply(values);
+  return values;
+}
+
+// Lowers z times `factor`. Returns the highest height and the number of its point.
+template <typename Real>
+std::pair<double, std::size_t> lowered(std::span<const float> lines, double depth, double factor,
+                                       std::span<const Real> z, std::span<Real> to) {
+  std::pair<double, std::size_t> top{0, 0};
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const Real deep = static_cast<Real>(depth) * static_cast<Real>(lines[i]);
+    to[i] = std::max(static_cast<Real>(factor) * z[i] - deep, std::min(z[i], Real(0)));
+    if (static_cast<double>(to[i]) > top.first) top = {static_cast<double>(to[i]), i};
+  }
+  return top;
+}
+
+}  // namespace
+
+std::vector<float> dark_lines(const Surface& surface) {
+  if (surface.colours.empty()) return {};
+  std::vector<Vec2f> light;
+  for (const Colour& colour : surface.colours) light.emplace_back(static_cast<float>(lightness(colour)), 0);
+  const double side = surface.longer_side();
+  const auto near = blurred(surface, light, std::max(narrow * side, least_narrow_rho * surface.rho));
+  const auto around = blurred(surface, light, wide * side);
+  std::vector<float> lines = boundary_weights(surface.boundary.distance, surface.rho);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const float darker = around[i].x() - near[i].x();
+    const float t = std::clamp((darker - least_darker) / (most_darker - least_darker), 0.F, 1.F);
+    lines[i] *= t * t * (3 - 2 * t);
+  }
+  return lines;
+}
+
+template <typename Real>
+void sink_lines(std::span<const float> lines, double depth, std::span<Real> z) {
+  if (lines.empty() || !(depth > 0)) return;
+  const std::vector<Real> before(z.begin(), z.end());
+  const double wanted = static_cast<double>(span_of(std::span<const Real>(before)).highest);
+  // The top is a convex, piecewise linear function of the factor: Newton's method ends after a few steps.
+  constexpr int most_steps = 8;
+  constexpr double tolerance = 1e-6;
+  double factor = 1;
+  for (int step = 0; step < most_steps; ++step) {
+    const auto [top, i] = lowered<Real>(lines, depth, factor, before, z);
+    const auto slope = static_cast<double>(before[i]);
+    if (std::abs(top - wanted) <= tolerance * wanted || !(slope > 0)) return;
+    factor += (wanted - top) / slope;
+  }
+}
+
+template void sink_lines(std::span<const float>, double, std::span<float>);
+template void sink_lines(std::span<const float>, double, std::span<double>);
+
+void sink_lines(const Surface& surface, Relief& relief) {
+  if (relief.shape.line_depth > 0)
+    sink_lines<double>(dark_lines(surface), relief.shape.line_depth, relief.heights);
+}
+
+}  // namespace relievo
