@@ -121,6 +121,7 @@ inline constexpr std::array foreign_names = {
     ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
     ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},
     ForeignFormat{".sog", "packed Gaussian splats (SOG); SuperSplat exports them as PLY"},
+    ForeignFormat{".npz", "a NumPy archive; np.save writes one of its arrays as NPY"},
     ForeignFormat{".usdz", "a USD file; Blender exports it as glTF or PLY"},
     ForeignFormat{".usd", "a USD file; Blender exports it as glTF or PLY"},
     ForeignFormat{".usdc", "a USD file; Blender exports it as glTF or PLY"},
@@ -136,7 +137,7 @@ inline constexpr std::array foreign_names = {
 
 inline constexpr std::array foreign_contents = {
     ForeignFormat{"\x89PNG", "a PNG picture"},
-    ForeignFormat{"\xFF\xD8\xFF", "a JPEG picture; save it as PNG"},
+    ForeignFormat{"\xFF\xD8\xFF", "a JPEG picture"},
     ForeignFormat{"II*", "a TIFF picture"},
     ForeignFormat{"MM", "a TIFF picture"},
     ForeignFormat{"\x93NUMPY", "a NumPy file"},

@@ -4,6 +4,7 @@
 
 #include "core/lists.h"
 #include "io/formats.h"
+#include "io/pictures/jpeg_header.h"
 #include "io/pictures/pictures.h"
 #include "io/ply.h"
 #include "io/text.h"
@@ -110,11 +111,20 @@ ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
   return size;
 }
 
-// Returns the number of pixels of a picture. The first chunk of a PNG states it. A TIFF may state it anywhere
-// in the file, so it is estimated as one pixel per byte.
+// Returns the number of pixels that the beginning of a picture states; 0 if it states none.
+std::uint64_t stated_pixels(const io::Source& head) {
+  if (io::is_png(head) && head.bytes.size() >= 24)
+    return big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);
+  if (!io::is_jpeg(head)) return 0;
+  const io::JpegHeader header = io::find_jpeg_header(head.bytes);
+  return header.width * header.height;
+}
+
+// Returns the number of pixels of a picture. A TIFF may state it anywhere in the file, so it is estimated as one
+// pixel per byte.
 ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
-  if (!io::is_png(head) || head.bytes.size() < 24) return {0, 0, file_bytes};
-  const std::uint64_t pixels = big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);
+  const std::uint64_t pixels = stated_pixels(head);
+  if (pixels == 0) return {0, 0, file_bytes};
   return {0, 0, std::min({pixels, file_bytes * io::best_packing, std::uint64_t{io::most_pixels}}), true};
 }
 
