@@ -45,8 +45,9 @@ bool is_text(const Source& source);
 //   scene, transformed by its nodes or posed by their skins; without nodes, of all meshes. Vertices without
 //   colours have those of the texture of base colours. Numbers may be quantised, and
 //   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
-// - 3MF: the meshes of the build, moved by its transforms and those of components; without colours. This is
-//   the document in the archive, and other documents beside it.
+// - 3MF: the meshes of the build, moved by its transforms and those of components, with the colours of base
+//   materials and colour groups, but without textures. This is the document in the archive, and other documents
+//   beside it.
 // - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y
 //   normal_z and rgb.
 // - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS

@@ -132,8 +132,15 @@ ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
 
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside) {
-  const io::Source source{
-      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, beside ? &beside : nullptr};
+  return read_cloud(bytes, name, ReadOptions{beside});
+}
+
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
+                             const ReadOptions& options) {
+  const io::Source source{{reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                          name,
+                          options.beside ? &options.beside : nullptr,
+                          options.keeps_doubtful};
   RELIEVO_TRY(auto raw, read_by_format(source));
   CloudFile file{.cloud = std::move(raw.cloud),
                  .format = std::move(raw.format),
@@ -150,6 +157,24 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
                                 : cat("expected points, found none with finite coordinates among ", points));
   }
   return file;
+}
+
+std::vector<std::string> remarks_on(const CloudFile& file) {
+  std::vector<std::string> lines;
+  if (file.missing_points > 0)
+    lines.push_back(
+        cat("the file ends early; ", file.missing_points, " points that its header promises are missing"));
+  if (file.dropped_points > 0)
+    lines.push_back(cat("left out ", file.dropped_points, " points with coordinates that are not finite"));
+  if (file.unmeasured_points > 0)
+    lines.push_back(cat("left out ", file.unmeasured_points,
+                        " points at 0, 0, 0, as devices write what they have not measured"));
+  lines.insert(lines.end(), file.remarks.begin(), file.remarks.end());
+  // A mesh keeps its points, even with unusable normals.
+  if (file.dropped_normals > 0 && file.mesh.empty())
+    lines.push_back(cat("left out ", file.dropped_normals,
+                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
+  return lines;
 }
 
 ScanSize scan_size(std::span<const std::byte> head, std::string_view name, std::uint64_t file_bytes) {

@@ -48,6 +48,20 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
+struct ReadOptions {
+  FilesBeside beside = {};
+  // Reads also points that the file itself marks as noise or withheld (LAS), and splats that are less than half
+  // opaque.
+  bool keeps_doubtful = false;
+};
+
+// As above.
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
+                             const ReadOptions& options);
+
+// Returns lines for people about the points and normals of a file that were left out, its remarks among them.
+std::vector<std::string> remarks_on(const CloudFile& file);
+
 // Returns true for the beginning of a picture, an array or a table of heights.
 bool is_picture(std::span<const std::byte> bytes);
 
