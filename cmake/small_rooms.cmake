@@ -28,3 +28,8 @@ relievo_compiler_options(relievo_small)
 relievo_fast_build(relievo_small)
 target_link_libraries(relievo PRIVATE relievo_small)
 set(RELIEVO_PRECOMPILED relievo_small)
+
+# This source jumps, which the other sources need no instructions for.
+set_source_files_properties(src/io/pictures/depth_jpeg.cpp PROPERTIES
+  COMPILE_OPTIONS "-mllvm;-wasm-enable-sjlj" INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/apps/web/libc
+  SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)

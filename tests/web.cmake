@@ -2,7 +2,8 @@
 # own, exceptions (as RapidCheck does) or a second library.
 set(RELIEVO_GTEST_SOURCE /usr/src/googletest/googletest CACHE PATH "Sources of GoogleTest, of Debian's package googletest")
 add_library(relievo_gtest STATIC ${RELIEVO_GTEST_SOURCE}/src/gtest-all.cc ${RELIEVO_GTEST_SOURCE}/src/gtest_main.cc
-  ${PROJECT_SOURCE_DIR}/apps/web/libc/exceptions.cpp)
+  ${PROJECT_SOURCE_DIR}/apps/web/libc/exceptions.cpp ${PROJECT_SOURCE_DIR}/apps/web/libc/setjmp.cpp)
+set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/web/libc/setjmp.cpp PROPERTIES COMPILE_OPTIONS -mexception-handling)
 target_include_directories(relievo_gtest SYSTEM PUBLIC ${RELIEVO_GTEST_SOURCE}/include PRIVATE ${RELIEVO_GTEST_SOURCE})
 target_compile_definitions(relievo_gtest PUBLIC GTEST_HAS_PTHREAD=0 GTEST_HAS_EXCEPTIONS=0 GTEST_HAS_STREAM_REDIRECTION=0
   GTEST_HAS_DEATH_TEST=0 GTEST_HAS_FILE_SYSTEM=0 GTEST_HAS_RTTI=0)

@@ -23,8 +23,8 @@ std::string absolute_path(const fs::path& path) {
 }
 
 bool is_picture_name(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == "png" || ending == "tif" || ending == "tiff" || ending == "bmp";
+  constexpr std::array endings = {"png", "tif", "tiff", "bmp", "jpg", "jpeg"};
+  return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
 bool is_scan_name(const std::string& path) {

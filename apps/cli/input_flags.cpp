@@ -18,7 +18,8 @@ void add_input_flags(CLI::App& command, InputTexts& texts) {
 
 Result<InputArguments> parse_input_texts(const InputTexts& texts) {
   RELIEVO_TRY(const DepthOptions depth, parse_depth(texts.depth));
-  return InputArguments{depth, texts.camera, texts.stream_above_mb, true};
+  RELIEVO_TRY(const bool keeps_doubtful, parse_doubtful(texts.depth));
+  return InputArguments{depth, texts.camera, texts.stream_above_mb, true, keeps_doubtful};
 }
 
 void add_scene_flags(CLI::App& command, SceneArguments& arguments) {

@@ -64,7 +64,7 @@ bool is_text(const std::string& ending) {
 // Returns whether the file is a model and not a licence, a texture or a preview, which often lie beside
 // models.
 bool is_model(const std::string& name) {
-  constexpr std::array pictures = {"png", "tif", "tiff"};
+  constexpr std::array pictures = {"png", "tif", "tiff", "jpg", "jpeg"};
   const std::string ending = ending_of(name);
   return is_readable(name) && !is_text(ending) && std::ranges::find(pictures, ending) == pictures.end();
 }

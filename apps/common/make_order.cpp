@@ -76,8 +76,11 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
 }
 
 InputFacts facts_of(const LoadedOrder& loaded) {
+  std::vector<std::string> left_out;
+  for (const SceneModel& model : loaded.scene.models)
+    for (const std::string& line : remarks_on(*model.file)) left_out.push_back(cat(model.name, ": ", line));
   return {loaded.name, loaded.paths(), remarks_of(loaded.scene),
-          models_report(loaded.scene, loaded.options.view)};
+          models_report(loaded.scene, loaded.options.view), std::move(left_out)};
 }
 
 void FinishedRelief::end(Progress& progress) {

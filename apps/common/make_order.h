@@ -63,6 +63,8 @@ struct InputFacts {
   std::string name;
   std::vector<std::string> paths, remarks;  // paths: files that must not be overwritten
   nlohmann::json models;
+  std::vector<std::string> left_out =
+      {};  // those of the remarks that say what of a cloud or mesh is left out
 };
 
 InputFacts facts_of(const LoadedOrder& loaded);

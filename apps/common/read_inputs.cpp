@@ -26,24 +26,6 @@ std::string remark_on_missing(const std::string& path, std::uint64_t points) {
   return cat(path, ": the file ends early; ", points, " points that its header promises are missing");
 }
 
-// Returns sentences about the points and normals of a file that were left out.
-std::vector<std::string> remarks_on(const CloudFile& file, const std::string& path) {
-  std::vector<std::string> lines;
-  if (file.missing_points > 0) lines.push_back(remark_on_missing(path, file.missing_points));
-  if (file.dropped_points > 0)
-    lines.push_back(
-        cat(path, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
-  if (file.unmeasured_points > 0)
-    lines.push_back(cat(path, ": left out ", file.unmeasured_points,
-                        " points at 0, 0, 0, as devices write what they have not measured"));
-  for (const std::string& remark : file.remarks) lines.push_back(cat(path, ": ", remark));
-  // A mesh keeps its points, even with unusable normals.
-  if (file.dropped_normals > 0 && file.mesh.empty())
-    lines.push_back(cat(path, ": left out ", file.dropped_normals,
-                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
-  return lines;
-}
-
 Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
   if (camera.empty()) return std::nullopt;
   if (!is_there(camera)) return parse_camera(camera);
@@ -109,7 +91,8 @@ Result<std::optional<SceneModel>> read_large(const std::string& path, const Inpu
   FileSource source(path, *size);
   std::vector<std::byte> head(static_cast<std::size_t>(std::min<std::uint64_t>(*size, 1 << 20)));
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
-  RELIEVO_TRY(auto streamed, stream_front(source, path, seen.view, seen.points, progress));
+  RELIEVO_TRY(auto streamed,
+              stream_front(source, path, seen.view, {seen.points, arguments.keeps_doubtful}, progress));
   SceneModel input{path, nullptr};
   input.remarks.push_back(
       cat(path, ": ", streamed.cloud.size(), " points for the ", streamed.input_points, " of the file"));
@@ -154,16 +137,17 @@ View seen_by_model(const View& view, const Pose& pose) {
 }
 
 // Reads the only model of an archive, with the files of the archive that the model names.
-Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const std::string& path) {
+Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const std::string& path,
+                                      bool keeps_doubtful) {
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
   const Result<std::string> found = find_model(archive.names(), path);
   // Files of some formats, such as USDZ, are archives: the reader knows their names.
-  if (!found && ending_of(path) != "zip") return read_cloud(bytes, path);
+  if (!found && ending_of(path) != "zip") return read_cloud(bytes, path, ReadOptions{{}, keeps_doubtful});
   RELIEVO_TRY(const std::string model, found);
   RELIEVO_TRY(const std::vector<std::byte> content, archive.content(model));
   const std::string folder = model.substr(0, model.find_last_of('/') + 1);
-  return read_cloud(content, cat(path, "/", model),
-                    [&](const std::string& name) { return archive.content(folder + name); });
+  const auto beside = [&](const std::string& file) { return archive.content(folder + file); };
+  return read_cloud(content, cat(path, "/", model), ReadOptions{beside, keeps_doubtful});
 }
 
 // Returns the model of a picture whose brightness becomes the thickness of a lithophane.
@@ -183,11 +167,13 @@ bool is_scene_file(const std::string& path) {
   return ending_of(path) == "json";
 }
 
-Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path) {
-  if (is_archive(bytes)) return read_archived_cloud(bytes, path);
-  return read_cloud(bytes, path, [&](const std::string& name) {
+Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
+                                bool keeps_doubtful) {
+  if (is_archive(bytes)) return read_archived_cloud(bytes, path, keeps_doubtful);
+  const auto beside = [&](const std::string& name) {
     return read_file((std::filesystem::path(path).parent_path() / name).string());
-  });
+  };
+  return read_cloud(bytes, path, ReadOptions{beside, keeps_doubtful});
 }
 
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
@@ -206,8 +192,9 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
   if (is_picture(bytes)) return read_depths(bytes, path, arguments, points, progress);
-  RELIEVO_TRY(CloudFile file, read_cloud_at(bytes, path));
-  std::vector<std::string> remarks = remarks_on(file, path);
+  RELIEVO_TRY(CloudFile file, read_cloud_at(bytes, path, arguments.keeps_doubtful));
+  std::vector<std::string> remarks = remarks_on(file);
+  for (std::string& line : remarks) line = cat(path, ": ", line);
   return SceneModel{path, std::make_shared<const CloudFile>(std::move(file)), {}, std::move(remarks)};
 }
 

@@ -18,6 +18,7 @@ struct InputArguments {
   std::string camera;            // camera of a depth image: numbers, or a file with them
   double stream_above_mb = 512;  // larger files are read in blocks where that is possible
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
+  bool keeps_doubtful = false;   // as in ReadOptions
   bool is_lithophane = false;    // whether the brightness of a picture becomes thickness, not height
 };
 
@@ -29,7 +30,8 @@ struct PointsWanted {
 
 // Reads the bytes of a cloud or mesh as read_cloud() does, and the files beside `path` that it names. The
 // bytes may also be a ZIP archive with one cloud or mesh and the files that it names.
-Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path);
+Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
+                                bool keeps_doubtful = false);
 
 // Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera()
 // and depth_cloud().

@@ -22,8 +22,8 @@ struct Job {
   ReliefOptions options = {};
 };
 
-// Returns the job of one scan, whose file has these bytes and is called `name` in errors. Errors: those of
-// read_cloud().
+// Returns the job of one scan, whose file has these bytes and is called `name` in errors. The remarks of its model
+// say what of the file is left out. Errors: those of read_cloud().
 Result<Job> load(std::span<const std::byte> file, std::string_view name);
 
 // A frame of a live model. It is valid until the model makes the next frame.

@@ -21,7 +21,7 @@ namespace relievo {
 
 // The first stage of work that is repeated when an option changes. All later stages are repeated, too.
 enum class OptionStage {
-  input,     // a depth image is read
+  input,     // a file is read
   view,      // the visible points are prepared
   model,     // the system for the heights is prepared
   shape,     // the heights are found
@@ -99,5 +99,9 @@ Result<ReliefOptions> parse_options(const OptionValues& values);
 // Returns the options of depth images that the values ask for, without camera. Other options are ignored.
 // Errors: kind option, naming the option.
 Result<DepthOptions> parse_depth(const OptionValues& values);
+
+// Returns whether the values ask for doubtful points, see ReadOptions. Other options are ignored. Errors: kind option,
+// naming the option.
+Result<bool> parse_doubtful(const OptionValues& values);
 
 }  // namespace relievo

@@ -167,6 +167,7 @@ void add_relief(py::module_& module) {
       .def("faces", &faces)
       .def("colours", &colours)
       .def("report", [](const SharedRelief& relief) { return from_json(relief->report()); })
+      .def("left_out", [](const SharedRelief& relief) { return relief->inputs.left_out; })
       .def("remarks", [](const SharedRelief& relief) { return from_json(relief->remarks()); });
   module.def("make", &make);
   module.def("png", &png);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable
 from typing import Any, Optional, Union
 
@@ -143,11 +144,15 @@ def make(
     them a mesh.
 
     progress is called with the name of each stage and the fraction done, at last with "done" and 1. An exception that it
-    raises, and Ctrl-C, end the work and are passed on. Several threads may call this at the same time.
+    raises, and Ctrl-C, end the work and are passed on. Several threads may call this at the same time. What a file has
+    and the relief does not use, such as points that the file marks as noise, is told by a warning.
     """
     _options.check("make", options, _options.OF_MAKE)
     sources = _inputs.sources_of(source, normals, colours, faces)
-    return Relief(_native.make(sources, _options.texts(options), progress))
+    native = _native.make(sources, _options.texts(options), progress)
+    for line in native.left_out():
+        warnings.warn(line, stacklevel=2)
+    return Relief(native)
 
 
 def png(picture: Any) -> bytes:

@@ -48,6 +48,14 @@ class SameBytes(InFolder):
             with self.subTest(options=options):
                 self.same(flags, make("scan.ply", **options))
 
+    def test_of_a_file_with_a_warning_of_what_is_left_out(self):
+        np.savetxt("scan.xyz", np.vstack([scan().points, [np.nan, 0, 0]]))
+        told = r"^scan\.xyz: left out 1 points with coordinates that are not finite$"
+        with self.assertWarnsRegex(UserWarning, told) as warned:
+            relief = make("scan.xyz", height_mm=2)
+        self.assertEqual(Path(warned.filename).name, "support.py")  # the caller's line
+        self.same(["--height", 2], relief, inputs=("scan.xyz",))
+
     def test_in_all_files(self):
         outputs = ["--preview-size", 100, "--preview", "a.png", "--heightmap", "a.tif", "--tool-picture", "tool.png", "--report", "a.json"]
         flags = ["--wrap", "cylinder:diameter=60", "--resolution", "0.5mm", "--units", "in", *outputs]

@@ -45,8 +45,9 @@ bool is_text(const Source& source);
 //   scene, transformed by its nodes or posed by their skins; without nodes, of all meshes. Vertices without
 //   colours have those of the texture of base colours. Numbers may be quantised, and
 //   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
-// - 3MF: the meshes of the build, moved by its transforms and those of components; without colours. This is
-//   the document in the archive, and other documents beside it.
+// - 3MF: the meshes of the build, moved by its transforms and those of components, with the colours of base
+//   materials and colour groups, but without textures. This is the document in the archive, and other documents
+//   beside it.
 // - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y
 //   normal_z and rgb.
 // - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS
@@ -121,6 +122,7 @@ inline constexpr std::array foreign_names = {
     ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
     ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},
     ForeignFormat{".sog", "packed Gaussian splats (SOG); SuperSplat exports them as PLY"},
+    ForeignFormat{".npz", "a NumPy archive; np.save writes one of its arrays as NPY"},
     ForeignFormat{".usdz", "a USD file; Blender exports it as glTF or PLY"},
     ForeignFormat{".usd", "a USD file; Blender exports it as glTF or PLY"},
     ForeignFormat{".usdc", "a USD file; Blender exports it as glTF or PLY"},
@@ -136,7 +138,7 @@ inline constexpr std::array foreign_names = {
 
 inline constexpr std::array foreign_contents = {
     ForeignFormat{"\x89PNG", "a PNG picture"},
-    ForeignFormat{"\xFF\xD8\xFF", "a JPEG picture; save it as PNG"},
+    ForeignFormat{"\xFF\xD8\xFF", "a JPEG picture"},
     ForeignFormat{"II*", "a TIFF picture"},
     ForeignFormat{"MM", "a TIFF picture"},
     ForeignFormat{"\x93NUMPY", "a NumPy file"},

@@ -59,6 +59,7 @@ void take_splat(const PlyElement& vertex, VertexColumns& columns) {
 // Normals and colours are read only if all three of their properties exist.
 Result<VertexColumns> find_columns(const Source& source, const PlyElement& vertex) {
   VertexColumns columns;
+  columns.keeps_faint = source.keeps_doubtful;
   for (std::size_t c = 0; c < VertexColumns::most; ++c) {
     columns.property[c] = find_property(vertex, column_names[c]);
     columns.is_there[c] = is_number(vertex, columns.property[c]);
@@ -124,7 +125,7 @@ Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const 
   records.position = columns(0);
   if (wanted.has_normals()) records.normal = columns(3);
   if (wanted.has_colours()) records.colour = columns(6);
-  if (!wanted.has_opacity()) return records;
+  if (!wanted.has_opacity() || wanted.keeps_faint) return records;
   const auto is_faint_row = [decode = decoder(column(9).type, records.is_big_endian),
                              at = column(9).at](const char* row) {
     double opacity = 0;

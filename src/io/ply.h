@@ -53,6 +53,11 @@ struct PlyHeader {
 // Returns the header. Errors name the line.
 Result<PlyHeader> read_ply_header(const Source& source);
 
+// Opacities of Gaussian splats are logits: below 0, less than a half of what is behind is hidden.
+constexpr bool is_faint(double opacity) {
+  return opacity < 0;
+}
+
 // The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
 // exist. Of Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity is read, too.
 struct VertexColumns {
@@ -60,10 +65,12 @@ struct VertexColumns {
   std::array<bool, most> is_there = {};
   std::array<std::size_t, most> property = {};  // index of the property that is read into each column
   bool are_colours_harmonics = false;           // f_dc instead of red, green and blue
+  bool keeps_faint = false;                     // reads splats that are less than half opaque, too
 
   bool has_normals() const { return is_there[3]; }
   bool has_colours() const { return is_there[6]; }
   bool has_opacity() const { return is_there[9]; }
+  bool has_faint(double opacity) const { return has_opacity() && !keeps_faint && is_faint(opacity); }
 };
 
 // A file after its header has been read. Faces are read, whether they are before or after the vertices.
@@ -92,11 +99,6 @@ Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const 
 
 // Returns the column of a colour, scaled to [0, 255], without its place.
 RecordColumn colour_column(const VertexColumns& columns, NumberType type);
-
-// Opacities of Gaussian splats are logits: below 0, less than a half of what is behind is hidden.
-constexpr bool is_faint(double opacity) {
-  return opacity < 0;
-}
 
 // The list property of a face element that contains the face's vertices.
 struct FaceList {

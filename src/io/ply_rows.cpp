@@ -184,7 +184,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& con
     cloud.points[i] = Vec3(values[0], values[1], values[2]);
     if (cloud.has_normals()) cloud.normals[i] = unit_normal(Vec3(values[3], values[4], values[5]));
     if (cloud.has_colours()) cloud.colours[i] = {byte(values[6]), byte(values[7]), byte(values[8])};
-    if (!body.columns.has_opacity() || !is_faint(values[9])) continue;
+    if (!body.columns.has_faint(values[9])) continue;
     cloud.points[i].setConstant(std::numeric_limits<double>::quiet_NaN());
     ++content.faint;
   }

@@ -4,6 +4,7 @@
 
 #include "core/lists.h"
 #include "io/formats.h"
+#include "io/pictures/jpeg_header.h"
 #include "io/pictures/pictures.h"
 #include "io/ply.h"
 #include "io/text.h"
@@ -110,11 +111,20 @@ ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
   return size;
 }
 
-// Returns the number of pixels of a picture. The first chunk of a PNG states it. A TIFF may state it anywhere
-// in the file, so it is estimated as one pixel per byte.
+// Returns the number of pixels that the beginning of a picture states; 0 if it states none.
+std::uint64_t stated_pixels(const io::Source& head) {
+  if (io::is_png(head) && head.bytes.size() >= 24)
+    return big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);
+  if (!io::is_jpeg(head)) return 0;
+  const io::JpegHeader header = io::find_jpeg_header(head.bytes);
+  return header.width * header.height;
+}
+
+// Returns the number of pixels of a picture. A TIFF may state it anywhere in the file, so it is estimated as one
+// pixel per byte.
 ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
-  if (!io::is_png(head) || head.bytes.size() < 24) return {0, 0, file_bytes};
-  const std::uint64_t pixels = big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);
+  const std::uint64_t pixels = stated_pixels(head);
+  if (pixels == 0) return {0, 0, file_bytes};
   return {0, 0, std::min({pixels, file_bytes * io::best_packing, std::uint64_t{io::most_pixels}}), true};
 }
 
@@ -122,8 +132,15 @@ ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
 
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside) {
-  const io::Source source{
-      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, beside ? &beside : nullptr};
+  return read_cloud(bytes, name, ReadOptions{beside});
+}
+
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
+                             const ReadOptions& options) {
+  const io::Source source{{reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                          name,
+                          options.beside ? &options.beside : nullptr,
+                          options.keeps_doubtful};
   RELIEVO_TRY(auto raw, read_by_format(source));
   CloudFile file{.cloud = std::move(raw.cloud),
                  .format = std::move(raw.format),
@@ -140,6 +157,24 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
                                 : cat("expected points, found none with finite coordinates among ", points));
   }
   return file;
+}
+
+std::vector<std::string> remarks_on(const CloudFile& file) {
+  std::vector<std::string> lines;
+  if (file.missing_points > 0)
+    lines.push_back(
+        cat("the file ends early; ", file.missing_points, " points that its header promises are missing"));
+  if (file.dropped_points > 0)
+    lines.push_back(cat("left out ", file.dropped_points, " points with coordinates that are not finite"));
+  if (file.unmeasured_points > 0)
+    lines.push_back(cat("left out ", file.unmeasured_points,
+                        " points at 0, 0, 0, as devices write what they have not measured"));
+  lines.insert(lines.end(), file.remarks.begin(), file.remarks.end());
+  // A mesh keeps its points, even with unusable normals.
+  if (file.dropped_normals > 0 && file.mesh.empty())
+    lines.push_back(cat("left out ", file.dropped_normals,
+                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
+  return lines;
 }
 
 ScanSize scan_size(std::span<const std::byte> head, std::string_view name, std::uint64_t file_bytes) {

@@ -18,6 +18,7 @@ struct Source {
   std::string_view bytes;
   std::string_view name;                // name of the file, for messages and for its ending
   const FilesBeside* beside = nullptr;  // access to files in the same folder; null if there is none
+  bool keeps_doubtful = false;          // as in ReadOptions
 
   std::unexpected<Error> error(std::string place, std::string expected) const {
     return input_error(std::string(name), std::move(place), std::move(expected));
@@ -56,7 +57,8 @@ class SourceLines : public Lines {
 };
 
 // Which points of Gaussian splats are left out, as for the remark below.
-inline constexpr std::string_view what_splats_leave_out = "of splats that are less than half opaque";
+inline constexpr std::string_view what_splats_leave_out =
+    "of splats that are less than half opaque; --doubtful keep keeps them";
 
 // Returns "left out 40 points that the file marks as noise".
 std::string remark_on_left_out(std::uint64_t points, std::string_view which);

@@ -253,10 +253,11 @@ Result<io::StreamRecords> find_rows(const io::Source& head) {
                     cat("expected a binary ", io::row_format_names(), " file, to be read piece by piece"));
 }
 
-Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name) {
+Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name, bool keeps_doubtful) {
   std::vector<std::byte> head(std::min<std::uint64_t>(head_size, source.size()));
   RELIEVO_CHECK(source.read(0, head));
-  const io::Source beginning{{reinterpret_cast<const char*>(head.data()), head.size()}, name};
+  const io::Source beginning{
+      {reinterpret_cast<const char*>(head.data()), head.size()}, name, nullptr, keeps_doubtful};
   auto found = find_rows(beginning);
   if (!found) return found;
   io::Records& r = found->records;
@@ -277,11 +278,12 @@ bool can_stream(std::span<const std::byte> head, std::string_view name) {
   return find_rows({{reinterpret_cast<const char*>(head.data()), head.size()}, name}).has_value();
 }
 
-Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view, double points,
-                                   Progress* progress) {
+Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view,
+                                   const StreamOptions& options, Progress* progress) {
+  const double points = options.points;
   if (!(points >= 1000 && points <= 1e7))
     return option_error("points", cat("expected a number from 1000 to 1e+07, found ", points));
-  RELIEVO_TRY(const auto found, open_records(source, name));
+  RELIEVO_TRY(const auto found, open_records(source, name, options.keeps_doubtful));
   Rows rows(source, found.records);
   RELIEVO_CHECK(begin_stage(progress, "first look", 0));
   RELIEVO_TRY(const Cloud sample, take_sample(rows));

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "io/formats.h"
 #include "io/polygon.h"
 #include "io/text.h"
+#include "io/threemf_colours.h"
 #include "io/xml.h"
 #include "relievo/core/text.h"
 
@@ -20,6 +22,7 @@ struct ModelPart {
   std::vector<std::byte> bytes;
   XmlElements elements;
   std::map<std::string_view, std::size_t> objects;  // indices of the objects, by their ids
+  ThreeMfColours colours;
 };
 
 std::string_view text_of(const std::vector<std::byte>& bytes) {
@@ -40,7 +43,8 @@ class ThreeMfReader {
       open_.pop_back();
       RELIEVO_CHECK(add_object(placed));
     }
-    RawCloud raw{Cloud{std::move(points_), {}}, "3MF"};
+    if (!colours_.empty()) colours_.resize(points_.size(), white);
+    RawCloud raw{Cloud{std::move(points_), {}, std::move(colours_)}, "3MF"};
     raw.mesh = mesh_over(raw.cloud, std::move(triangles_));
     if (supports_ > 0)
       raw.remarks.push_back(cat("left out ", supports_, " objects that only support others while printing"));
@@ -68,8 +72,10 @@ class ThreeMfReader {
     RELIEVO_TRY(part.elements, parse_xml(text, source_));
     const std::size_t resources = find_child(part.elements, 0, "resources");
     for (std::size_t i = resources + 1; resources != 0 && i < part.elements[resources].end;
-         i = part.elements[i].end)
+         i = part.elements[i].end) {
+      part.colours.take(part.elements, i);
       if (part.elements[i].name == "object") part.objects[part.elements[i].attribute("id")] = i;
+    }
     return &part;
   }
 
@@ -143,7 +149,11 @@ class ThreeMfReader {
       RELIEVO_CHECK(add_vertex(elements[i], placed.place.transform));
     const bool is_mirrored = placed.place.transform.linear().determinant() < 0;
     for (std::size_t i = triangles + 1; i < elements[triangles].end; i = elements[i].end)
-      if (elements[i].name == "triangle") RELIEVO_CHECK(add_triangle(elements[i], first, is_mirrored));
+      if (elements[i].name == "triangle") {
+        RELIEVO_CHECK(add_triangle(elements[i], first, is_mirrored));
+        if (!placed.part->colours.is_empty())
+          colour_corners(placed.part->colours, elements[placed.object], elements[i], first);
+      }
     if (points_.size() <= most_corners && triangles_.size() <= most_corners) return {};
     return fail(elements[mesh], "expected at most 100000000 vertices and triangles, found more");
   }
@@ -171,7 +181,25 @@ class ThreeMfReader {
     return {};
   }
 
+  // Gives the corners of a triangle, whose numbers were checked, their colours. A vertex has that of its first
+  // corner with a colour.
+  void colour_corners(const ThreeMfColours& known, const XmlElement& object, const XmlElement& triangle,
+                      std::size_t first) {
+    constexpr std::array names = {"v1", "v2", "v3"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<Colour> colour = known.of_corner(object, triangle, i);
+      if (!colour) continue;
+      colours_.resize(points_.size(), white);
+      is_coloured_.resize(points_.size(), 0);
+      const auto vertex =
+          first + static_cast<std::size_t>(parse_integer(triangle.attribute(names[i])).value_or(0));
+      if (is_coloured_[vertex] == 0) colours_[vertex] = *colour;
+      is_coloured_[vertex] = 1;
+    }
+  }
+
   static constexpr std::size_t most_placed = 100'000;
+  static constexpr Colour white = {255, 255, 255};
 
   const Source& source_;
   std::map<std::string, std::unique_ptr<ModelPart>> parts_;  // by their names; the main one's is empty
@@ -179,6 +207,8 @@ class ThreeMfReader {
   std::size_t placed_ = 0, supports_ = 0;
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;
+  std::vector<Colour> colours_;            // of the first points; empty if none has a colour
+  std::vector<std::uint8_t> is_coloured_;  // whether a vertex has one
 };
 
 }  // namespace

@@ -216,7 +216,10 @@ Result<void> check(const RenderOptions& options) {
 Result<Job> load(std::span<const std::byte> file, std::string_view name) {
   return within_memory([&]() -> Result<Job> {
     RELIEVO_TRY(CloudFile scan, read_cloud(file, name));
-    return Job{{{{std::string(name), std::make_shared<const CloudFile>(std::move(scan))}}}};
+    SceneModel model{std::string(name), nullptr};
+    for (const std::string& line : remarks_on(scan)) model.remarks.push_back(cat(name, ": ", line));
+    model.file = std::make_shared<const CloudFile>(std::move(scan));
+    return Job{{{std::move(model)}}};
   });
 }
 

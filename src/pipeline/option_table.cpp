@@ -36,7 +36,7 @@ Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
   return option_error({}, cat("expected a whole number, found ", channel));
 }
 
-// The words of options that drop or keep crumbs or a support plane.
+// The words of options that drop or keep crumbs, a support plane or doubtful points.
 constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", true}}};
 
 Result<void> read_crumbs(const OptionValue& value, OptionTargets& to) {
@@ -261,9 +261,13 @@ std::vector<OptionRow> triangle_rows() {
   };
 }
 
-// Returns the rows of options for reading a depth image.
-std::vector<OptionRow> depth_rows() {
+// Returns the rows of options for reading a file.
+std::vector<OptionRow> input_rows() {
   return {
+      {.name = "doubtful", .unit = "WHAT", .stage = input, .choices = names_of(keep_choices),
+       .help = "drop or keep points that the file itself marks as noise or withheld (LAS), and splats less than half "
+               "opaque",
+       .initial = "drop", .access = word<&OptionTargets::keeps_doubtful, keep_choices>},
       {.name = "depth-values", .unit = "KIND", .stage = input, .choices = names_of(depth_value_choices),
        .help = "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or luminance, "
                "also of colours, bright being near",
@@ -293,7 +297,7 @@ std::span<const OptionRow> option_table() {
   static const std::vector<OptionRow> rows = [] {
     std::vector<OptionRow> all;
     for (const auto& part :
-         {shape_rows(), limit_rows(), view_rows(), plate_rows(), body_rows(), triangle_rows(), depth_rows()})
+         {shape_rows(), limit_rows(), view_rows(), plate_rows(), body_rows(), triangle_rows(), input_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

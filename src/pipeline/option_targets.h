@@ -13,6 +13,7 @@ namespace relievo {
 struct OptionTargets {
   ReliefOptions relief;
   DepthOptions depth;
+  bool keeps_doubtful = false;     // as in ReadOptions
   std::string side = "front", up;  // the two together give the view
   std::optional<Outline> outline;  // default: a circle if there is a diameter
 };

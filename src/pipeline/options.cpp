@@ -141,7 +141,7 @@ Result<void> read_value(const OptionRow& option, const OptionValue& given, Optio
   return option.access.read(value, to);
 }
 
-// Reads the values of the relief's options or, if `is_of_relief` is false, of the options of depth images.
+// Reads the values of the relief's options or, if `is_of_relief` is false, of the options for reading a file.
 Result<OptionTargets> read_values(const OptionValues& values, bool is_of_relief) {
   OptionTargets to;
   for (const OptionRow& option : option_table()) {
@@ -229,6 +229,11 @@ Result<DepthOptions> parse_depth(const OptionValues& values) {
   RELIEVO_TRY(OptionTargets to, read_values(values, false));
   RELIEVO_CHECK(check(to.depth));
   return to.depth;
+}
+
+Result<bool> parse_doubtful(const OptionValues& values) {
+  RELIEVO_TRY(const OptionTargets to, read_values(values, false));
+  return to.keeps_doubtful;
 }
 
 }  // namespace relievo

@@ -24,7 +24,8 @@ constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv", "a.ptx", "a.sp
 #elif RELIEVO_FUZZ_FAMILY == 3
 constexpr std::array names = {"a.las", "a.laz", "a.e57"};  // terrestrial and airborne scanners
 #else
-constexpr std::array names = {"a.png", "a.tif", "a.npy", "a.pfm", "a.bmp", "a.asc", "a.dat"};  // pictures
+constexpr std::array names = {"a.png", "a.tif", "a.npy", "a.pfm",
+                              "a.bmp", "a.asc", "a.dat", "a.jpg"};  // pictures
 #endif
 
 // Returns the file with right checksums, without which no E57 file is read.

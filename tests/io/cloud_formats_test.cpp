@@ -141,7 +141,11 @@ TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
     EXPECT_EQ(file.left_out_points, 1U);
     EXPECT_EQ(file.dropped_points, 0U);
     EXPECT_EQ(file.remarks[0],
-              "left out 1 point that the file marks as noise (classes 7 and 18) or withheld");
+              "left out 1 point that the file marks as noise (classes 7 and 18) or withheld; --doubtful keep "
+              "keeps them");
+    const auto whole = value_of(read_cloud(bytes_of(text), "a.las", ReadOptions{{}, true}));
+    EXPECT_EQ(whole.cloud.points, file_of(las(), "a.las").cloud.points);
+    EXPECT_TRUE(whole.remarks.empty());
   }
   // Flags of other kinds, and classes of 32 and more, whose low bits look like noise, change nothing.
   for (const std::string& text :
@@ -154,7 +158,7 @@ TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
       patched(patched(las(), old_record, std::uint8_t{7}), old_record + 26, std::uint8_t{7});
   EXPECT_EQ(message_of(none, "a.las"),
             "a.las: expected points that count, found none: left out 2 points that the file marks as noise "
-            "(classes 7 and 18) or withheld");
+            "(classes 7 and 18) or withheld; --doubtful keep keeps them");
 }
 
 TEST(Las, IsReadUpToItsEnd) {

@@ -121,6 +121,22 @@ TEST(DepthPnm, ReadsWholeNumbersFromAbove) {
   expect_numbers(value_of(read_depth_image(bytes_of(file), "d", {false, 1})), 1);
 }
 
+TEST(DepthPnm, ReadsNumbersInText) {
+  const auto word = [](int c, int r) { return cat(number(c, r), c == 3 ? " # a comment\n" : "\t"); };
+  expect_numbers(image_in("P2\n# by hand\n6 5\n54\n" + values(word)), 1);
+  const auto grey = [&](int c, int r) {
+    return cat(number(c, r), " ", number(c, r), "\n", number(c, r), " ");
+  };
+  expect_numbers(image_in("P3 # colours\n6\n5 255 " + values(grey)), 1);
+  EXPECT_EQ(image_in("P2\n6 5\n300\n" + values(word)).format, "PNM, 16 bits");
+  EXPECT_TRUE(
+      message_in("P2\n6 5\n44\n" + values(word)).ends_with(": expected a number up to 44, found '45'"));
+  EXPECT_EQ(message_in("P2\n4 4\n9\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6"),
+            "d: expected 16 numbers, found 15; the file is cut, get it anew");
+  EXPECT_EQ(message_in("P2\n4 4\n9\n1 2 3 4 5 -6 7 8 9"),
+            "d, byte 19: expected a number up to 9, found '-6'");
+}
+
 TEST(DepthPnm, SaysWhatIsWrong) {
   EXPECT_EQ(message_in("Pf\nx 5\n-1\n\1"),
             "d, byte 3: expected width, height and range of the picture, found 'x'");
@@ -129,6 +145,7 @@ TEST(DepthPnm, SaysWhatIsWrong) {
   EXPECT_EQ(message_in("P5\n6 5\n255\n\1"),
             "d, byte 11: expected 30 bytes of pixels, found 1; the file is cut, get it anew");
   EXPECT_FALSE(is_picture(bytes_of("P5 10 20 30\nP6 40 50 60\n"))) << "a cloud of named points";
+  EXPECT_FALSE(is_picture(bytes_of("P2 10 20 30\nP3 40 50 60\n"))) << "a cloud of named points";
 }
 
 // Returns a BMP with this number of bits; rows are multiples of 4 bytes.
@@ -172,6 +189,8 @@ TEST(DepthFormats, AnyDamageGivesAnAnswer) {
   const std::vector<std::string> files = {npy("<f4", values(in_type<float>)),
                                           "Pf\n6 5\n-1\n" + values(in_type<float>),
                                           "P5\n6 5\n255\n" + values(in_type<std::uint8_t>),
+                                          "P2\n6 5\n9\n" + std::string(60, '7'),
+                                          "P3\n4 4\n9\n" + replaced(std::string(48, '7'), "7", "7 "),
                                           bmp(32, -rows, "", std::string(4 * rows * columns, '\x7F'))};
   for (const std::string& file : files)
     for (std::size_t size = 0; size < file.size(); ++size) (void)message_in(file.substr(0, size));

@@ -20,7 +20,7 @@ TEST(ReadCloud, UnreadableFormatsAreToldByName) {
       {"", "scan.ply", "an empty file"},
       {"\xEF\xBB\xBF", "scan.ply", "an empty file"},
       {"\x89PNG\r\n\x1A\n", "scan.ply", "a PNG picture"},
-      {"\xFF\xD8\xFF\xE0", "scan", "a JPEG picture; save it as PNG"},
+      {"\xFF\xD8\xFF\xE0", "scan", "a JPEG picture"},
       {"\x76\x2F\x31\x01", "a.exr", "an OpenEXR picture; save it as a TIFF of 32-bit fractions"},
       {"RIFF\1\1\1\1WEBPVP8 ", "a.webp", "a WebP picture; save it as PNG"},
       {"\1\1\1\x18"
@@ -29,6 +29,7 @@ TEST(ReadCloud, UnreadableFormatsAreToldByName) {
       {"12", "a.raw", "numbers or a photo without a header; save heights as NPY or TIFF, a photo as PNG"},
       {"PK\x03\x04", "scan.zip", "a ZIP archive"},
       {"\x1F\x8B\x08", "scan.ply.gz", "a gzip archive"},
+      {"PK\x03\x04", "a.npz", "a NumPy archive; np.save writes one of its arrays as NPY"},
       {"PK\x03\x04", "scan.usdz", "a USD file; Blender exports it as glTF or PLY"},
       {"<COLLADA/>", "scan.dae", "a COLLADA file; Blender exports it as glTF or PLY"},
       {"ISO-10303-21;", "scan.step", "a STEP file; FreeCAD exports it as STL"},

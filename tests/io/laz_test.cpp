@@ -76,9 +76,14 @@ TEST(Laz, NoiseAndWithheldPointsAreLeftOut) {
     EXPECT_EQ(file.cloud.points, kept) << is_layered;
     EXPECT_EQ(file.left_out_points, 500 - kept.size());
     EXPECT_EQ(file.dropped_points, 0U);
-    EXPECT_EQ(file.remarks, (std::vector<std::string>{cat("left out ", 500 - kept.size(),
-                                                          " points that the file "
-                                                          "marks as noise (classes 7 and 18) or withheld")}));
+    EXPECT_EQ(file.remarks,
+              (std::vector<std::string>{
+                  cat("left out ", 500 - kept.size(),
+                      " points that the file "
+                      "marks as noise (classes 7 and 18) or withheld; --doubtful keep keeps them")}));
+    const auto whole =
+        value_of(read_cloud(bytes_of(laz({points}, is_layered, classes)), "a", ReadOptions{{}, true}));
+    EXPECT_EQ(whole.cloud.points, file_of(laz({points}, is_layered), "a").cloud.points);
   }
 }
 

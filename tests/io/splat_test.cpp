@@ -42,7 +42,8 @@ TEST_P(Splats, FaintOnesAreLeftOutAndColoursAreHarmonics) {
   EXPECT_EQ(file.left_out_points, 1U);
   EXPECT_EQ(file.dropped_points, 0U);
   EXPECT_EQ(file.remarks,
-            (std::vector<std::string>{"left out 1 point of splats that are less than half opaque"}));
+            (std::vector<std::string>{
+                "left out 1 point of splats that are less than half opaque; --doubtful keep keeps them"}));
   EXPECT_TRUE(file.format.ends_with(", Gaussian splats"));
 }
 
@@ -52,6 +53,15 @@ TEST_P(Splats, OpacityOfOtherVerticesIsIgnored) {
   const auto file = file_of(encode_ply({table}, GetParam()), "a.ply");
   EXPECT_EQ(file.cloud.size(), 1U);
   EXPECT_FALSE(file.cloud.has_colours());
+  EXPECT_TRUE(file.remarks.empty());
+}
+
+TEST_P(Splats, FaintOnesAreKeptOnRequest) {
+  const std::string text =
+      encode_ply({splats({splat({1, 2, 3}, {0, 0, 0}, .01), splat({4, 5, 6}, {0, 0, 0}, -5)})}, GetParam());
+  const auto file = value_of(read_cloud(bytes_of(text), "a.ply", ReadOptions{{}, true}));
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(file.left_out_points, 0U);
   EXPECT_TRUE(file.remarks.empty());
 }
 
@@ -65,13 +75,17 @@ TEST(SplatFile, RowsOfBytesAreRead) {
   const auto file = file_of(row(1, 128) + row(5, 127) + row(6, 255), "a.splat");
   EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {6, 2, 3}}));
   EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{10, 20, 30}, {10, 20, 30}}));
-  EXPECT_EQ(file.remarks[0], "left out 1 point of splats that are less than half opaque");
+  EXPECT_EQ(file.remarks[0],
+            "left out 1 point of splats that are less than half opaque; --doubtful keep keeps them");
+  EXPECT_EQ(value_of(read_cloud(bytes_of(row(1, 128) + row(5, 127)), "a.splat", ReadOptions{{}, true}))
+                .cloud.points,
+            (std::vector<Vec3>{{1, 2, 3}, {5, 2, 3}}));
   EXPECT_EQ(message_of(row(1, 255) + "abc", "a.splat"),
             "a.splat, byte 32: expected a splat of 32 bytes, found 3");
   EXPECT_EQ(
       message_of(row(1, 0), "a.splat"),
       "a.splat: expected points that count, found none: left out 1 point of splats that are less than half "
-      "opaque");
+      "opaque; --doubtful keep keeps them");
 }
 
 TEST(Splats, PackedOnesAreRefusedByName) {

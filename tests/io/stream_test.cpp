@@ -183,7 +183,13 @@ TEST(StreamFront, ReadsLas) {
   const std::string with_noise = patched(file, 107, static_cast<std::uint32_t>(sphere.size() + 1)) + noise;
   const StreamedCloud clean = streamed(bytes_of(with_noise), front, 2000);
   EXPECT_EQ(clean.cloud.points, it.cloud.points);
-  EXPECT_EQ(clean.remarks[0], "left out 1 point that the file marks as noise (classes 7 and 18) or withheld");
+  EXPECT_EQ(clean.remarks[0],
+            "left out 1 point that the file marks as noise (classes 7 and 18) or withheld; --doubtful keep "
+            "keeps them");
+  MemorySource with_all(bytes_of(with_noise));
+  const StreamedCloud all = value_of(stream_front(with_all, "a.las", front, {2000, true}));
+  EXPECT_NE(all.cloud.points, it.cloud.points);
+  EXPECT_TRUE(all.remarks.empty());
   const StreamedCloud cut = streamed(bytes_of(file.substr(0, file.size() - 26 * 1000 - 5)), front, 2000);
   EXPECT_EQ(cut.missing_points, 1001U);
   EXPECT_EQ(cut.input_points, sphere.size() - 1001);

@@ -1,6 +1,7 @@
 // Tests the document of 3MF files; tests/cli/archive_test.cpp reads it from the archive.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <map>
 
 #include "support/format_samples.h"
@@ -38,6 +39,31 @@ TEST(ThreeMf, AnItemIsTheMesh) {
   EXPECT_EQ(file.format, "3MF");
   EXPECT_EQ(file.mesh.points, tetrahedron_points);
   EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
+}
+
+// The first triangle has a colour in each corner, the second one of a material, the others the object's.
+TEST(ThreeMf, VerticesHaveTheColoursOfTheirFirstCorners) {
+  std::string mesh = tetrahedron_mesh();
+  mesh = replaced(mesh, "v1=\"0\" v2=\"2\" v3=\"1\"",
+                  "v1=\"0\" v2=\"2\" v3=\"1\" pid=\"8\" p1=\"1\" p2=\"0\" p3=\"7\"");
+  mesh = replaced(mesh, "v1=\"0\" v2=\"1\" v3=\"3\"", "v1=\"0\" v2=\"1\" v3=\"3\" pid=\"9\" p1=\"0\"");
+  const std::string resources =
+      "<m:colorgroup id=\"8\"><m:color color=\"#010203\"/><m:color color=\"#fF000080\"/></m:colorgroup>"
+      "<basematerials id=\"9\"><base name=\"a\" displaycolor=\"#00FF00\"/><base "
+      "displaycolor=\"blue\"/></basematerials>";
+  const auto colours_in = [&](const std::string& attributes, const std::string& item) {
+    return file_of(model(resources + object("id=\"1\" " + attributes, mesh), item), "a.model").cloud.colours;
+  };
+  const Colour red = {255, 0, 0}, dark = {1, 2, 3}, green = {0, 255, 0}, white = {255, 255, 255};
+  const std::string item = "<item objectid=\"1\"/>";
+  EXPECT_EQ(colours_in("", item), (std::vector<Colour>{red, green, dark, green}));
+  EXPECT_EQ(colours_in("pid=\"9\" pindex=\"1\"", item), (std::vector<Colour>{red, green, dark, green}));
+  EXPECT_EQ(colours_in("", "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>"),
+            (std::vector<Colour>{red, green, dark, green}));
+  mesh = tetrahedron_mesh();
+  EXPECT_EQ(colours_in("pid=\"9\" pindex=\"1\"", item), std::vector<Colour>(4, white)) << "no number";
+  EXPECT_EQ(colours_in("pid=\"8\" pindex=\"1\"", item + item), std::vector<Colour>(8, red));
+  EXPECT_TRUE(colours_in("pid=\"7\" pindex=\"1\"", item).empty());
 }
 
 // A component doubles and is moved by 1, 2, 3; its item then exchanges x and y, which mirrors it.

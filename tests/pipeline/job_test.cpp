@@ -31,6 +31,14 @@ TEST(Job, NamesTheScanThatItCannotRead) {
   EXPECT_EQ(load({}, "scan.ply").error().input, "scan.ply");
 }
 
+TEST(Job, SaysWhatOfTheScanIsLeftOut) {
+  const std::string scan = "0 0 0\n1 0 0\nnan 0 0\n0 1 0\n1 1 0\n";
+  const Job made = *load(std::as_bytes(std::span(scan)), "scan.xyz");
+  EXPECT_EQ(made.inputs.models[0].remarks,
+            (std::vector<std::string>{"scan.xyz: left out 1 points with coordinates that are not finite"}));
+  EXPECT_TRUE(job().inputs.models[0].remarks.empty());
+}
+
 TEST(LiveModel, MakesTheFramesOfAFrameMaker) {
   LiveModel live = *prepare(job());
   ReliefOptions options;

@@ -120,6 +120,14 @@ TEST(ParseDepth, ReadsAndChecksTheRowsOfDepthImages) {
   EXPECT_EQ(depth_complaint({{"channel", 65.}}), "channel: expected a number from 0 to 64, found 65");
 }
 
+TEST(ParseDoubtful, ReadsItsRowAlone) {
+  EXPECT_FALSE(*parse_doubtful({{"height", 3.}}));
+  EXPECT_FALSE(*parse_doubtful({{"doubtful", "drop"}}));
+  EXPECT_TRUE(*parse_doubtful({{"doubtful", "keep"}}));
+  EXPECT_EQ(parse_doubtful({{"doubtful", "maybe"}}).error().message(),
+            "doubtful: expected one of drop or keep, found 'maybe'");
+}
+
 TEST(OptionTable, HasNamesOfTheirOwnHelpAndADefault) {
   std::set<std::string_view> names;
   for (const OptionRow& option : option_table()) {

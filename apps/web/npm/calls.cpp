@@ -81,6 +81,7 @@ Result<MakeOrder> order_from(const Json& json) {
     order.values.emplace(name, *value);
   }
   RELIEVO_TRY(order.in.depth, parse_depth(order.values));
+  RELIEVO_TRY(order.in.keeps_doubtful, parse_doubtful(order.values));
   order.in.camera = text(json, "camera");
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");

@@ -48,6 +48,20 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
+struct ReadOptions {
+  FilesBeside beside = {};
+  // Reads also points that the file itself marks as noise or withheld (LAS), and splats that are less than half
+  // opaque.
+  bool keeps_doubtful = false;
+};
+
+// As above.
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
+                             const ReadOptions& options);
+
+// Returns lines for people about the points and normals of a file that were left out, its remarks among them.
+std::vector<std::string> remarks_on(const CloudFile& file);
+
 // Returns true for the beginning of a picture, an array or a table of heights.
 bool is_picture(std::span<const std::byte> bytes);
 
@@ -66,6 +80,8 @@ struct PictureChannels {
 //   mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values that GDAL's
 //   no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large values.
 //   GeoTIFF's tags give the size of pixels, also in degrees.
+// - JPEG: grey, or colours that are equal or of which a channel or the luminance is wanted, turned as the tag
+//   Orientation of Exif says. No CMYK.
 // - NPY: an array of whole numbers or fractions in two dimensions. PFM, PGM, PPM and BMP without compression.
 // - Esri ASCII grid, with its no-data value and the size of its cells.
 // - Text with at least 8 numbers per line, of which neighbours are alike, or at least 32: a line is a row of
@@ -88,8 +104,8 @@ struct ScanSize {
 };
 
 // Returns the number of points and triangles of a cloud or mesh, or of pixels of a depth image. `head` is the
-// beginning of a file of `file_bytes` bytes; 64 kB suffice. PLY, PCD, LAS, binary STL and PNG state these
-// numbers; for other formats they are estimated. A header may promise anything, so the result is limited to
+// beginning of a file of `file_bytes` bytes; 64 kB suffice. PLY, PCD, LAS, binary STL, PNG and JPEG state
+// these numbers; for other formats they are estimated. A header may promise anything, so the result is limited to
 // the numbers that fit into the file. All numbers are 0 for an empty file.
 ScanSize scan_size(std::span<const std::byte> head, std::string_view name, std::uint64_t file_bytes);
 

@@ -43,7 +43,16 @@ struct StreamedCloud {
 // vertices and the elements before them, LAS, or binary PCD.
 bool can_stream(std::span<const std::byte> head, std::string_view name);
 
-// Returns about `points` points of the side that the view shows. For each square of a grid over the view, the
+// What stream_front() reads.
+struct StreamOptions {
+  // The number of points; see ReadOptions about those that are doubtful.
+  StreamOptions(double wanted, bool keeps = false) : points(wanted), keeps_doubtful(keeps) {}
+
+  double points;
+  bool keeps_doubtful;
+};
+
+// Returns about `options.points` points of the side that the view shows. For each square of a grid over the view, the
 // result has the mean of the front-most points that face the viewer, with their mean normal and colour;
 // averaging also reduces noise. Without normals, all points are taken to face the viewer. Normals that point
 // inwards are reversed. The file is read three times, and a few pieces once more. Memory is 80 bytes per
@@ -51,7 +60,7 @@ bool can_stream(std::span<const std::byte> head, std::string_view name);
 // Errors: kind input as for read_cloud(), and for bytes that can_stream() refuses; kind option for a number
 // of points not in [1000, 1e7]; kind geometry if no point faces the viewer; kind cancelled, checked after
 // each piece of 8 MB.
-Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view, double points,
-                                   Progress* progress = nullptr);
+Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view,
+                                   const StreamOptions& options, Progress* progress = nullptr);
 
 }  // namespace relievo

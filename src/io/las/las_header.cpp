@@ -98,6 +98,7 @@ class LasHeaderReader {
 
   // Up to format 5, the class shares a byte with the flags; later formats have two bytes.
   void take_classes() {
+    if (source_.keeps_doubtful) return;
     const auto in_one_byte = [](const char* row) {
       const auto byte = little<std::uint8_t>(row + 15);
       return is_left_out(byte & 31U, (byte & 128U) != 0);
@@ -160,7 +161,7 @@ Result<RawCloud> read_las(const Source& source) {
                                                     " bytes, found room for 0"));
   const char* const rows = source.bytes.data() + std::min<std::size_t>(source.bytes.size(), records.offset);
   RawCloud raw{decode_all(records, rows), cat("LAS 1.", header.minor)};
-  raw.leave_out(count_left_out(records, rows, records.count), records.left_out->which);
+  raw.leave_out(count_left_out(records, rows, records.count), what_las_leaves_out);
   raw.missing_points = promised - records.count;
   return raw;
 }

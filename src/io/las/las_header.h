@@ -19,7 +19,7 @@ struct LasHeader {
 
 // Noise, low and high, and points that the file marks as withheld, which a reader should treat as deleted.
 constexpr std::string_view what_las_leaves_out =
-    "that the file marks as noise (classes 7 and 18) or withheld";
+    "that the file marks as noise (classes 7 and 18) or withheld; --doubtful keep keeps them";
 constexpr bool is_left_out(unsigned classification, bool is_withheld) {
   return classification == 7 || classification == 18 || is_withheld;
 }

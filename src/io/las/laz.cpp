@@ -194,11 +194,12 @@ struct LazPoints {
   Cloud& cloud;
   std::vector<LazColour>& colours;     // empty, or one per point
   std::atomic<std::size_t>& left_out;  // number of points that do not count
+  bool keeps_doubtful;
 
   // Sets the point, to NaN if it does not count.
   template <typename Point>
   void set(std::size_t i, const Point& point) const {
-    const bool counts = !is_left_out(point.classification(), point.is_withheld());
+    const bool counts = keeps_doubtful || !is_left_out(point.classification(), point.is_withheld());
     if (!counts) ++left_out;
     for (std::size_t c = 0; c < 3; ++c)
       cloud.points[i][static_cast<Eigen::Index>(c)] =
@@ -356,7 +357,7 @@ Result<RawCloud> read_laz(const Source& source) {
   std::vector<LazColour> colours(has_colours(layout) ? header.records.count : 0);
   raw.cloud.points.resize(header.records.count);
   std::atomic<std::size_t> left_out = 0;
-  const LazPoints points{header.records, raw.cloud, colours, left_out};
+  const LazPoints points{header.records, raw.cloud, colours, left_out, source.keeps_doubtful};
   std::atomic<std::size_t> damaged = layout.chunks.size();
   parallel_for(
       layout.chunks.size(),

@@ -1,9 +1,10 @@
-// Reads portable pictures in binary: PFM (fractions) and PGM or PPM (whole numbers of 8 or 16 bits), grey or
-// in colours.
+// Reads portable pictures: PFM (fractions) and PGM or PPM (whole numbers of 8 or 16 bits, or in text), grey or in
+// colours.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "io/pictures/pictures.h"
 #include "io/pictures/samples.h"
@@ -51,15 +52,76 @@ Result<PnmHeader> read_pnm_header(const Source& source) {
 struct PnmValues {
   SampleFormat format;
   std::size_t channels = 1;
-  bool is_big_endian = true, is_upside_down = false;
+  bool is_big_endian = true, is_upside_down = false, is_text = false;
+
+  std::size_t least_bytes() const { return channels * (is_text ? 1 : format.bits / 8); }
 };
 
 std::optional<PnmValues> values_of(std::string_view mark, double last) {
   const bool is_pfm = mark[1] == 'f' || mark[1] == 'F';
-  const std::size_t channels = mark[1] == 'F' || mark[1] == '6' ? 3 : 1;
+  const std::size_t channels = std::string_view("F63").contains(mark[1]) ? 3 : 1;
   if (is_pfm) return PnmValues{{SampleKind::fraction, 32}, channels, last > 0, true};
   if (!(last >= 1 && last <= 65535)) return std::nullopt;
-  return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels};
+  const bool is_text = mark[1] == '2' || mark[1] == '3';
+  return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels, true, false, is_text};
+}
+
+// Returns a function from the number of a pixel to its colour.
+auto binary_colours(const char* data, const PnmHeader& header, const PnmValues& stored) {
+  return [=](std::size_t i) {
+    const unsigned bytes = stored.format.bits / 8;
+    const std::size_t row = i / header.width, from = stored.is_upside_down ? header.height - 1 - row : row,
+                      first = (from * header.width + i % header.width) * stored.channels;
+    PixelColour colour{};
+    for (std::size_t c = 0; c < stored.channels; ++c)
+      colour[c] =
+          decode_sample(stored.format, whole_number(data + bytes * (first + c), bytes, stored.is_big_endian));
+    return colour;
+  };
+}
+
+// Returns the numbers of a picture in text, which may have comments and line breaks anywhere.
+Result<std::vector<float>> read_numbers(const Source& source, const PnmHeader& header, std::size_t wanted) {
+  std::vector<float> numbers;
+  numbers.reserve(wanted);
+  Lines lines(source.bytes, header.data - 1);
+  while (const auto line = lines.next()) {
+    Words words(before_comment(*line));
+    for (std::string_view word = words.next(); !word.empty() && numbers.size() < wanted;
+         word = words.next()) {
+      const auto number = parse_integer(word);
+      if (!number || *number < 0 || static_cast<double>(*number) > header.last)
+        return source.error_at_byte(
+            static_cast<std::size_t>(word.data() - source.bytes.data()),
+            cat("expected a number up to ", header.last, ", found ", in_quotes(word)));
+      numbers.push_back(static_cast<float>(*number));
+    }
+  }
+  if (numbers.size() == wanted) return numbers;
+  return source.error(
+      {}, cat("expected ", wanted, " numbers, found ", numbers.size(), "; the file is cut, get it anew"));
+}
+
+Result<void> fill_from_text(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
+                            std::size_t channels, Image<float>& values) {
+  RELIEVO_TRY(const auto numbers, read_numbers(source, header, header.width * header.height * channels));
+  return fill_values(source, wanted, channels, values, [&](std::size_t i) {
+    PixelColour colour{};
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(channels * i), channels, colour.begin());
+    return colour;
+  });
+}
+
+// Returns whether the first line is the mark alone, and a number is next.
+bool is_text_picture(std::string_view bytes) {
+  if (bytes.size() < 3 || bytes[0] != 'P' || (bytes[1] != '2' && bytes[1] != '3')) return false;
+  Lines lines(bytes);
+  if (trim(before_comment(*lines.next())).size() != 2) return false;
+  while (const auto line = lines.next()) {
+    const std::string_view text = trim(before_comment(*line));
+    if (!text.empty()) return text[0] >= '1' && text[0] <= '9';
+  }
+  return false;
 }
 
 }  // namespace
@@ -67,6 +129,7 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
 // Text with the name of a point in its first column may begin with the mark, too.
 bool is_pnm(const Source& source) {
   const std::string_view bytes = source.bytes;
+  if (is_text_picture(bytes)) return true;
   const auto is_binary = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
   const std::size_t enough = 4096;
   if (!has_control_bytes(bytes) && !std::ranges::any_of(bytes.substr(0, enough), is_binary)) return false;
@@ -78,22 +141,15 @@ Result<DepthImage> read_depth_pnm(const Source& source, const PictureChannels& w
   RELIEVO_TRY(const PnmHeader header, read_pnm_header(source));
   const auto stored = values_of(source.bytes, header.last);
   if (!stored) return source.error({}, cat("expected a largest value from 1 to 65535, found ", header.last));
-  const unsigned bytes = stored->format.bits / 8;
-  RELIEVO_CHECK(check_room(source, {header.width, header.height, bytes * stored->channels, header.data}));
+  RELIEVO_CHECK(check_room(source, {header.width, header.height, stored->least_bytes(), header.data}));
   const bool is_fraction = stored->format.kind == SampleKind::fraction;
   DepthImage image{
       {}, is_fraction ? 0. : 1., cat(is_fraction ? "PFM, " : "PNM, ", stored->format.bits, " bits")};
   image.values.resize(static_cast<int>(header.width), static_cast<int>(header.height));
-  const char* data = source.bytes.data() + header.data;
-  RELIEVO_CHECK(fill_values(source, wanted, stored->channels, image.values, [&](std::size_t i) {
-    const std::size_t row = i / header.width, from = stored->is_upside_down ? header.height - 1 - row : row,
-                      first = (from * header.width + i % header.width) * stored->channels;
-    PixelColour colour{};
-    for (std::size_t c = 0; c < stored->channels; ++c)
-      colour[c] = decode_sample(stored->format,
-                                whole_number(data + bytes * (first + c), bytes, stored->is_big_endian));
-    return colour;
-  }));
+  const char* const data = source.bytes.data() + header.data;
+  RELIEVO_CHECK(stored->is_text ? fill_from_text(source, header, wanted, stored->channels, image.values)
+                                : fill_values(source, wanted, stored->channels, image.values,
+                                              binary_colours(data, header, *stored)));
   return image;
 }
 

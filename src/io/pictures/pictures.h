@@ -14,12 +14,14 @@ namespace relievo::io {
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
 // A picture that promises more than this factor times the bytes of its file is treated as broken: a PNG more
-// bytes, a TIFF more pixels. The factor is a little above 1032, the best that deflate can reach.
+// bytes, a TIFF or JPEG more pixels. The factor is a little above 1032, the best that deflate can reach, and far
+// above the 256 pixels that a scan of a JPEG has in a byte.
 inline constexpr std::size_t best_packing = 1100;
 
 // Return true if the content begins like a file of this format.
 bool is_png(const Source& source);
 bool is_tiff(const Source& source);
+bool is_jpeg(const Source& source);
 bool is_npy(const Source& source);
 bool is_pnm(const Source& source);
 bool is_bmp(const Source& source);
@@ -29,6 +31,7 @@ bool is_height_table(const Source& source);  // lines of numbers in which neighb
 // Return the depths of a picture. Errors: kind input.
 Result<DepthImage> read_depth_png(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_depth_jpeg(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_depth_npy(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_depth_pnm(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_depth_bmp(const Source& source, const PictureChannels& channels);
@@ -98,6 +101,7 @@ struct PictureFormat {
 inline constexpr std::array picture_formats = {
     PictureFormat{"PNG", ".png", is_png, read_depth_png},
     PictureFormat{"TIFF", ".tif .tiff", is_tiff, read_depth_tiff},
+    PictureFormat{"JPEG", ".jpg .jpeg", is_jpeg, read_depth_jpeg},
     PictureFormat{"NPY", ".npy", is_npy, read_depth_npy},
     PictureFormat{"PFM, PGM, PPM", ".pfm .pgm .ppm", is_pnm, read_depth_pnm},
     PictureFormat{"BMP", ".bmp", is_bmp, read_depth_bmp},
