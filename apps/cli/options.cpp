@@ -69,7 +69,7 @@ Result<void> print(const OptionsArguments& arguments, const CLI::App& program) {
 void add_options(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<OptionsArguments>();
   CLI::App& command = *program.add_subcommand("options", "Print the table of make's options")->group("");
-  command.add_flag("--markdown", arguments->is_markdown, "as the README has it; so without a flag");
+  command.add_flag("--markdown", arguments->is_markdown, "as docs/options.md has it; so without a flag");
   command.add_option("--man", arguments->man, "man page of relievo or of a command")->type_name("COMMAND");
   command.add_flag("--json", arguments->is_json, "as the studio's page reads it");
   command.add_option("--completion", arguments->completion, "completion script of bash, zsh or fish")

@@ -1,4 +1,4 @@
-// Lists the options of the table for the page, the README and the packages.
+// Lists the options of the table for the page, the documents and the packages.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -28,7 +28,7 @@ std::string keyword_of(const OptionRow& option);
 // images are included.
 nlohmann::json keyword_list();
 
-// Returns the rows of the README's table.
+// Returns the rows of the table in docs/options.md.
 std::string option_markdown();
 
 }  // namespace relievo::app

@@ -1,4 +1,4 @@
-// The README's example: makes the bytes of an STL file from the bytes of a scan.
+// The example of docs/library.md: makes the bytes of an STL file from the bytes of a scan.
 #include "relievo/io/write.h"
 #include "relievo/job.h"
 

@@ -305,11 +305,11 @@ TEST_F(Cli, KeepsADraftAngleInInchesToo) {
   EXPECT_LT(steepest, std::tan(50.01 * std::numbers::pi / 180));
 }
 
-TEST_F(Cli, TheReadmesTableIsTheProgrammes) {
-  const std::string readme = read_all(fs::path(__FILE__).parent_path() / "../../README.md");
+TEST_F(Cli, TheTableOfThePageIsTheProgrammes) {
+  const std::string page = read_all(fs::path(__FILE__).parent_path() / "../../docs/options.md");
   const std::string table = run("options --markdown").out;
   EXPECT_TRUE(table.starts_with("| flag | meaning | default |\n"));
-  EXPECT_NE(readme.find(table), std::string::npos) << table;
+  EXPECT_NE(page.find(table), std::string::npos) << table;
 }
 
 TEST_F(Cli, OptionsAreAManPageAndJsonToo) {

@@ -1,4 +1,4 @@
-// Tests that README's library example, compiled as it stands there, makes the relief that README promises.
+// Tests that the example of docs/library.md, compiled as it stands there, makes the relief that that page promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>
