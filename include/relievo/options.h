@@ -10,6 +10,7 @@
 #include "relievo/plate/outline.h"
 #include "relievo/plate/tool.h"
 #include "relievo/plate/wrap.h"
+#include "relievo/relief/light.h"
 #include "relievo/relief/method.h"
 #include "relievo/relief/stroke.h"
 #include "relievo/relief/tone_curve.h"
@@ -29,6 +30,7 @@ struct NumericOptions {
   std::optional<double> saturation;      // the paper's beta; see effective_saturation()
   std::optional<double> detail;          // the paper's gamma; see effective_detail()
   std::optional<double> steepest_deg;    // largest target slope; 76
+  double light_contrast = .8;            // of the model's local contrast under the light
   double colour_mm = 0;                  // depth of lines that are dark in the scan
   std::optional<double> draft_deg;       // least angle of every triangle to the vertical; any
   std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
@@ -59,9 +61,10 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
     {{"full", Finish::full}, {"reachable", Finish::reachable}}};
 
 struct ReliefOptions : NumericOptions {
-  std::optional<Method> method;   // default: see effective_method()
-  std::optional<ToneCurve> tone;  // replaces (6) and the saturation
-  Strokes strokes;                // local changes that were painted onto the model
+  std::optional<Method> method;         // default: see effective_method()
+  std::optional<ToneCurve> tone;        // replaces (6) and the saturation
+  std::optional<LightDirection> light;  // for which slopes are chosen
+  Strokes strokes;                      // local changes that were painted onto the model
   Mode mode = Mode::exact;
   View view;
   Outline outline = Outline::rectangle;

@@ -125,6 +125,13 @@ std::vector<OptionRow> limit_rows() {
       {.name = "tone", .unit = "X,Y;..", .stage = shape,
        .help = "tone curve that replaces the saturation: share of the slope kept over the square root of the curvature",
        .otherwise = "none", .access = text<&ReliefOptions::tone, parse_tone_curve>},
+      {.name = "light", .unit = "AZ,EL", .stage = shape,
+       .help = "azimuth and elevation in degrees of a light under which the piece will hang, for which slopes are chosen: "
+               "135,30 is from the upper left",
+       .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::light, parse_light>},
+      {.name = "light-contrast", .unit = "C", .stage = shape, .min = 0, .max = 1,
+       .help = "how much of the model's contrast under the light the relief gets", .initial = NumericOptions{}.light_contrast,
+       .is_hidden = true, .access = number<&ReliefOptions::light_contrast>},
       {.name = "colour", .unit = "MM", .stage = shape, .min = 0, .max = 100,
        .help = "depth by which dark lines of a coloured scan sink, such as pupils and painted letters",
        .initial = NumericOptions{}.colour_mm, .is_hidden = true, .access = number<&ReliefOptions::colour_mm>},

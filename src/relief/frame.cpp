@@ -7,6 +7,7 @@
 
 #include "core/memory.h"
 #include "core/stopwatch.h"
+#include "relief/aimed_slopes.h"
 #include "relief/colour_lines.h"
 #include "relief/height_search.h"
 #include "relief/own_heights.h"
@@ -40,6 +41,8 @@ struct OwnFrames {
                            model.system() ? &model.system()->divergence_matrix() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
   OwnHeights::Workspace<float> own_workspace = {};
+  std::optional<LightDirection> light = {};  // that of `contrast`
+  std::vector<float> contrast = {};
   StrokeFields<float> strokes{surface};
   std::optional<std::vector<float>> lines = {};  // dark_lines(), once they are wanted
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
@@ -67,6 +70,12 @@ struct OwnFrames {
     });
   }
 
+  void aim_at_light(const Shape& shape) {
+    if (!shape.light) return;
+    if (light != shape.light->from) contrast = local_contrast(surface, *(light = shape.light->from));
+    aim_slopes<float>(shape, contrast, layer_weights(shape).fine, slopes);
+  }
+
   void write_slopes_of(const PaperWeightsStyle& style) { write_slopes<float>(input, style, weight, slopes); }
   void write_slopes_of(const LayeredStyle& style) { write_slopes_by_eight(input, style, weight, slopes); }
 
@@ -76,6 +85,7 @@ struct OwnFrames {
       weight.fill(input.delta, style.weighted());
       write_slopes_of(style);
     });
+    aim_at_light(frame.options.shape);
     system.solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
     frame.times.heights_s += watch.seconds();
   }

@@ -6,6 +6,7 @@
 
 #include "core/height_span.h"
 #include "paper/surface.h"
+#include "relief/aimed_slopes.h"
 #include "relief/colour_lines.h"
 #include "relief/correction/height_correction.h"
 #include "relief/height_search.h"
@@ -195,7 +196,10 @@ class ReliefModel::Maker {
       : model_(model),
         boundary_weight_(boundary_weights(model.surface().boundary.distance,
                                           boundary_rho(model.surface(), shape.boundary_width))),
-        input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {}
+        input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {
+    if (shape.light) contrast_ = local_contrast(model.surface(), shape.light->from);
+    input_.contrast = contrast_;
+  }
 
   // Returns the relief of that shape without the last step of its style; Relief::height is already final.
   // Steps at depth jumps take their share of `height` or, if none is given, of the height of slopes and steps
@@ -230,7 +234,7 @@ class ReliefModel::Maker {
 
  private:
   const ReliefModel& model_;
-  std::vector<float> boundary_weight_;
+  std::vector<float> boundary_weight_, contrast_;
   SlopeInput input_;
   std::vector<HeightSpan<double>> spans_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "relief/aimed_slopes.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/stroke.h"
@@ -62,6 +63,8 @@ void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> sl
     };
     write_slopes<double>(input, style, w_k, slopes);
   });
+  if (shape.light && !input.contrast.empty())
+    aim_slopes<double>(shape, input.contrast, static_cast<double>(layer_weights(shape).fine), slopes);
 }
 
 Compression saturation_alone(const Compression& compression) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "relievo/relief/light.h"
+
 namespace relievo {
 
 struct Stroke;
@@ -62,6 +64,8 @@ struct Shape {
   bool is_corrected = true;  // whether HeightCorrection compresses the heights
   // Least share of the height by which a part stands off what is behind it, and off the base, [0, 0.3].
   double planes = 0;
+  // The light for which slopes are chosen, in the layered style of exact models.
+  std::optional<ReliefLight> light = {};
   // Local changes of the finished heights, of any method but the paper's. The highest point keeps
   // its height: if strokes raise or sink it, all heights are scaled.
   SharedStrokes strokes = {};

@@ -46,11 +46,12 @@ struct SlopeInput {
   std::span<const float> boundary_weight;    // w_b
   double delta = 0;                          // standard deviation of |k|
   std::span<const PointLayers> layers = {};  // used only by the layered style
+  std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
 };
 
 // Writes the target slope of every point. With Style::paper_weights it is compressed_slope() with w = w_k
 // w_b. In the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied
-// by w_b and by the factor of the saturation.
+// by w_b and by the factor of the saturation, and the slopes are aimed at the shape's light.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // Returns the layer weights of a layered shape.

@@ -1,0 +1,64 @@
+// Slopes of a relief that is made for one light. Tested by tests/relief/aimed_slopes_test.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "relievo/core/parallel.h"
+#include "relievo/core/types.h"
+#include "relievo/relief/light.h"
+#include "relievo/relief/shape.h"
+
+namespace relievo {
+
+struct Surface;
+
+// Returns the unit vector towards the light.
+Vec3 direction_of(const LightDirection& light);
+
+// Returns, per point, the Lambert shading of the surface under the light minus its Gaussian mean over 3 % of the longer
+// side along the surface: the contrast that people see.
+std::vector<float> local_contrast(const Surface& surface, const LightDirection& light);
+
+// Returns the slope whose shading under the light l is `shading`, with the part across the light of slope s. Along the
+// light there are up to two such slopes, of which the one nearer to that of s is taken; if there is none, s stays.
+// Shadings are cosines, those of slopes in attached shadow 0.
+template <typename Real>
+Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vector3<Real>& l, Real shading) {
+  const Real h = l.template head<2>().norm();
+  const Eigen::Vector2<Real> along = l.template head<2>() / h, across(-along.y(), along.x());
+  const Real p = s.dot(along), o = s.dot(across);
+  // (l_z - h p) / sqrt(1 + p^2 + o^2) = shading, squared.
+  const Real a = h * h - shading * shading, b = -l.z() * h,
+             c = l.z() * l.z() - shading * shading * (1 + o * o);
+  const Real root_sq = b * b - a * c;
+  if (!(root_sq >= 0) || std::abs(a) < Real(1e-6)) return s;
+  Real nearest = p, least = -1;
+  for (const Real sign : {Real(-1), Real(1)}) {
+    const Real q = (-b + sign * std::sqrt(root_sq)) / a;
+    const Real distance = std::abs(q - p);
+    if (l.z() - h * q < 0 || (least >= 0 && distance >= least)) continue;
+    nearest = q, least = distance;
+  }
+  return nearest * along + o * across;
+}
+
+// Changes the target slopes of a layered shape that has a light. `contrast` is local_contrast() of that light. The
+// contrast asked of the relief shrinks with the fine layer, so that low reliefs can be reached.
+template <typename Real>
+void aim_slopes(const Shape& shape, std::span<const float> contrast, Real fine_weight,
+                std::span<Eigen::Vector2<Real>> slopes) {
+  const Eigen::Vector3<Real> l = direction_of(shape.light->from).cast<Real>();
+  const Real amount = static_cast<Real>(shape.light->contrast) * fine_weight;
+  const Real most = static_cast<Real>(shape.max_slope);
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    const Real shading = std::clamp(l.z() + amount * static_cast<Real>(contrast[i]), Real(.02), Real(1));
+    const Eigen::Vector2<Real> s = aimed_slope<Real>(slopes[i], l, shading);
+    const Real length = s.norm();
+    slopes[i] = length > most ? Eigen::Vector2<Real>(s * (most / length)) : s;
+  });
+}
+
+}  // namespace relievo

@@ -1,0 +1,97 @@
+#include "relief/aimed_slopes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "relievo/relief/frame.h"
+#include "relievo/relief/relief.h"
+#include "support/surfaces.h"
+
+namespace relievo {
+namespace {
+
+double shading_of(const Vec2& slope, const Vec3& l) {
+  return Vec3(-slope.x(), -slope.y(), 1).normalized().dot(l);
+}
+
+TEST(AimedSlope, HasTheShadingAndKeepsWhatIsAcrossTheLight) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> slope(-1, 1), azimuth(-180, 180), elevation(10, 80),
+      shading(.05, .95);
+  int changed = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 l = direction_of({azimuth(random), elevation(random)});
+    const Vec2 s(slope(random), slope(random)), across(-l.y(), l.x());
+    const double wanted = shading(random);
+    const Vec2 aimed = aimed_slope<double>(s, l, wanted);
+    EXPECT_NEAR(aimed.dot(across), s.dot(across), 1e-9);
+    if (aimed == s) continue;
+    ++changed;
+    EXPECT_NEAR(shading_of(aimed, l), wanted, 1e-9);
+    // No slope nearer to s along the light has this shading.
+    const Vec2 along = Vec2(l.head<2>()).normalized();
+    const double distance = (aimed - s).norm();
+    for (double t = -.99; t < 1; t += .01) {
+      const double before = shading_of(s + (t - .01) * distance * along, l),
+                   after = shading_of(s + t * distance * along, l);
+      EXPECT_FALSE((before - wanted) * (after - wanted) < 0 && before > 0 && after > 0);
+    }
+  }
+  EXPECT_GT(changed, 800);
+}
+
+TEST(AimedSlope, StaysWhereNoSlopeHasTheShading) {
+  // Across a slope of 3, no slope along the light is brighter than sqrt(l_z^2 / 10 + h^2).
+  const Vec3 l = direction_of({0, 60});
+  EXPECT_EQ(aimed_slope<double>({.3, 3}, l, .9), Vec2(.3, 3));
+}
+
+TEST(LocalContrast, IsThatOfWavesAndNoneOfAPlane) {
+  const auto level = test::surface_of(test::height_field(
+      20000, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
+  for (const float contrast : local_contrast(level, {45, 30})) EXPECT_NEAR(contrast, 0, 1e-5);
+  const double k = 80, slope = .2;
+  const auto waves = test::surface_of(test::height_field(
+      40000, 1, [=](double x, double) { return slope / k * std::sin(k * x); },
+      [=](double x, double) { return Vec2(slope * std::cos(k * x), 0); }));
+  const Vec3 l = direction_of({0, 30});
+  const std::vector<float> contrast = local_contrast(waves, {0, 30});
+  for (std::size_t i = 0; i < contrast.size(); ++i) {
+    const Vec3& p = waves.points[i];
+    if (p.head<2>().cwiseAbs().maxCoeff() > .8) continue;
+    const double shading = shading_of(Vec2(slope * std::cos(k * p.x()), 0), l);
+    EXPECT_NEAR(contrast[i], shading - l.z() / std::sqrt(1 + slope * slope / 2), .04);
+  }
+}
+
+TEST(Light, IsParsed) {
+  EXPECT_EQ(value_of(parse_light("135,30")), (LightDirection{135, 30}));
+  for (const char* text : {"", "135", "135,", "135,3", "400,30", "a,b", "1,2,3"})
+    EXPECT_FALSE(parse_light(text)) << text;
+}
+
+TEST(Light, OfAShapeBringsTheContrastUnderIt) {
+  const ReliefModel model = test::prepared(test::bumps_behind_a_ring(20000));
+  Shape lit = layered_shape();
+  lit.light = ReliefLight{{0, 30}, 1};
+  const Surface& surface = model.surface();
+  const Vec3f l = direction_of(lit.light->from).cast<float>();
+  const std::vector<float> wanted = local_contrast(surface, lit.light->from);
+  const auto correlation = [&](const Shape& shape) {
+    const Relief relief = value_of(model.make_at_height(.15, shape, 1));
+    const std::vector<float> heights(relief.heights.begin(), relief.heights.end());
+    const std::vector<Vec3f> normals = vertex_normals(surface, heights);
+    double sum = 0, own_sq = 0, wanted_sq = 0;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (surface.boundary.distance[i] < static_cast<float>(4 * surface.rho)) continue;
+      const auto own = static_cast<double>(normals[i].dot(l) - l.z()), asked = static_cast<double>(wanted[i]);
+      sum += own * asked, own_sq += own * own, wanted_sq += asked * asked;
+    }
+    return sum / std::sqrt(own_sq * wanted_sq);
+  };
+  EXPECT_GT(correlation(lit), correlation(layered_shape()) + .03);
+}
+
+}  // namespace
+}  // namespace relievo
