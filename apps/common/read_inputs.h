@@ -19,6 +19,8 @@ struct InputArguments {
   double stream_above_mb = 512;  // larger files are read in blocks where that is possible
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
   bool is_lithophane = false;    // whether the brightness of a picture becomes thickness, not height
+
+  bool operator==(const InputArguments&) const = default;
 };
 
 // The view and the number of points to take from a file with more points than are needed.

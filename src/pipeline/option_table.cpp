@@ -78,10 +78,10 @@ std::vector<OptionRow> shape_rows() {
       {.name = "mm-per-value", .unit = "MM", .stage = shape, .min = 1e-9, .max = 1e6,
        .help = "one vertical scale in the place of a height: the millimetres of one unit of the heights in the file, so "
                "that tiles of a map fit edge to edge; by method linear",
-       .otherwise = "none", .is_hidden = true, .access = number<&ReliefOptions::mm_per_value>},
+       .otherwise = "none", .access = number<&ReliefOptions::mm_per_value>},
       {.name = "ground", .unit = "VALUE", .stage = shape, .min = -1e9, .max = 1e9,
        .help = "with mm-per-value: the height in the file at which the ground lies; what is lower is level with it",
-       .otherwise = "0 of a picture of heights, else the lowest height", .is_hidden = true,
+       .otherwise = "0 of a picture of heights, else the lowest height",
        .access = number<&ReliefOptions::ground_value>},
       {.name = "alpha", .unit = "A", .stage = shape, .min = 0, .max = 1e9,
        .help = "the paper's height coefficient, more is flatter; not together with height",
@@ -260,14 +260,17 @@ std::vector<OptionRow> depth_rows() {
   return {
       {.name = "depth-values", .unit = "KIND", .stage = input, .choices = names_of(depth_value_choices),
        .help = "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or luminance, "
-               "also of colours, bright being near",
-       .initial = "depth", .access = word<&DepthOptions::values, depth_value_choices>},
+               "also of colours, bright being near; auto: luminance of colours, height in formats of terrain, else "
+               "depth",
+       .initial = "depth", .in_studio = "auto", .is_stated = true,
+       .access = word<&DepthOptions::values, depth_value_choices>},
       {.name = "channel", .unit = "N", .stage = input, .min = 0, .max = 64,
        .help = "of a depth image with several channels: the one with the depths; 0: the only one",
-       .initial = 0., .access = {read_channel}},
+       .initial = 0., .is_hidden = true, .access = {read_channel}},
       {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
        .help = "of a depth image without camera: nearest to farthest, in picture widths",
-       .initial = DepthOptions{}.range, .access = {read_number<&DepthOptions::range>}},
+       .initial = DepthOptions{}.range, .is_hidden = true,
+       .access = {read_number<&DepthOptions::range>}},
       {.name = "background", .unit = "B", .stage = input, .choices = names_of(removal_choices),
        .help = "of a depth image: what lies behind a depth jump all around the figure; auto drops it, but keeps it "
                "with a camera and in heights; drop without such a jump takes the far depths",
