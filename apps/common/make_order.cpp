@@ -24,13 +24,17 @@ Result<void> read_strokes(OptionValues& values) {
   return {};
 }
 
+// Returns the values of an order, and those of its project that the order does not give.
+OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
+  return stored ? with_given(stored->project.options, order.values) : order.values;
+}
+
 }  // namespace
 
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
   if (stored) project = stored->project;
-  OptionValues values = order.values;
-  if (project) values = with_given(project->options, values);
+  OptionValues values = values_of(order, stored);
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
   RELIEVO_CHECK(read_strokes(values));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
@@ -52,6 +56,10 @@ Result<CheckedOrder> check_order(MakeOrder order) {
   RELIEVO_TRY(auto project,
               find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));
+  const OptionValues values = values_of(order, project);
+  RELIEVO_TRY(order.in.depth, parse_depth(values));
+  RELIEVO_TRY(order.in.keeps_doubtful, parse_doubtful(values));
+  order.in.is_lithophane = options.form == Form::lithophane;
   if (are_files) order.name = joined(order.inputs);
   return CheckedOrder{std::move(order), std::move(project), std::move(options)};
 }
@@ -60,10 +68,11 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
   LoadedOrder loaded{std::move(order), {}, {}};
   if (loaded.project) {
     RELIEVO_CHECK(progress.stage("read", 0));
-    RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, [&] { return progress.is_cancelled(); }));
+    if (loaded.options.points) loaded.in.depth.points = *loaded.options.points;
+    const LoadOptions how{loaded.in, [&] { return progress.is_cancelled(); }};
+    RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, how));
     loaded.project->packed = nullptr;  // frees the bytes, which may be as large as the points
   } else {
-    loaded.in.is_lithophane = loaded.options.form == Form::lithophane;
     const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
     if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");
     RELIEVO_TRY(loaded.scene, loaded.read ? loaded.read(loaded.in, wanted, &progress)

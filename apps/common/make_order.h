@@ -20,8 +20,8 @@ namespace relievo::app {
 
 // Describes a relief to make.
 struct MakeOrder {
-  OptionValues values;
-  InputArguments in;
+  OptionValues values;                   // those of depth images, too
+  InputArguments in;                     // check_order() sets what the values say
   std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};
   std::string scan_path = {};  // path of a project's scan

@@ -89,8 +89,7 @@ std::string help_text(const OptionRow& option) {
 
 Json option_list() {
   Json list = Json::array();
-  for (const OptionRow& option : option_table())
-    if (option.is_of_relief()) list.push_back(entry_of(option));
+  for (const OptionRow& option : option_table()) list.push_back(entry_of(option));
   return list;
 }
 

@@ -17,15 +17,13 @@ std::string help_text(const OptionRow& option);
 // Returns a list of objects with name, unit, help and stage; numbers also have min and max, and enumerations
 // choices. `default` is there if the option has a default: its value or, where methods differ, an object of
 // method names and values. `default_with` has the defaults that replace it: with a form, under the form's
-// name, and with a diameter, under "diameter". `in_studio` and `is_stated` are those of OptionRow. The
-// options of depth images are left out.
+// name, and with a diameter, under "diameter". `in_studio` and `is_stated` are those of OptionRow.
 nlohmann::json option_list();
 
 // Returns the name of an option as an argument of a function, with its unit: "height_mm".
 std::string keyword_of(const OptionRow& option);
 
-// Returns all rows as option_list() does, with its keyword and default_text for each. The options of depth
-// images are included.
+// Returns the rows of option_list(), with its keyword and default_text for each.
 nlohmann::json keyword_list();
 
 // Returns the rows of the table in docs/options.md.

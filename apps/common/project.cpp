@@ -11,7 +11,6 @@
 
 #include "common/descriptor.h"
 #include "common/files.h"
-#include "common/read_inputs.h"
 #include "common/wording.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/parallel.h"
@@ -51,7 +50,7 @@ Json to_json(const OptionValues& options) {
   for (const OptionRow& option : option_table()) {
     const auto found = options.find(option.name);
     const OptionValue& value = found == options.end() ? option.initial : found->second;
-    if (!option.is_of_relief() || value == OptionValue()) continue;
+    if (value == OptionValue()) continue;
     std::visit([&](const auto& each) { json[option.name] = each; }, value);
   }
   return json;
@@ -68,8 +67,7 @@ Result<OptionValues> values_from_json(const Json& given, std::string_view name) 
   OptionValues values;
   for (const auto& [key, json] : given.items()) {
     const OptionRow* const option = find_option(key);
-    if (!option || !option->is_of_relief())
-      return fail(name, "options", cat("expected known options, found '", key, "'"));
+    if (!option) return fail(name, "options", cat("expected known options, found '", key, "'"));
     const std::optional<OptionValue> value = value_from_json(json);
     if (!value || std::holds_alternative<double>(*value) != option->is_number())
       return fail(name, cat("options.", key),
@@ -120,6 +118,7 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
 Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
   RELIEVO_TRY(const OptionValues values, values_without_image(json, name));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
+  RELIEVO_CHECK(parse_depth(values));
   RELIEVO_TRY(std::shared_ptr<const Image<float>> image, last_base_image(base_image_path_in(json)));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
   return options;
@@ -192,28 +191,28 @@ Result<std::string> hash_of_file(const std::string& path) {
 }
 
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
-                        const std::function<bool()>& is_unwanted) {
+                        const LoadOptions& options) {
   const std::string hash = hash_of(text_in(bytes));
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
-  if (is_unwanted && is_unwanted()) return cancelled_error();
-  if (is_scene_file(path)) return read_scene({path}, {}, {}, nullptr);
-  RELIEVO_TRY(SceneModel model, parse_input(bytes, path, {}, PointsWanted{}.points, nullptr));
+  if (options.is_unwanted && options.is_unwanted()) return cancelled_error();
+  const PointsWanted wanted{{}, options.in.depth.points};
+  if (is_scene_file(path)) return read_scene({path}, options.in, wanted, nullptr);
+  RELIEVO_TRY(SceneModel model, parse_input(bytes, path, options.in, wanted.points, nullptr));
   model.name = input.name;
   return Scene{{std::move(model)}};
 }
 
-Result<Scene> load_input(ScanSource& input, const std::string& folder,
-                         const std::function<bool()>& is_unwanted) {
+Result<Scene> load_input(ScanSource& input, const std::string& folder, const LoadOptions& options) {
   if (!input.sample.empty()) {
     RELIEVO_TRY(Cloud sample, make_sample(input.sample));
     return Scene{{{input.sample, std::make_shared<const CloudFile>(std::move(sample), "sample")}}};
   }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
-  if (is_unwanted && is_unwanted()) return cancelled_error();
-  return load_scan(input, bytes, path, is_unwanted);
+  if (options.is_unwanted && options.is_unwanted()) return cancelled_error();
+  return load_scan(input, bytes, path, options);
 }
 
 }  // namespace relievo::app

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/read_inputs.h"
 #include "relievo/core/image.h"
 #include "relievo/option_table.h"
 #include "relievo/scene.h"
@@ -52,7 +53,8 @@ std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
 // Returns the parsed options of an object that to_json() made, with the height map at the path "base-image".
-// Errors: those of values_from_json(), parse_options(), read_base_image() and take_base_image().
+// Errors: those of values_from_json(), parse_options(), parse_depth(), read_base_image() and
+// take_base_image().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
 // Returns the path "base-image" of an object with options; empty if it has none.
@@ -78,15 +80,19 @@ std::string hash_of(std::string_view bytes);
 // Returns the hash of a file's bytes, which are read in blocks. Errors: kind input.
 Result<std::string> hash_of_file(const std::string& path);
 
+struct LoadOptions {
+  InputArguments in = {};
+  std::function<bool()> is_unwanted = {};  // may be empty
+};
+
 // Returns the model in a scan's bytes, or the models of a scene file. The ending of `path` determines the
 // format. Files that the scan names are looked for in the folder of `path`. Otherwise like load_input().
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
-                        const std::function<bool()>& is_unwanted = {});
+                        const LoadOptions& options);
 
 // Returns the model of the input, or the models of a scene file. Sets the input's hash if it has none. A
 // relative path starts at `folder`. Errors: kind input, also if the file does not have the input's hash;
 // kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
-Result<Scene> load_input(ScanSource& input, const std::string& folder,
-                         const std::function<bool()>& is_unwanted = {});
+Result<Scene> load_input(ScanSource& input, const std::string& folder, const LoadOptions& options);
 
 }  // namespace relievo::app

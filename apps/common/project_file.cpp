@@ -81,14 +81,14 @@ Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& ba
   return project->base_image;
 }
 
-Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted) {
+Result<Scene> load_project_scan(const StoredProject& stored, const LoadOptions& options) {
   ScanSource source = stored.project.input;
   if (!stored.located.empty()) {
     source.path = stored.located;
-    return load_input(source, {}, is_unwanted);
+    return load_input(source, {}, options);
   }
-  if (stored.packed) return load_scan(source, stored.packed->bytes, stored.packed->name, is_unwanted);
-  Result<Scene> scene = load_input(source, stored.folder, is_unwanted);
+  if (stored.packed) return load_scan(source, stored.packed->bytes, stored.packed->name, options);
+  Result<Scene> scene = load_input(source, stored.folder, options);
   const std::string path = (std::filesystem::path(stored.folder) / source.path).string();
   if (!scene && source.sample.empty() && !is_there(path))
     scene.error().expected += cat("; name the place of ", source.name, " with --scan");

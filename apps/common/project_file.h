@@ -57,6 +57,6 @@ Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& ba
 
 // Reads the project's scan: from the path that the user gives, from the project's file, or from the path that
 // the project names. Errors: those of load_scan() and load_input().
-Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted = {});
+Result<Scene> load_project_scan(const StoredProject& stored, const LoadOptions& options);
 
 }  // namespace relievo::app

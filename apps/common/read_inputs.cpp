@@ -45,10 +45,31 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
+// Returns what the values mean if nobody says so: formats of terrain have heights.
+DepthValues usual_values(const DepthImage& image) {
+  const bool has_heights = image.pixel_size.x() > 0 || image.format == "table of heights";
+  return has_heights ? DepthValues::height : DepthValues::depth;
+}
+
+// Reads a picture, and sets the meaning of its values if that is to be found out: colours have luminance.
+Result<DepthImage> read_values(std::span<const std::byte> bytes, const std::string& path,
+                               DepthOptions& options) {
+  const auto read = [&](bool is_luminance_wanted) {
+    return read_depth_image(bytes, path, {is_luminance_wanted, options.channel});
+  };
+  if (options.values != DepthValues::automatic) return read(options.values == DepthValues::luminance);
+  Result<DepthImage> image = read(false);
+  if (image) options.values = usual_values(*image);
+  if (image || options.channel > 0) return image;
+  options.values = DepthValues::luminance;
+  Result<DepthImage> bright = read(true);
+  return bright ? std::move(bright) : std::move(image);
+}
+
 Result<SceneModel> read_depths(std::span<const std::byte> bytes, const std::string& path,
-                               const InputArguments& arguments, double points, Progress* progress) {
-  const PictureChannels channels{arguments.depth.values == DepthValues::luminance, arguments.depth.channel};
-  RELIEVO_TRY(const DepthImage image, read_depth_image(bytes, path, channels));
+                               const InputArguments& asked, double points, Progress* progress) {
+  InputArguments arguments = asked;
+  RELIEVO_TRY(const DepthImage image, read_values(bytes, path, arguments.depth));
   return take_depths(image, path, arguments, points, progress);
 }
 
@@ -150,6 +171,24 @@ Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const st
   return read_cloud(content, cat(path, "/", model), ReadOptions{beside, keeps_doubtful});
 }
 
+// The points of a depth image, and the meaning of its values.
+struct ReadDepths {
+  DepthCloud made;
+  DepthValues values;
+};
+
+SceneModel model_of(const std::string& name, const DepthImage& image, const std::string& remark,
+                    ReadDepths read) {
+  auto& [made, values] = read;
+  auto pixels =
+      std::make_shared<const PixelUses>(std::move(made.uses), made.reduction, values, image.pixel_shape());
+  return {name,
+          std::make_shared<const CloudFile>(std::move(made.cloud), image.format),
+          {},
+          {remark},
+          std::move(pixels)};
+}
+
 // Returns the model of a picture whose brightness becomes the thickness of a lithophane.
 Result<SceneModel> take_picture(const DepthImage& image, const std::string& name,
                                 const DepthOptions& options) {
@@ -157,8 +196,7 @@ Result<SceneModel> take_picture(const DepthImage& image, const std::string& name
   std::string remark = cat(name, ": ", image.values.width, " x ", image.values.height,
                            " pixels, whose brightness becomes thickness");
   if (made.missing > 0) remark += cat("; ", made.missing, " without a value are white");
-  return SceneModel{
-      name, std::make_shared<const CloudFile>(std::move(made.cloud), image.format), {}, {remark}};
+  return model_of(name, image, remark, {std::move(made), options.values});
 }
 
 }  // namespace
@@ -185,8 +223,7 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
   RELIEVO_TRY(options.camera, read_camera(arguments.camera));
   RELIEVO_TRY(DepthCloud made, naming(name, depth_cloud(image, options, progress)));
   const std::string remark = cat(name, ": ", remark_on(image, made));
-  return SceneModel{
-      name, std::make_shared<const CloudFile>(std::move(made.cloud), image.format), {}, {remark}};
+  return model_of(name, image, remark, {std::move(made), options.values});
 }
 
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,

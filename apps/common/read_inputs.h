@@ -20,6 +20,8 @@ struct InputArguments {
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
   bool keeps_doubtful = false;   // as in ReadOptions
   bool is_lithophane = false;    // whether the brightness of a picture becomes thickness, not height
+
+  bool operator==(const InputArguments&) const = default;
 };
 
 // The view and the number of points to take from a file with more points than are needed.

@@ -269,6 +269,7 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, name));
   RELIEVO_TRY(Project project, read_project(file.text, name));
   RELIEVO_TRY(const ReliefOptions read, parse_options(project.options));
+  RELIEVO_CHECK(parse_depth(project.options));
   ScanSource& input = project.input;
   const Lock lock(storing_);
   if (file.scan) {

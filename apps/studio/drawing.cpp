@@ -64,7 +64,8 @@ double rounded_down(double height_mm, double steps_per_mm) {
 bool is_plain(const ReliefOptions& options) {
   return options.outline == Outline::rectangle && !options.rim_mm && options.base.kind == BaseKind::plane &&
          options.wrap.kind == WrapKind::none && options.form == Form::relief && !options.draft_deg &&
-         !options.tolerance_mm && !options.triangles && !options.tool && !options.plate_mm;
+         !options.tolerance_mm && !options.triangles && !options.tool && !options.plate_mm &&
+         !options.mm_per_value;
 }
 
 ReliefOptions coarse(ReliefOptions options) {
@@ -110,13 +111,14 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
 }
 
 // Returns the height of the relief in files: the requested height if the frame's relief and a draft angle
-// allow it, otherwise the largest height that they allow. A lithophane can have any height.
+// allow it, otherwise the largest height that they allow. A lithophane can have any height; with one vertical
+// scale the height is not known before the piece.
 PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& made) const {
   const Frame& frame = *made.frame;
   const double height = frame.height * made.stretch * live_.mm_per_unit(request.options);
   const double highest = std::min(height, request.draft_limit_mm.value_or(height));
   const double asked = request.options.height_mm.value_or(height);
-  if (request.options.form == Form::lithophane) return {asked, true};
+  if (request.options.form == Form::lithophane || request.options.mm_per_value) return {asked, true};
   if (height > highest || !frame.is_height_met)
     return {rounded_down(highest, highest < .1 ? 1e4 : 1e3), false};
   return {request.u ? rounded_down(height, 1e4) : asked, true};
@@ -126,6 +128,7 @@ PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& m
 // largest.
 ReliefOptions Drawing::piece_options(const PictureRequest& request, const LiveFrame& made) const {
   ReliefOptions options = request.options;
+  if (options.mm_per_value) return options;
   const PieceHeight height = height_of(request, made);
   if (request.u || !height.is_met) options.height_mm = height.mm;
   return options;
@@ -153,8 +156,9 @@ Result<DrawnPiece*> Drawing::piece(const ReliefOptions& options) {
   if (coarse_ && coarse_->options == options) return &*coarse_;
   RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(options)));
   const auto solid = std::make_shared<const Solid>(std::move(made.solid));
+  const auto height = options.mm_per_value ? std::optional(made.report.height_mm) : std::nullopt;
   coarse_.reset();
-  coarse_.emplace(options, solid, nullptr, SolidRenderer(solid));
+  coarse_.emplace(options, solid, nullptr, SolidRenderer(solid), height);
   return &*coarse_;
 }
 
@@ -175,6 +179,7 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   } else {
     RELIEVO_TRY(DrawnPiece* const piece, this->piece(wanted));
     piece->renderer.render(render, answer.picture, request.progress.get());
+    if (request.options.mm_per_value) answer.height_mm = piece->height_mm.value_or(answer.height_mm);
     answer.size_mm = Box::of(piece->solid->points).size();
     if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
     answer.relief_height_mm = piece->height_mm.value_or(answer.height_mm);
@@ -228,8 +233,9 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   const LiveFrame made = frame(request, true);
   if (is_plain(request.options)) return along(live_.shown(made));
   const ReliefOptions wanted = piece_options(request, made);
-  RELIEVO_CHECK(check_rim(wanted, height_of(request, made).mm));  // making a coarse piece does not check this
   RELIEVO_TRY(const DrawnPiece* const shown, piece(wanted));
+  // Making a coarse piece does not check this.
+  RELIEVO_CHECK(check_rim(wanted, shown->height_mm.value_or(height_of(request, made).mm)));
   return section_of(*shown->solid, line);
 }
 

@@ -81,7 +81,8 @@ struct DrawnPiece {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ToolReach> reach;  // of the options' tool; null without one
   SolidRenderer renderer;
-  std::optional<double> height_mm = {};  // see relief_height_mm(); empty for a coarse piece
+  // See relief_height_mm(); of a coarse piece only if one vertical scale gives it.
+  std::optional<double> height_mm = {};
 };
 
 // The height of a piece, and whether it is the requested one.

@@ -48,12 +48,22 @@ OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best
   return values;
 }
 
+// Returns how depth images are read for these values. Values that cannot be read are refused elsewhere.
+InputArguments reading_of(const OptionValues& values) {
+  const ReliefOptions options = parse_options(values).value_or(ReliefOptions{});
+  InputArguments how;
+  how.depth = parse_depth(values).value_or(how.depth);
+  how.depth.points = options.points.value_or(how.depth.points);
+  how.is_lithophane = options.form == Form::lithophane;
+  return how;
+}
+
 struct Shared {
   ScanSource wanted;  // requested last, with its view
   OptionValues view;
-  std::optional<ViewGuess> best;             // the side that was chosen for the view "auto"
-  std::shared_ptr<const ScanSource> unread;  // requested, but not yet read
-  LoadedScan scan;                           // read last
+  std::optional<ViewGuess> best;            // the side that was chosen for the view "auto"
+  std::shared_ptr<const ScanOrder> unread;  // requested, but not yet read
+  LoadedScan scan;                          // read last
   ShownModel shown;
 };
 
@@ -204,7 +214,7 @@ Engine::~Engine() = default;
 void Engine::open(const ScanSource& input, const OptionValues& view) {
   // A view that cannot be read is refused by the next picture.
   Preparation preparation = state_->preparation_of(parse_options(view).value_or(ReliefOptions{}));
-  const auto unread = std::make_shared<const ScanSource>(input);
+  const auto unread = std::make_shared<const ScanOrder>(input, reading_of(view));
   state_->shared.with([&, wanted = input, values = view](Shared& s) mutable {
     s.unread = unread;
     s.wanted = std::move(wanted);
@@ -227,11 +237,15 @@ void Engine::show(const ScanSource& input, const OptionValues& view) {
 
 Result<void> Engine::choose_view(const OptionValues& view) {
   RELIEVO_TRY(const ReliefOptions options, parse_options(view));
+  RELIEVO_CHECK(parse_depth(view));
+  const InputArguments how = reading_of(view);
   const LoadedScan scan = state_->scan_in_use();
   Preparation preparation = state_->preparation_of(options);
   const bool is_open = state_->shared.with([&, values = view](Shared& s) mutable {
     s.view = std::move(values);
     s.best.reset();
+    if (s.unread ? s.unread->how != how : scan.depends_on(how))
+      s.unread = std::make_shared<const ScanOrder>(s.unread ? s.unread->input : scan.input(), how);
     return scan.cloud() || s.unread;
   });
   if (!is_open) return nothing_open();
@@ -352,6 +366,13 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   Picture picture;
   state_->cloud_renderer->render(view, width, height, picture);
   return picture;
+}
+
+std::shared_ptr<const SceneModel> Engine::depth_image() const {
+  return state_->shared.with([](const Shared& s) -> std::shared_ptr<const SceneModel> {
+    const SceneModel* const image = s.shown.scan.depth_image();
+    return image ? std::make_shared<const SceneModel>(*image) : nullptr;
+  });
 }
 
 Result<std::vector<ViewGuess>> Engine::suggest_views() {

@@ -78,6 +78,9 @@ class Engine {
   // Draws the scan itself as it looks in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);
 
+  // Returns the shown scan if it is a single depth image, else null. It shares the model with the scan.
+  std::shared_ptr<const SceneModel> depth_image() const;
+
   // Returns the six sides, the best one first; see rank_views().
   Result<std::vector<ViewGuess>> suggest_views();
 

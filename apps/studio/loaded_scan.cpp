@@ -36,7 +36,7 @@ Cloud share_of(const Cloud& cloud, double share) {
 
 }  // namespace
 
-LoadedScan::LoadedScan(ScanSource input, Scene scene) : input_(std::move(input)), scene_(std::move(scene)) {
+LoadedScan::LoadedScan(ScanOrder order, Scene scene) : order_(std::move(order)), scene_(std::move(scene)) {
   const std::shared_ptr<const CloudFile> first = scene_.models[0].file;
   if (is_one_file() && (!first->mesh.empty() || outliers(first->cloud).empty())) {
     cloud_ = {first, &first->cloud};
@@ -47,6 +47,15 @@ LoadedScan::LoadedScan(ScanSource input, Scene scene) : input_(std::move(input))
   const std::vector<double> shares = even_shares(scene_, places);
   for (std::size_t i = 0; i < places.size(); ++i) add(*scene_.models[i].file, places[i], shares[i], all);
   cloud_ = std::make_shared<const Cloud>(std::move(all));
+}
+
+bool LoadedScan::depends_on(const InputArguments& how) const {
+  const auto is_depth_image = [](const SceneModel& model) { return model.pixels != nullptr; };
+  return order_.how != how && std::ranges::any_of(scene_.models, is_depth_image);
+}
+
+const SceneModel* LoadedScan::depth_image() const {
+  return scene_.models.size() == 1 && scene_.models[0].pixels ? &scene_.models[0] : nullptr;
 }
 
 bool LoadedScan::is_one_file() const {
@@ -85,7 +94,7 @@ std::vector<std::string> LoadedScan::remarks() const {
   for (const SceneModel& model : scene_.models) {
     triangles += model.file->mesh.triangles.size();
     for (const std::string& line : model.remarks) {
-      const std::string& path = is_one_file() ? input_.path : model.name;
+      const std::string& path = is_one_file() ? input().path : model.name;
       const std::string name = is_one_file() ? "" : std::filesystem::path(path).filename().string() + ": ";
       const bool has_path = line.starts_with(path + ": ");
       lines.push_back(has_path ? name + line.substr(path.size() + 2) : line);
@@ -104,14 +113,14 @@ Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, std
   return sample.cloud;
 }
 
-Result<LoadedScan> read_scan(const ScanSource& from, const std::function<bool()>& is_unwanted) {
+Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted) {
   Result<LoadedScan> scan = within_memory([&]() -> Result<LoadedScan> {
-    ScanSource source = from;
-    RELIEVO_TRY(Scene models, load_input(source, {}, is_unwanted));
+    ScanOrder order = from;
+    RELIEVO_TRY(Scene models, load_input(order.input, {}, {order.how, is_unwanted}));
     if (is_unwanted()) return cancelled_error();
-    return LoadedScan(std::move(source), std::move(models));
+    return LoadedScan(std::move(order), std::move(models));
   });
-  if (!scan && scan.error().kind == ErrorKind::memory) scan.error().input = from.name;
+  if (!scan && scan.error().kind == ErrorKind::memory) scan.error().input = from.input.name;
   return scan;
 }
 

@@ -5,18 +5,31 @@
 #include <memory>
 
 #include "common/project.h"
+#include "common/read_inputs.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 
 namespace relievo::app::studio {
 
+// A scan, and how its depth images are read.
+struct ScanOrder {
+  ScanSource input;
+  InputArguments how = {};
+};
+
 // A scan or a scene that was read. It is immutable, and copies are cheap, as they share the points.
 class LoadedScan {
  public:
-  LoadedScan() = default;                     // no scan
-  LoadedScan(ScanSource input, Scene scene);  // at least one model
+  LoadedScan() = default;                    // no scan
+  LoadedScan(ScanOrder order, Scene scene);  // at least one model
 
-  const ScanSource& input() const { return input_; }
+  const ScanSource& input() const { return order_.input; }
+
+  // Returns whether reading it in that way could make another scan.
+  bool depends_on(const InputArguments& how) const;
+
+  // Returns the model if the scan is a single depth image, else null.
+  const SceneModel* depth_image() const;
 
   // Returns the points for ranking views: the points of clouds without outliers and the vertices of meshes,
   // placed as in the front view. Null if no scan was read.
@@ -44,7 +57,7 @@ class LoadedScan {
   bool is_one_file() const;
   void add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all);
 
-  ScanSource input_;
+  ScanOrder order_;
   Scene scene_;
   std::shared_ptr<const Cloud> cloud_;
   std::size_t left_out_ = 0;
@@ -52,6 +65,6 @@ class LoadedScan {
 
 // Reads a scan. Errors: those of load_input(); kind memory, which names the scan; kind cancelled as soon as
 // `is_unwanted` returns true.
-Result<LoadedScan> read_scan(const ScanSource& from, const std::function<bool()>& is_unwanted);
+Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted);
 
 }  // namespace relievo::app::studio

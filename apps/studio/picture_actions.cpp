@@ -10,6 +10,7 @@
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
 #include "studio/actions.h"
+#include "studio/pixel_picture.h"
 #include "studio/requests.h"
 
 namespace relievo::app::studio {
@@ -56,6 +57,8 @@ Result<Answer> facts(Engine& engine, const Json&) {
   RELIEVO_TRY(const ModelFacts facts, engine.facts());
   Json told = to_json(facts);
   told["models"] = models_of(engine.status().input);
+  const auto image = engine.depth_image();
+  told["depth_image"] = image ? uses_json(*image) : Json();
   return answer_of(told);
 }
 
@@ -76,6 +79,14 @@ Result<Answer> scan(Engine& engine, const Json& json) {
   RELIEVO_TRY(const View view, view_from(json));
   RELIEVO_TRY(const PictureRequest size, picture_request(json));
   RELIEVO_TRY(const Picture picture, engine.scan_picture(view, size.render.width, size.render.height));
+  return answer_of(picture, {{"width", picture.image.width}, {"height", picture.image.height}});
+}
+
+// Shows what became of the pixels of a depth image.
+Result<Answer> pixels(Engine& engine, const Json&) {
+  const auto image = engine.depth_image();
+  if (!image) return refusal(409, "expected a depth image to be open");
+  const Picture picture = picture_of_uses(*image);
   return answer_of(picture, {{"width", picture.image.width}, {"height", picture.image.height}});
 }
 
@@ -131,13 +142,18 @@ Result<Answer> make_file(Engine& engine, const Json& json) {
 }  // namespace
 
 EngineAction find_engine_action(std::string_view name) {
-  static constexpr std::pair<std::string_view, EngineAction> actions[] = {
-      {"view", view},       {"cancel", cancel},
-      {"facts", facts},     {"views", views},
-      {"frame", frame},     {"scan", scan},
-      {"profile", profile}, {"reach", reach},
-      {"piece", piece},     {"cancel_piece", cancel_piece},
-      {"export", make_file}};
+  static constexpr std::pair<std::string_view, EngineAction> actions[] = {{"view", view},
+                                                                          {"cancel", cancel},
+                                                                          {"facts", facts},
+                                                                          {"views", views},
+                                                                          {"frame", frame},
+                                                                          {"scan", scan},
+                                                                          {"pixels", pixels},
+                                                                          {"profile", profile},
+                                                                          {"reach", reach},
+                                                                          {"piece", piece},
+                                                                          {"cancel_piece", cancel_piece},
+                                                                          {"export", make_file}};
   const auto* const found =
       std::ranges::find(actions, name, &std::pair<std::string_view, EngineAction>::first);
   return found == std::end(actions) ? nullptr : found->second;

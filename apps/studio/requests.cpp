@@ -154,6 +154,9 @@ Result<View> view_from(const Json& json) {
   return view_towards(*towards, *up);
 }
 
+// The form for which the brightness of a picture is prepared in place of heights.
+static constexpr const char* lithophane = "lithophane";
+
 OptionValues view_values(const Json& json) {
   OptionValues values;
   for (const OptionRow& option : option_table()) {
@@ -163,6 +166,7 @@ OptionValues view_values(const Json& json) {
         found == json.end() ? option.initial : value_from_json(*found).value_or(OptionValue());
     if (value != OptionValue()) values.emplace(option.name, value);
   }
+  if (json.value("form", Json()) == lithophane) values.emplace("form", std::string(lithophane));
   return values;
 }
 
@@ -198,6 +202,7 @@ static Json shown_json(const OptionValues& values) {
     else
       std::visit([&](const auto& each) { json[option.name] = each; }, value);
   }
+  json["form"] = values.contains("form") ? lithophane : "relief";
   return json;
 }
 

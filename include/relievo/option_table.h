@@ -76,7 +76,7 @@ struct OptionRow {
   bool is_length() const { return unit == "MM"; }
   bool is_of_relief() const { return stage != OptionStage::input; }
   // Returns whether the scan must be prepared again when the option changes.
-  bool is_prepared() const { return stage == OptionStage::view || stage == OptionStage::model; }
+  bool is_prepared() const { return stage <= OptionStage::model; }
 };
 
 // Returns all rows, in the order of the help; the options of depth images come last.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "relievo/core/types.h"
+#include "relievo/scan/depth_image.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/view.h"
 #include "relievo/view_sample.h"
@@ -36,11 +37,20 @@ inline constexpr double least_own_height = .01, most_own_height = .9;
 // Returns the turn of a pose: a rotation, preceded by a reflection if the pose is mirrored.
 Mat3 turn_of(const Pose& pose);
 
+// What became of the pixels of a depth image, and how their values were read.
+struct PixelUses {
+  Image<PixelUse> uses;  // see DepthCloud
+  int reduction = 1;
+  DepthValues values = DepthValues::depth;
+  Vec2 pixel_shape = Vec2::Ones();  // see DepthImage
+};
+
 struct SceneModel {
   std::string name;                       // name in errors and notes
   std::shared_ptr<const CloudFile> file;  // not null
   Pose pose = {};
-  std::vector<std::string> remarks = {};  // lines on parts of the file that were not read, and why
+  std::vector<std::string> remarks = {};         // lines on parts of the file that were not read, and why
+  std::shared_ptr<const PixelUses> pixels = {};  // null if the file is no depth image
 };
 
 // A scene of at least one model. If no pose has a `translate`, the models are arranged for the view, see

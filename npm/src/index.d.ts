@@ -67,12 +67,24 @@ export interface Report {
   [key: string]: unknown;
 }
 
+// How a height map is written, as by the flags of the command line.
+export interface HeightMapFileOptions {
+  size?: number; // longer side in pixels
+  pixel?: number | string; // exact size of a pixel, in the place of size
+  dpi?: number;
+  bits?: 8 | 16 | 32;
+  area?: "plate" | "relief";
+  zero?: "lowest" | "ground";
+  high?: "white" | "black";
+  units?: Units;
+}
+
 export declare class Relief {
   private constructor();
   readonly report: Report;
   readonly remarks: string[];
   solid(format?: "stl" | "3mf" | "ply" | "obj", options?: { units?: Units }): Uint8Array;
-  heightMapFile(format?: "png" | "tif" | "tiff", options?: { size?: number; units?: Units }): Uint8Array;
+  heightMapFile(format?: "png" | "tif" | "tiff", options?: HeightMapFileOptions): Uint8Array;
   preview(options?: { size?: number }): Uint8Array;
   toolPicture(): Uint8Array;
   heightMap(options?: { size?: number }): HeightMap;

@@ -58,9 +58,12 @@ export class Relief {
     return this.#file("solid", `relief.${format}`, { units });
   }
 
-  // Returns the heights of the front as a file: a PNG of 16 bits, or a TIFF ("tif") in millimetres.
-  heightMapFile(format = "png", { size = 1024, units = "mm" } = {}) {
-    return this.#file("heightmap", `heights.${format}`, { heightmap_px: size, units });
+  // Returns the heights of the front as a file: a PNG of 16 bits, or a TIFF ("tif") in millimetres. The options are
+  // those of the command line: pixel or dpi in the place of size; bits, area, zero and high are its heightmap-*.
+  heightMapFile(format = "png", { size = 1024, units = "mm", pixel, dpi, bits, area, zero, high } = {}) {
+    const given = { pixel, dpi, "heightmap-bits": bits, "heightmap-area": area, "heightmap-zero": zero, "heightmap-high": high };
+    const texts = Object.entries(given).filter(([, value]) => value !== undefined).map(([name, value]) => [name, String(value)]);
+    return this.#file("heightmap", `heights.${format}`, { heightmap_px: size, units, ...Object.fromEntries(texts) });
   }
 
   // Returns a picture of the relief, front and oblique, as the bytes of a PNG.

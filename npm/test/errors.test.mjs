@@ -75,6 +75,10 @@ test("lengths may have units, and arrays are scans", async () => {
   const map = relief.heightMap({ size: 200 });
   assert.equal(Math.max(map.width, map.height), 200);
   assert.ok(Math.abs(map.heights.reduce((a, b) => Math.max(a, b), 0) - 2.54) < 0.2);
+  const png = relief.heightMapFile("png", { dpi: 254, bits: 8, area: "relief", high: "black", zero: "ground" });
+  const header = new DataView(png.buffer, png.byteOffset); // width, height and bits of a PNG
+  assert.deepEqual([header.getUint32(16), header.getUint32(20), header.getUint8(24)], [1000, 1000, 8]);
+  assert.equal((await errorOf(async () => relief.heightMapFile("png", { dpi: 254, pixel: "0.1mm" }))).input, "dpi");
   const depths = new Float32Array(n * n).map((_, i) => 100 + points[3 * i + 2]);
   const fromDepths = await make({ depths, width: n, height: n }, { heightMm: 1, background: "keep" });
   assert.ok(Math.abs(fromDepths.report.height_mm - 1) < 1e-6);

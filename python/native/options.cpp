@@ -48,8 +48,6 @@ OptionValues values_of(const py::dict& given) {
 
 app::InputArguments input_arguments(const py::dict& given) {
   app::InputArguments arguments;
-  arguments.depth = value_or_raise(parse_depth(values_of(given)));
-  arguments.keeps_doubtful = value_or_raise(parse_doubtful(values_of(given)));
   const OptionRow camera{.name = "camera", .unit = "TEXT", .help = {}};
   const OptionRow stream{.name = "stream_above_mb", .unit = "MB", .min = 0, .max = 1e9, .help = {}};
   if (const py::object found = given.attr("get")("camera"); !found.is_none())

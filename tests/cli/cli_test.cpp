@@ -316,7 +316,7 @@ TEST_F(Cli, OptionsAreAManPageAndJsonToo) {
   const std::string man = run("options --man make").out;
   EXPECT_TRUE(man.starts_with(".TH RELIEVO\\-MAKE 1"));
   const auto list = nlohmann::json::parse(run("options --json").out);
-  ASSERT_EQ(std::ssize(list), std::ranges::count_if(option_table(), &OptionRow::is_of_relief));
+  ASSERT_EQ(list.size(), option_table().size());
   for (const auto& option : list) {
     std::string name = option["name"];
     for (std::size_t at = name.find('-'); at != std::string::npos; at = name.find('-', at + 2))

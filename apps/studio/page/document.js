@@ -162,8 +162,16 @@ export class Document {
   }
 }
 
+const SCALE = ["mm-per-value", "ground"];
+
 // A lithophane, which is printed, has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
+
+// The options of the shape of heights, which one vertical scale does not have.
+const SHAPE = ["height", "height-of-diagonal", "saturation", "detail", "boundary", "steepest", "steps", "planes", "tone"];
+
+// Returns whether one vertical scale gives the height.
+export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
 // Returns the options for the engine and `relievo make`. Leaves out those with the value of a new document, unless the
 // engine wants them stated.
@@ -178,6 +186,11 @@ export function engineOptions(step) {
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
+  if (hasScale(step)) {
+    for (const name of SHAPE) delete options[name];
+    return {...options, method: "linear"};
+  }
+  for (const name of SCALE) delete options[name];
   if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for the other method
   return options;
 }
@@ -208,7 +221,8 @@ const isDirection = (light) =>
 
 // Returns the step that a project file describes, as the engine has read it. `usual` has the defaults of numbers that
 // the file does not state. Without a stated width, the plate may determine it.
-export function stepOfProject({input, options: {alpha, ...options} = {}, usual = {}, studio = {}}) {
+export function stepOfProject({input, options: {alpha, ...own} = {}, usual = {}, studio = {}}) {
+  const options = hasScale({options: own}) ? {...own, method: FIRST.options.method} : own;
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
   const step = {...FIRST, input, options: {...FIRST.options, ...usual, method, width: null, ...options}};
   if (options.height === undefined && method === "paper") {

@@ -83,6 +83,8 @@ export class Engine {
   // These return {image: ImageData, about}. Aborting `options.signal` cancels the picture.
   frame = (request, options) => this.#picture("frame", request, options);
   scan = (request) => this.#picture("scan", request);
+  // A depth image, in which the pixels that are left out have the colours that its facts state.
+  pixels = () => this.#picture("pixels");
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;

@@ -8,6 +8,12 @@ import {inWords} from "./pieces.js";
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 const PIXEL = {label: "Exact size of a pixel", unit: "mm", min: 0.001, max: 100};
 
+// Returns a text such as "254 dpi" as the size of a pixel in mm; other texts are returned unchanged.
+function withoutDpi(text) {
+  const [, dots] = text.trim().match(/^([\d.,]+) *dpi$/i) ?? [];
+  return dots ? `${254 / (10 * Number(dots.replace(",", ".")))} mm` : text;
+}
+
 // Returns the options of a height map in the words of the flags of `relievo make`. The TIFF has millimetres.
 function mapOptions(format, pixelMm) {
   const black = $("#map-black").value, bits = format === "heightmap" ? $("#map-bits").value : "";
@@ -54,7 +60,7 @@ export class ExportDialog {
   // Takes the typed numbers. If one is invalid, says so and returns false.
   choosePixels() {
     let complaint = "";
-    const say = (text) => (complaint ||= text), size = $("#pixel").value;
+    const say = (text) => (complaint ||= text), size = withoutDpi($("#pixel").value);
     const pixels = typedNumber($("#pixels").value, PIXELS, say);
     const pixelMm = size.trim() ? typedNumber(size, PIXEL, say) : null;
     $("#export-note").textContent = complaint;

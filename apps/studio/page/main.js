@@ -6,7 +6,8 @@ import {takeCommands} from "./commands.js";
 import {$, Pause, clamp, make} from "./controls.js";
 import {CropFrame} from "./crop_frame.js";
 import {CurveEditor} from "./curve.js";
-import {Document} from "./document.js";
+import {DepthPanel} from "./depth_panel.js";
+import {Document, hasScale} from "./document.js";
 import {Entries} from "./entries.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
@@ -19,7 +20,7 @@ import {KindCards, fileName} from "./kinds.js";
 import {Outcome} from "./outcome.js";
 import {PieceRows, inWords} from "./pieces.js";
 import {Placing} from "./placing.js";
-import {OpenDocument, isSameView, viewOf} from "./opening.js";
+import {OpenDocument, isSameView, optionsOf, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
 import {Reach} from "./reach.js";
@@ -50,6 +51,7 @@ const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
+const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
 const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
 const exporting = new ExportDialog({engine, outcome, name: () => fileName(doc.now), heightText, say: toast});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
@@ -141,12 +143,13 @@ function showDocument() {
   const {options, material, input} = doc.now;
   sliders.show();
   const isPaper = options.method === "paper"; // it has no tone curve
-  $("#tone-curve").hidden = isPaper;
+  $("#tone-curve").hidden = isPaper || hasScale(doc.now);
   curve.show({tone: isPaper ? "" : options.tone});
   pieces.show();
   kinds.show();
   kindPanel.show();
   scanPanel.show();
+  depthPanel.show();
   cropFrame.refresh();
   entries.show();
   views.tell(doc.now, facts !== null);
@@ -184,7 +187,7 @@ function pictured(frame, ms, isFine) {
   }
   const {u, options} = doc.now; // the picture may have been requested before u or the height was typed
   const isNewest = u === null ? frame.options.height === options.height : frame.u === u;
-  if (!doc.now.isHeightLocked && isOfView && isNewest) {
+  if (!doc.now.isHeightLocked && isOfView && isNewest && !hasScale(doc.now)) {
     const slider = sliders.all.height, rounded = slider.rounded(frame.height_mm);
     // A computed height gets the slider's own decimals, unless it is so low that these would change it much.
     const height = rounded < 0.1 ? frame.height_mm : rounded;
@@ -192,6 +195,7 @@ function pictured(frame, ms, isFine) {
     slider.show(doc.now.options.height);
   }
   sliders.showWidth();
+  sliders.showScaled();
   if (opened.status.busy) showProgress(opened.status, false);
   alphaRow.show(frame);
   isFine ? pictureRests.begin() : pictureRests.end();
@@ -226,6 +230,7 @@ function begun(former) {
   shownView.clear();
   $("#picture").width = $("#before").width = 1;
   scanPanel.tell(null);
+  depthPanel.tell(null);
   scenePanel.show([]);
   for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";
@@ -240,7 +245,7 @@ function begun(former) {
 // Shows a coarse relief while the first view is being prepared.
 function measured({shown}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
-  doc.note({options: opened.wantedView(shown)});
+  doc.note({options: optionsOf(opened.wantedView(shown), doc.now)});
   showDocument();
   $("#choose-view").disabled = false;
   stage.isReady = true;
@@ -263,6 +268,7 @@ async function arrived(status) {
   showDocument();
   stage.share = 1;
   scanPanel.tell(facts);
+  depthPanel.tell(facts.depth_image).catch(failed);
   cropFrame.refresh();
   scenePanel.show(engine.takesSeveral ? [] : facts.models); // a new scene file would not find the models' files
   tour.offer();
@@ -337,7 +343,7 @@ async function start() {
   try {
     $("#readable").textContent = about.readable;
     $("#limits").replaceChildren(...(about.limits ?? []).map((text) => make("li", {}, text)));
-    $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
+    $("#file").accept = [...about.endings, ".jpg", ".jpeg", ".webp", ".zip", ".relievo"].join();
     showSamples(openInput);
     engine.follow((status) => opened.followed(status), engineLost, toast);
     await (location.hash === START ? showStart(true) : resume(about));

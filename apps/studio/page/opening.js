@@ -7,8 +7,18 @@ import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
 import {inWords} from "./pieces.js";
 
-const PREPARED = namesOf("view", "model");
-export const viewOf = ({options}) => Object.fromEntries(PREPARED.map((name) => [name, options[name]]));
+const PREPARED = namesOf("input", "view", "model");
+
+// Returns whether the brightness of a photo becomes thickness: the engine then prepares the brightness, not heights.
+const isPhoto = ({input, options: {form, "depth-values": values}}) => form === "lithophane" &&
+  ["auto", "luminance"].includes(values) && /\.(png|tiff?|bmp|ppm|pgm)$/i.test(input?.name ?? "");
+
+// Returns what determines the model that the engine prepares.
+export const viewOf = (step) => ({...Object.fromEntries(PREPARED.map((name) => [name, step.options[name]])),
+  form: isPhoto(step) ? "lithophane" : "relief"});
+
+// Returns the options of a view for a document. Only photos have a form in their view that can differ.
+export const optionsOf = ({form, ...options}, now) => (form === viewOf(now).form ? options : {...options, form});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 

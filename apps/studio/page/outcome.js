@@ -32,6 +32,6 @@ export class Outcome {
   // Returns the document's step, with the height that its files have.
   async step() {
     const {step, options: {height}} = await this.known();
-    return {...step, options: {...step.options, height}};
+    return {...step, options: {...step.options, height: height ?? step.options.height}};
   }
 }

@@ -16,11 +16,16 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
+  "depth-values": "Values are", background: "Background", blur: "Blur at edges",
+  "mm-per-value": "One unit is", ground: "Ground at",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
 // Labels of choices whose names on the command line need more words.
-const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"};
-const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // other stages: "#piece"
+const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic", keep: "Keep", drop: "Leave out",
+  inverse: "Inverse depth", luminance: "Brightness"};
+const PLACES = {triangles: "#making", input: "#depth-rows", "mm-per-value": "#depth-rows", ground: "#depth-rows",
+  view: "#preparing", model: "#preparing"}; // other stages: "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
+  "mm-per-value": "as the height", ground: "automatic",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
 // The tips of the options `base`, `wrap` and `tool` say what these are for. The help of these options in the engine
 // explains the format of their texts.
@@ -75,7 +80,7 @@ const OTHERS = {tone: "Tone curve", view: "View"};
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
 // The engine's advice about coloured pictures applies only to the command line, so the page replaces it.
 const ADVICE = /; the option channel takes one .*$/;
-const OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
+const OTHER = ". Take their brightness, or save it as a picture in greys, one value per pixel, and open that";
 
 const controlOf = (name) => document.querySelector(`[data-option="${name}"]`);
 
@@ -106,7 +111,7 @@ export class PieceRows {
       if (!isHidden && !isLabelled(name)) LABELS[name] = sentence(name.replaceAll("-", " "));
     for (const name of Object.keys(LABELS)) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
-      $(PLACES[optionOf(name).stage] ?? "#piece").append(this.rows[name].element);
+      $(PLACES[name] ?? PLACES[optionOf(name).stage] ?? "#piece").append(this.rows[name].element);
     }
     this.baseImage = new BaseImage({engine, doc, say, redraw});
     this.rows.base.element.after(this.baseImage.element);

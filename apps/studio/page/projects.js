@@ -1,7 +1,7 @@
 // Opens project files, asks for missing scans, and saves project files with or without the scan.
 
 import {about} from "./about.js";
-import {$, download, fileSize} from "./controls.js";
+import {$, download, fileSize, make} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer, toast} from "./messages.js";
 import {plainName} from "./kinds.js";
@@ -19,6 +19,17 @@ async function together(files) {
   if (size > most)
     throw new Error(`${gltf.name} and its files have ${fileSize(size)}: expected at most ${fileSize(most)}.`);
   return zipOf(files, gltf.name.replace(/gltf$/i, "zip"));
+}
+
+// Returns a picture that the engine does not read, as one that it does: browsers read JPEG and WebP.
+async function readable(file) {
+  if (!/\.(jpe?g|webp)$/i.test(file.name)) return file;
+  const image = await createImageBitmap(file).catch(() => null);
+  if (!image) return file; // the engine says what it expects
+  const canvas = make("canvas", {width: image.width, height: image.height});
+  canvas.getContext("2d").drawImage(image, 0, 0);
+  const content = await new Promise((resolve) => canvas.toBlob(resolve));
+  return new File([content], file.name.replace(/\w+$/, "png"));
 }
 
 export class Projects {
@@ -41,7 +52,8 @@ export class Projects {
       throw new Error(`${tooLarge.name} has ${fileSize(tooLarge.size)}: expected at most ${fileSize(most)}.`);
     if (files.length === 1 && files[0].name.endsWith(".relievo"))
       return this.openProject(await this.take(this.engine.readProject(files[0])));
-    if (files.length === 1 || refersToOthers(files) || this.engine.takesSeveral) return this.openScan(files);
+    if (files.length === 1) return this.openScan([await readable(files[0])]);
+    if (refersToOthers(files) || this.engine.takesSeveral) return this.openScan(files);
     if (files.some(({name}) => /\.(relievo|zip)$/i.test(name)))
       throw new Error("Several files at once: expected scans alone, to be put side by side.");
     const models = [];

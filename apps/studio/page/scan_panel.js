@@ -1,6 +1,7 @@
 // The panel shows the findings about a scan, each with its remedy, and has the controls for cropping and denoising it.
 
 import {$, make, pair} from "./controls.js";
+import {noteOn} from "./depth_panel.js";
 import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
@@ -25,8 +26,8 @@ const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane dr
   "denoise 0": "Keep the noise"};
 
 // Returns whether a note is also shown beside the picture. This is so if something was removed from the picture, or if
-// something other than the figure fills it. Readers of depth images report their background only in the text.
-const isOffered = ({option, text}) => ["crumbs", "plane"].includes(option) || /background taken out/.test(text);
+// something other than the figure fills it.
+const isOffered = ({option}) => ["crumbs", "plane", "background", "blur"].includes(option);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
   make("input", {id: name, "data-option": name, type: "checkbox"}));
@@ -129,7 +130,7 @@ export class ScanPanel {
       ...(label ? [make("button", {class: "quiet", onclick: () => this.set({[option]: value})}, label)] : []));
     $("#notes").replaceChildren(...notes.map(entry));
     this.offered = notes.filter(isOffered);
-    $("#offers ul").replaceChildren(...this.offered.map(entry));
+    $("#offers ul").replaceChildren(...this.offered.map((note) => entry({...note, text: note.short ?? note.text})));
     $("#offers").hidden = this.offered.length === 0 || this.hidden === this.offeredKey;
     $("#remarks").hidden = notes.length === 0;
     $("#remarks").textContent = notes.length === 1 ? "1 note on the scan" : `${notes.length} notes on the scan`;
@@ -137,10 +138,11 @@ export class ScanPanel {
   }
 
   // Returns the notes to show: the remarks, and a note on kept small pieces, which the engine does not report.
-  notesOn({remarks}) {
+  notesOn({remarks, depth_image: depth}) {
     const {crumbs} = this.doc.now.options;
     const kept = {text: "Small pieces are kept.", option: "crumbs", value: "drop", label: "Leave them out"};
-    return crumbs === "keep" ? [...remarks, kept] : remarks;
+    const notes = depth ? remarks.map((note) => noteOn(note, depth)) : remarks;
+    return crumbs === "keep" ? [...notes, kept] : notes;
   }
 
   get offeredKey() {

@@ -1,7 +1,7 @@
 // Keeps the view of the shown model, and waits for a requested view. When no request is left, document, engine and
 // picture have the same view, even after requests of other pages, and after cancelled or refused requests.
 
-import {isSameView, viewOf} from "./opening.js";
+import {isSameView, optionsOf, viewOf} from "./opening.js";
 
 export class ShownView {
   // Calls showDocument() when it has changed the document, and failed(error) when a request fails.
@@ -45,7 +45,7 @@ export class ShownView {
     if (busy || error || this.opened.asked) return;
     this.view = shown;
     if (!isSameView(shown, viewOf(this.doc.now))) {
-      this.doc.note({options: shown});
+      this.doc.note({options: optionsOf(shown, this.doc.now)});
       this.showDocument();
     }
     if (this.stage.isAwaiting) this.stage.await(false);
@@ -55,6 +55,7 @@ export class ShownView {
   restore() {
     const former = this.view ?? this.opened.status.shown;
     this.stage.await(false);
-    if (former?.view && !isSameView(former, viewOf(this.doc.now))) this.doc.change({options: former});
+    const {now} = this.doc;
+    if (former?.view && !isSameView(former, viewOf(now))) this.doc.change({options: optionsOf(former, now)});
   }
 }

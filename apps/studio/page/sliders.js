@@ -3,7 +3,7 @@
 
 import {defaultOf, namesOf, optionOf} from "./about.js";
 import {$, make} from "./controls.js";
-import {FIRST} from "./document.js";
+import {FIRST, hasScale} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 import {Slider, lockButton} from "./slider.js";
@@ -48,6 +48,11 @@ export class Sliders {
     const {width} = this.all;
     if (!this.entries.isPending("width")) width.show(this.doc.now.options.width ?? width.rounded(this.shownWidth()));
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
+  }
+
+  // Shows the height that one vertical scale gives.
+  showScaled() {
+    if (hasScale(this.doc.now) && this.frame()) this.all.height.show(this.frame().height_mm);
   }
 
   slide(name, value, isTyped = false) {
@@ -99,13 +104,17 @@ export class Sliders {
       if (!isWaiting && name !== "width") slider.show(options[name]); // only the width may be null
     }
     this.showWidth();
+    this.showScaled();
     $("#method").value = options.method;
-    const noShape = isShaped ? "" : "A lithophane is made from light and colours, not from heights";
+    const isScaled = hasScale(this.doc.now), scale = "One vertical scale gives all heights";
+    const noShape = isScaled ? scale : isShaped ? "" : "A lithophane is made from light and colours, not from heights";
+    this.all.height.disable(isScaled ? scale : "");
+    $("#method").disabled = isScaled;
     for (const name of SHAPING) this.all[name].disable(noShape);
     const isPaper = options.method === "paper";
-    if (isShaped && isPaper)
+    if (isShaped && isPaper && !isScaled)
       for (const name of ["steps", "planes"]) this.all[name].disable("The paper's method keeps no steps");
-    if (isShaped && !isPaper && options.tone !== "") this.all.saturation.disable("The tone curve takes its place");
+    if (isShaped && !isPaper && !isScaled && options.tone !== "") this.all.saturation.disable("The tone curve takes its place");
     this.all.corner.element.hidden = options.outline !== "round";
     this.all.margin.disable(options.outline === "none" ? "There is no plate around the relief" : "");
     this.lock.setAttribute("aria-pressed", isHeightLocked);

@@ -3,7 +3,7 @@
 
 import {Comparing} from "./comparing.js";
 import {$, Pause, clamp, make, paint} from "./controls.js";
-import {shownOptions} from "./document.js";
+import {hasScale, shownOptions} from "./document.js";
 import {TABLE_LIGHTS} from "./lights.js";
 import {Measure} from "./measure.js";
 import {takeFingers} from "./pinch.js";
@@ -50,7 +50,7 @@ export class Stage {
     const step = this.doc.now, {material, light} = step;
     const request = {options: shownOptions(step), material, light, camera: this.camera, ...extra};
     if (this.turning.shown) request.turned = this.turning.shown;
-    if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
+    if (!step.isHeightLocked && step.u !== null && !hasScale(step) && !extra.original) request.u = step.u;
     return request;
   }
 

@@ -8,7 +8,7 @@ import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, nu
   visiblePoints as points, withBrowser} from "./page_suite.mjs";
 import {randomNumbers} from "./random_entries.mjs";
 import {EngineProcess, areKindsDrawn, enter, eventually, holdRequests, ignoreTimers, openPanels, run, untilListening,
-  untilReady, untilTimersRan, writeSample, writeScans} from "./support.mjs";
+  untilReady, untilTimersRan, writeBallBeforeWall, writeSample, writeScans} from "./support.mjs";
 
 const scans = skip ? [] : writeScans(folder, 6000);
 
@@ -526,34 +526,24 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await soon.ok(async () => !await crumbs.isChecked());
 });
 
-// Writes a depth image as a TIFF with 16 bits of grey.
-function writeDepths(file, width, height, depthAt) {
-  const depths = Uint16Array.from({length: width * height}, (_, i) => depthAt(i % width, Math.floor(i / width)));
-  const FIRST = 8, end = FIRST + depths.byteLength, SHORT = 3;
-  const tags = [[256, width], [257, height], [258, 16], [259, 1], [262, 1], [273, FIRST], [277, 1], [278, height],
-    [279, depths.byteLength]].flatMap(([tag, value]) => [tag, SHORT, 1, 0, value, 0]);
-  const numbers = Uint16Array.from([0x4949, 42, end, 0, ...depths, tags.length / 6, ...tags, 0, 0]);
-  writeFileSync(file, Buffer.from(numbers.buffer));
-}
-
 test("tells what is taken out of a depth image as background, and advises nothing that the page lacks", async () => {
   const depth = path.join(folder, "depth.tif"), colours = path.join(folder, "colours.png");
-  writeDepths(depth, 120, 90, (x, y) => { // a ball before a wall
-    const off = Math.hypot(x - 60, y - 45);
-    return off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
-  });
+  writeBallBeforeWall(depth);
   run("make", scans[1], "-o", path.join(folder, "relief.stl"), "--preview", colours, "--preview-size", 100);
   await page.locator("#file").setInputFiles(depth);
   await page.getByText("depth.tif", {exact: true}).waitFor();
   await untilReady(page);
   const found = page.locator("#offers li", {hasText: /background/});
-  await soon.match(() => found.innerText(), /^120 x 90 depths, .*\d+ points of background taken out/);
+  await soon.match(() => found.innerText(), /^Left out as background: 7,9\d\d \(7\d %\)/);
   await button("Hide what was found").click();
   await found.waitFor({state: "hidden"});
   await page.locator("#file").setInputFiles(colours);
+  await page.getByText("colours.png", {exact: true}).waitFor();
+  await untilReady(page);
+  await page.locator("#depth-values").selectOption("depth"); // colours have none
   const said = toast().getByText(/colours\.png/);
   await said.waitFor();
-  await soon.match(() => said.innerText(), /Save it as a picture in greys/);
+  await soon.match(() => said.innerText(), /Take their brightness, or save it as a picture in greys/);
   await soon.doesNotMatch(() => said.innerText(), /option|depth-values/);
   await untilReady(page);
 });

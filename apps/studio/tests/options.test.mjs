@@ -4,12 +4,16 @@ import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {DESK, browser, button, engine, folder, found, page, scan, soon, startEngine, test, toast, undo, undoAll,
   untilText, withBrowser} from "./page_suite.mjs";
-import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeSample} from "./support.mjs";
+import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeBallBeforeWall, writeSample} from
+  "./support.mjs";
+
+const depth = path.join(folder, "depth.tif");
 
 let options;
 
 withBrowser(async () => {
   writeSample("still_life", 5000, scan);
+  writeBallBeforeWall(depth);
   // These tests compare requests, not pictures, so pictures get a quarter of the pixels.
   const fewer = found.name === "chromium" ? {deviceScaleFactor: 0.5} : {}; // Firefox's driver may not support this
   const first = await (await browser.newContext({viewport: DESK, ...fewer})).newPage();
@@ -43,6 +47,9 @@ const CASES = {
   wrap: {value: "cylinder:turn=90", kind: "shell"}, form: {value: "mirror"}, tool: {value: "ball:3"},
   finish: {value: "reachable", first: {tool: "ball:3"}}, resolution: {value: 0.5}, tolerance: {value: 0.02},
   triangles: {value: 5000},
+  "depth-values": {value: "height", isDepth: true}, background: {value: "keep", isDepth: true},
+  blur: {value: "drop", isDepth: true}, "mm-per-value": {value: 0.01, isDepth: true},
+  ground: {value: 3000, first: {"mm-per-value": 0.01}, isDepth: true},
 };
 
 const control = (name) => page.locator(`[data-option="${name}"]`);
@@ -97,8 +104,18 @@ test("has a control for each option of the table", async () => {
 const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "plane", "denoise", "plate", "rim"];
 const cases = Object.entries(CASES).filter(([name]) => found.name !== "firefox" || KINDS.includes(name));
 
-for (const [name, {value, first = {}, kind}] of cases)
+// Opens a file unless it is shown.
+async function show(file) {
+  const name = path.basename(file);
+  if (await page.locator("#title").textContent() === name) return;
+  await page.locator("#file").setInputFiles(file);
+  await page.getByText(name, {exact: true}).waitFor();
+  await untilReady(page);
+}
+
+for (const [name, {value, first = {}, kind, isDepth}] of cases)
   test(`passes ${name} on to the engine`, async () => {
+    await show(isDepth ? depth : scan);
     if (kind) await page.locator(`[data-kind="${kind}"]`).click();
     for (const [other, set_to] of Object.entries(first)) {
       await set(other, set_to);
@@ -114,6 +131,7 @@ for (const [name, {value, first = {}, kind}] of cases)
   });
 
 test("has a field for each parameter of each shape that the engine takes", async () => {
+  await show(scan);
   for (const option of ["base", "wrap"]) {
     const shapes = await page.evaluate(async (option) => Object.entries((await import("./shapes.js")).SHAPES[option])
       .map(([name, {parameters}]) => [name, [...parameters.keys()]]), option);

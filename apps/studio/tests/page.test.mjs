@@ -474,6 +474,10 @@ test("exports height maps of an exact pixel, inverted, of 8 bits and of the reli
   assert.equal(side(plate, phys), 4000);
   for (const at of [16, 20]) assert.ok(side(relief, at) > 100 && side(relief, at) < side(plate, at), `${at}`);
   await openExport();
+  await type(pixel, "127 dpi");
+  const [{bytes: coarse}] = await exportFiles();
+  assert.equal(side(coarse, coarse.indexOf("pHYs") + 4), 5000); // pixels per metre
+  await openExport();
   await map.uncheck();
   await dialog.getByRole("checkbox", {name: /^STL/}).check();
   await page.keyboard.press("Escape");

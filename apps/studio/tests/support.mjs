@@ -1,7 +1,7 @@
 // Helps the studio's tests: runs the engine, and its page in Chromium or Firefox, and makes temporary files.
 import assert from "node:assert/strict";
 import {spawn, spawnSync} from "node:child_process";
-import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
+import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
 import http from "node:http";
 import {tmpdir} from "node:os";
 import path from "node:path";
@@ -161,6 +161,22 @@ export function writeScans(folder, points) {
   for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], points, scan);
   return scans;
 }
+
+// Writes a depth image as a TIFF with 16 bits of grey.
+export function writeDepths(file, width, height, depthAt) {
+  const depths = Uint16Array.from({length: width * height}, (_, i) => depthAt(i % width, Math.floor(i / width)));
+  const FIRST = 8, end = FIRST + depths.byteLength, SHORT = 3;
+  const tags = [[256, width], [257, height], [258, 16], [259, 1], [262, 1], [273, FIRST], [277, 1], [278, height],
+    [279, depths.byteLength]].flatMap(([tag, value]) => [tag, SHORT, 1, 0, value, 0]);
+  const numbers = Uint16Array.from([0x4949, 42, end, 0, ...depths, tags.length / 6, ...tags, 0, 0]);
+  writeFileSync(file, Buffer.from(numbers.buffer));
+}
+
+// Writes a depth image of a ball before a wall: depths of 810 to 900 before 4000, in a disc with a radius of 30 pixels.
+export const writeBallBeforeWall = (file) => writeDepths(file, 120, 90, (x, y) => {
+  const off = Math.hypot(x - 60, y - 45);
+  return off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
+});
 
 export const openPanels = (page) => page.locator("details").evaluateAll((all) =>
   all.forEach((panel) => (panel.open = true)));

@@ -80,8 +80,6 @@ Result<MakeOrder> order_from(const Json& json) {
     if (!value) return option_error(name, std::string(expected_type(*option)));
     order.values.emplace(name, *value);
   }
-  RELIEVO_TRY(order.in.depth, parse_depth(order.values));
-  RELIEVO_TRY(order.in.keeps_doubtful, parse_doubtful(order.values));
   order.in.camera = text(json, "camera");
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");

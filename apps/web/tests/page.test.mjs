@@ -7,7 +7,7 @@ import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {after, before, test} from "node:test";
 import os from "node:os";
-import {enter, findBrowser, openPanels, savedFiles} from "../../studio/tests/support.mjs";
+import {enter, findBrowser, openPanels, savedFiles, writeBallBeforeWall} from "../../studio/tests/support.mjs";
 import {admesh, eventually, fileAddress, pageWithLittleMemory, serve, temporaryFolder} from "./support.mjs";
 import {missingWebKit, WebKitPage} from "./webkit.mjs";
 
@@ -199,6 +199,18 @@ test("a base takes an image, which the browser and a project keep", options, asy
     assert.deepEqual(admesh(made), solids[0]);
   }
   assert.deepEqual([...studio.errors, ...other.errors], []);
+});
+
+test("a depth picture is read anew as the page asks, and stays so", options, async (t) => {
+  const {studio} = await newStudio(t, "chromium", fileAddress), {page} = studio;
+  writeBallBeforeWall(scan("depth.tif"));
+  await studio.open(scan("depth.tif"));
+  await page.locator("#depth").getByRole("button", {name: "Keep the background"}).click();
+  await studio.untilReady("10,800");
+  await page.reload();
+  await studio.untilReady("10,800");
+  await page.locator("#depth").getByText("All pixels are used").waitFor({state: "attached"});
+  assert.deepEqual(studio.errors, []);
 });
 
 test("broken and huge files are refused, and the relief stays", options, async (t) => {

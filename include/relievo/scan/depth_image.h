@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ struct DepthImage {
 // A pinhole camera, in pixels.
 struct DepthCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
+
+  bool operator==(const DepthCamera&) const = default;
 };
 
 // The meaning of a depth image's values.
@@ -39,14 +42,16 @@ enum class DepthValues {
   depth,      // grows away from the viewer, 0 is missing
   height,     // grows towards the viewer
   luminance,  // brightness (the luminance of colours); brighter is nearer
-  inverse     // one over the depth, up to a factor, as estimators give it; 0 is infinitely far
+  inverse,    // one over the depth, up to a factor, as estimators give it; 0 is infinitely far
+  automatic   // to be found out by who reads the file; depth_cloud() takes it as `depth`
 };
 
-inline constexpr std::array<Choice<DepthValues>, 4> depth_value_choices{
+inline constexpr std::array<Choice<DepthValues>, 5> depth_value_choices{
     {{"depth", DepthValues::depth},
      {"height", DepthValues::height},
      {"inverse", DepthValues::inverse},
-     {"luminance", DepthValues::luminance}}};
+     {"luminance", DepthValues::luminance},
+     {"auto", DepthValues::automatic}}};
 
 // States whether a part of a depth image that is often not wanted, background or blur, is kept or dropped.
 // `automatic` decides by the image.
@@ -68,10 +73,16 @@ struct DepthOptions {
   // `automatic` in images of depth cameras, over at most 12.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this number of points
+
+  bool operator==(const DepthOptions&) const = default;
 };
 
 // Checks that the options are in their ranges. Errors: kind option, naming the option.
 Result<void> check(const DepthOptions& options);
+
+// What becomes of a pixel of a depth image: it is a point of the surface, has no depth, or is removed with
+// background or blur.
+enum class PixelUse : std::uint8_t { kept, missing, background, blur };
 
 // The points of a depth image, and facts about the conversion.
 struct DepthCloud {
@@ -83,6 +94,9 @@ struct DepthCloud {
   std::size_t background = 0;  // number of points removed with the background
   std::size_t blur = 0;        // number of points removed because they lie between two levels
   double noise = 0;            // median uncertainty of a depth, in pixels
+  // One value for each reduction x reduction pixels. The kept ones are the points, in this order; a picture
+  // of picture_cloud() has points for missing ones, too.
+  Image<PixelUse> uses;
 };
 
 // Returns the image as points. x and y are pixels; if pixels are not square, their longer side is the unit. With

@@ -74,12 +74,27 @@ std::optional<BlurLimits> blur_limits(const DepthGrid& grid, const DepthOptions&
   return options.blur == Removal::drop || grid.is_sensor ? wide : narrow;
 }
 
+// Notes that the points of the mask which are kept so far are removed.
+void note(const GridMask& is_left_out, PixelUse reason, Image<PixelUse>& uses) {
+  for (std::size_t i = 0; i < is_left_out.size(); ++i)
+    if (is_left_out[i] && uses[i] == PixelUse::kept) uses[i] = reason;
+}
+
+Image<PixelUse> uses_of(const BoundedGrid& grid) {
+  Image<PixelUse> uses = filled_image(grid.width, grid.height, PixelUse::kept);
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (!grid.is_known[i]) uses[i] = PixelUse::missing;
+  return uses;
+}
+
 // Returns the grid without background and blur, whose range of depths is that of what is left.
 DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCloud& out) {
   DepthGrid grid = maker.make({});
+  out.uses = uses_of(grid.bounds);
   GridMask is_left_out(grid.height.size(), 0);
   if (is_background_sought(options)) is_left_out = find_background(grid, options.background == Removal::drop);
   out.background = static_cast<std::size_t>(std::ranges::count(is_left_out, 1));
+  note(is_left_out, PixelUse::background, out.uses);
   if (out.background > 0) grid = maker.make(is_left_out);
   // With blur a part of the range goes, and then slighter blur shows.
   const std::optional<BlurLimits> limits = blur_limits(grid, options);
@@ -87,6 +102,7 @@ DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCl
     out.blur += added;
     grid = maker.make(is_left_out);
   }
+  note(is_left_out, PixelUse::blur, out.uses);
   for (std::size_t i = 0; i < is_left_out.size(); ++i)
     if (is_left_out[i]) grid.bounds.is_known[i] = 0;
   return grid;
@@ -94,8 +110,10 @@ DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCl
 
 }  // namespace
 
-Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options, Progress* progress) {
-  RELIEVO_CHECK(check(options));
+Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& asked, Progress* progress) {
+  RELIEVO_CHECK(check(asked));
+  DepthOptions options = asked;
+  if (options.values == DepthValues::automatic) options.values = DepthValues::depth;
   RELIEVO_CHECK(begin_stage(progress, "depths", 0));
   const GridMaker maker(image, options);
   DepthCloud out;

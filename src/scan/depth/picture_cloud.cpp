@@ -50,10 +50,12 @@ Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& op
   if (!(low < high))
     return geometry_error("expected a picture with bright and dark pixels, found one brightness");
   Cloud& cloud = out.cloud;
+  out.uses = filled_image(values.width, values.height, PixelUse::kept);
   for (int r = 0; r < values.height; ++r)
     for (int c = 0; c < values.width; ++c) {
       const float v = values.at(c, r);
       const float share = std::isfinite(v) ? (v - low) / (high - low) : 1;
+      if (!std::isfinite(v)) out.uses.at(c, r) = PixelUse::missing;
       const auto grey = static_cast<std::uint8_t>(std::lround(255 * share));
       cloud.points.emplace_back(c + .5 - values.width / 2.0, values.height / 2.0 - r - .5, 0);
       cloud.colours.push_back({grey, grey, grey});
