@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Callable
 from typing import Any, Optional, Union
@@ -124,6 +125,15 @@ class Relief:
         size = " x ".join(f"{mm:.4g}" for mm in self.report["size_mm"])
         return f"<relievo.Relief {size} mm, {len(self.faces)} triangles>"
 
+    def __reduce__(self) -> tuple[type[Relief], tuple[Any]]:
+        """Pickles the relief with its report, so that other processes may save it."""
+        return Relief, (self._native,)
+
+
+_options.ELSEWHERE.update(
+    {name: f"save() takes {name}" for name in inspect.signature(Relief.save).parameters if name not in ("self", "solid")}
+)
+
 
 @_options.with_keywords(_options.OF_MAKE)
 def make(
@@ -146,6 +156,7 @@ def make(
     raises, and Ctrl-C, end the work and are passed on. Several threads may call this at the same time.
     """
     _options.check("make", options, _options.OF_MAKE)
+    _options.check_progress(progress)
     sources = _inputs.sources_of(source, normals, colours, faces)
     return Relief(_native.make(sources, _options.texts(options), progress))
 
