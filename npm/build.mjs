@@ -1,5 +1,6 @@
 // Puts the package together: build.mjs MODULE FOLDER, where MODULE is the WebAssembly module and FOLDER a new folder. The
 // options, their types and their documentation come from the module itself.
+import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import zlib from "node:zlib";
@@ -16,9 +17,15 @@ function writeModule() {
     `// The WebAssembly module, compressed by gzip, in base64.\nexport const compressedModule = "${packed.toString("base64")}";\n`);
 }
 
+// Texts of these units may also be numbers or begin with a word; the values of the stage of the body are words with
+// settings behind a colon. All other words are the only values.
+const OF_NUMBERS = /,|^(SIDE|NOISE|WHAT)$/, WITH_SETTINGS = /^(SHAPE|BODY)$/;
+
 function typeOf(option) {
-  if (option.choices && option.stage !== "input" && !["TEXT", "VIEW"].includes(option.unit))
-    return [...option.choices.map((choice) => JSON.stringify(choice)), "(string & {})"].join(" | ");
+  const words = (option.choices ?? []).map((choice) => JSON.stringify(choice));
+  if (OF_NUMBERS.test(option.unit)) return [...words, "(string & {})", "number", "Numbers"].join(" | ");
+  if (option.stage === "body" && WITH_SETTINGS.test(option.unit)) return [...words, "(string & {})"].join(" | ");
+  if (words.length > 0) return words.join(" | ");
   if (!("min" in option)) return "string";
   return option.unit === "MM" ? "number | string" : "number";
 }
@@ -30,14 +37,14 @@ function optionTypes(table) {
     const text = `${option.help.charAt(0).toUpperCase()}${option.help.slice(1)}.${range}${initial}`.replaceAll("*/", "* /");
     return `  /** ${text} */\n  ${camelCase(option.keyword)}?: ${typeOf(option)};`;
   });
-  return `/** What a relief is made by. Lengths are millimetres, or texts with a unit such as "4in". */\nexport interface ReliefOptions {\n${lines.join("\n")}\n}\n`;
+  return `import type { Numbers } from "./index.js";\n\n/** What a relief is made by. Lengths are millimetres, or texts with a unit such as "4in". */\nexport interface ReliefOptions {\n${lines.join("\n")}\n}\n`;
 }
 
 fs.rmSync(folder, { recursive: true, force: true });
 fs.mkdirSync(folder, { recursive: true });
 for (const part of ["src", "bin", "README.md"]) fs.cpSync(path.join(here, part), path.join(folder, part), { recursive: true });
 fs.copyFileSync(path.join(here, "../LICENSE"), path.join(folder, "LICENSE"));
-fs.copyFileSync(path.join(here, "../packaging/dependencies.txt"), path.join(folder, "LIBRARIES.txt"));
+fs.writeFileSync(path.join(folder, "LIBRARIES.txt"), execFileSync(path.join(here, "../scripts/licence-texts"), ["web"]));
 writeModule();
 const { Engine } = await import(pathToFileURL(path.resolve(folder, "src/engine.js")));
 const { json: about } = (await Engine.create(await WebAssembly.compile(fs.readFileSync(module)))).call("about");

@@ -30,6 +30,8 @@ class CMakeBuild(build_ext):
         module = Path(self.get_ext_fullpath(ext.name))
         for name in (module.name, "__init__.pyi"):
             self.copy_file(folder / "python" / "relievo" / name, module.parent / name)
+        for licence in (PROJECT / "LICENSE", PROJECT / "packaging" / "copyright"):
+            self.copy_file(licence, module.parent / licence.name)
 
 
 def version():

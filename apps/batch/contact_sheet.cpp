@@ -7,12 +7,15 @@
 #include <cmath>
 #include <memory>
 
+#include "batch/caption.h"
+
 namespace relievo::app::batch {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-constexpr Colour paper = {236, 236, 234}, empty_tile = {222, 221, 218}, cross = {178, 92, 84};
+constexpr Colour paper = {236, 236, 234}, empty_tile = {222, 221, 218}, cross = {178, 92, 84},
+                 ink = {70, 68, 64};
 constexpr int gap_px = 10;
 
 Image8 filled(int width, int height, const Colour& colour) {
@@ -89,16 +92,18 @@ Image8 tile_of_preview(const Image8& preview, int side) {
   return tile;
 }
 
-Image8 contact_sheet(const std::vector<Image8>& tiles, int side) {
+Image8 contact_sheet(const std::vector<Tile>& tiles, int side) {
   const auto count = static_cast<int>(tiles.size());
   const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(count)))),
             rows = (count + columns - 1) / columns;
-  const int step = side + gap_px;
-  Image8 sheet = filled(columns * step + gap_px, rows * step + gap_px, paper);
+  const int step = side + gap_px, row_step = step + caption_height_px;
+  Image8 sheet = filled(columns * step + gap_px, rows * row_step + gap_px, paper);
   const Image8 missing = crossed_out(side);
   for (int i = 0; i < count; ++i) {
-    const Image8& tile = tiles[static_cast<std::size_t>(i)];
-    put(tile.empty() ? missing : tile, gap_px + i % columns * step, gap_px + i / columns * step, sheet);
+    const auto& [picture, name] = tiles[static_cast<std::size_t>(i)];
+    const int left = gap_px + i % columns * step, top = gap_px + i / columns * row_step;
+    put(picture.empty() ? missing : picture, left, top, sheet);
+    write_caption(sheet, {left, top + side + 3, side}, name, ink);
   }
   return sheet;
 }

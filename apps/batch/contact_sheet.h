@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "relievo/core/error.h"
@@ -20,8 +21,14 @@ Image8 read_png(std::span<const std::byte> bytes);
 // render_preview()). The view is reduced to fit by averaging, and centred.
 Image8 tile_of_preview(const Image8& preview, int side);
 
-// Returns a sheet of the tiles, at most tiles_per_sheet, row by row, about as wide as it is high. Empty
-// tiles, for reliefs that could not be made, are crossed out.
-Image8 contact_sheet(const std::vector<Image8>& tiles, int side);
+// A relief on a sheet.
+struct Tile {
+  Image8 picture;  // of tile_of_preview(), or empty for a relief that could not be made
+  std::string name;
+};
+
+// Returns a sheet of the tiles, at most tiles_per_sheet, row by row, about as wide as it is high, with each
+// name below its picture. Empty pictures are crossed out.
+Image8 contact_sheet(const std::vector<Tile>& tiles, int side);
 
 }  // namespace relievo::app::batch

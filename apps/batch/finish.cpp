@@ -40,9 +40,9 @@ Result<std::vector<std::string>> write_sheets(const std::vector<Job>& jobs, cons
                                               const Workshop& workshop) {
   std::vector<std::string> names;
   for (std::size_t first = 0; first < jobs.size(); first += tiles_per_sheet) {
-    std::vector<Image8> tiles;
+    std::vector<Tile> tiles;
     for (std::size_t i = first; i < std::min(jobs.size(), first + tiles_per_sheet); ++i)
-      tiles.push_back(tile_of(jobs[i], records, workshop));
+      tiles.push_back({tile_of(jobs[i], records, workshop), jobs[i].name});
     names.push_back(names.empty() ? "contact-sheet.png" : cat("contact-sheet-", names.size() + 1, ".png"));
     RELIEVO_CHECK(write_file(workshop, names.back(), write_png(contact_sheet(tiles, tile_px))));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
@@ -118,6 +119,12 @@ std::string card(const Job& job, const Record& record, const Workshop& workshop,
              "</span></div></div>\n");
 }
 
+// Returns the error without the folders of the scan, which tell the page's readers nothing.
+std::string error_text(const Job& job, const Record& record) {
+  if (job.file.empty() || !record.error.starts_with(job.file)) return record.error;
+  return std::filesystem::path(job.file).filename().string() + record.error.substr(job.file.size());
+}
+
 std::string heading(const std::vector<Job>& jobs, const Summary& sum,
                     const std::vector<std::string>& sheets) {
   std::string text = cat("<h1>", jobs.size(), jobs.size() == 1 ? " scan" : " scans", "</h1>\n<p>", sum.made,
@@ -156,7 +163,7 @@ std::string index_page(const std::vector<Job>& jobs, const Records& records, con
       cards += card(job, found->second, workshop, common);
     else
       failed += cat("<tr data-name=\"", escaped_markup(lower(job.name)), "\"><th>", escaped_markup(job.name),
-                    "</th><td>", escaped_markup(found->second.error), "</td></tr>\n");
+                    "</th><td>", escaped_markup(error_text(job, found->second)), "</td></tr>\n");
   }
   const Summary sum = summary_of(jobs, records);
   std::string html =

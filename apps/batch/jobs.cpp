@@ -9,8 +9,10 @@
 
 #include "batch/table.h"
 #include "common/files.h"
+#include "common/wording.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
+#include "relievo/option_table.h"
 
 namespace relievo::app::batch {
 namespace {
@@ -159,6 +161,12 @@ class TableJobs {
   Names names_;
 };
 
+std::string nearest_column(const std::string& typed) {
+  std::vector<std::string> names{"file", "name"};
+  for (const OptionRow& option : option_table()) names.emplace_back(option.name);
+  return nearest_name(typed, names);
+}
+
 Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
                                        const std::function<bool(const std::string&)>& is_option) {
   const std::string ending = ending_of(catalogue.path);
@@ -171,9 +179,12 @@ Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
   if (std::ranges::find(table.columns, "file") == table.columns.end())
     return input_error(catalogue.path, "line 1", "expected a column 'file', found none");
   for (const std::string& column : table.columns)
-    if (column != "file" && column != "name" && !is_option(column))
+    if (column != "file" && column != "name" && !is_option(column)) {
+      const std::string nearest = nearest_column(column);
       return option_error(catalogue.path,
-                          cat("expected columns file, name and options of make, found '", column, "'"));
+                          cat("expected columns file, name and options of make, found '", column, "'",
+                              nearest.empty() ? "" : cat(", the nearest is ", nearest)));
+    }
   return TableJobs(table, catalogue).list();
 }
 

@@ -142,12 +142,12 @@ Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::Worksho
   const batch::Summary sum = batch::summary_of(jobs, batch::read_journals(workshop.outputs));
   const std::string see = page.empty() ? "" : cat("; see ", page);
   if (sum.failed + sum.missing > 0)
-    return std::unexpected(
-        Error{ErrorKind::geometry,
-              workshop.outputs,
-              {},
-              cat("expected ", jobs.size(), " reliefs, made ", sum.made, "; ", sum.failed, " failed",
-                  sum.missing > 0 ? cat(", ", sum.missing, " are not done yet") : "", see)});
+    return std::unexpected(Error{
+        ErrorKind::geometry,
+        workshop.outputs,
+        {},
+        cat("expected ", jobs.size(), jobs.size() == 1 ? " relief" : " reliefs", ", made ", sum.made, "; ",
+            sum.failed, " failed", sum.missing > 0 ? cat(", ", sum.missing, " are not done yet") : "", see)});
   if (!is_quiet) std::fprintf(stderr, "%s: %zu reliefs%s\n", workshop.outputs.c_str(), sum.made, see.c_str());
   return {};
 }

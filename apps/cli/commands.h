@@ -15,6 +15,7 @@ void add_bench(CLI::App& program, Result<void>& result);
 void add_studio(CLI::App& program, Result<void>& result);
 void add_compare(CLI::App& program, Result<void>& result);
 void add_batch(CLI::App& program, Result<void>& result);
+void add_thumbnail(CLI::App& program, Result<void>& result);
 void add_options(CLI::App& program, Result<void>& result);
 
 }  // namespace relievo::app::cli

@@ -19,7 +19,10 @@ void add_input_flags(CLI::App& command, InputTexts& texts) {
 Result<InputArguments> parse_input_texts(const InputTexts& texts) {
   RELIEVO_TRY(const DepthOptions depth, parse_depth(texts.depth));
   RELIEVO_TRY(const bool keeps_doubtful, parse_doubtful(texts.depth));
-  return InputArguments{depth, texts.camera, texts.stream_above_mb, true, keeps_doubtful};
+  InputArguments arguments{depth, texts.camera, texts.stream_above_mb};
+  arguments.are_pipes_fine = true;
+  arguments.keeps_doubtful = keeps_doubtful;
+  return arguments;
 }
 
 void add_scene_flags(CLI::App& command, SceneArguments& arguments) {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <iostream>
 #include <new>
-#include <numeric>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/terminal.h"
+#include "common/wording.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 
@@ -24,41 +24,18 @@ std::string line_of(Error error, const CLI::App& program) {
   return error.message();
 }
 
-// Returns how many letters must be inserted, removed or changed to turn one text into the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 // Returns the option or command that a user may have meant, or an empty text.
-std::string nearest_name(const CLI::App& app, const std::string& typed) {
-  std::string nearest;
-  std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
-  const auto consider = [&](const std::string& name) {
-    // If the user typed the beginning of a name, its distance counts as 1: "--out" means --output, although
-    // --up has fewer letters that differ.
-    const bool is_begun = typed.size() > 3 && name.starts_with(typed);
-    if (const std::size_t distance = is_begun ? 1 : edit_distance(typed, name); distance < least)
-      least = distance, nearest = name;
-  };
+std::string nearest_in(const CLI::App& app, const std::string& typed) {
+  std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
-    if (!option->get_group().empty()) consider(option->get_name());
-  for (const CLI::App* command : app.get_subcommands(nullptr)) consider(command->get_name());
-  return nearest;
+    if (!option->get_group().empty()) names.push_back(option->get_name());
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return nearest_name(typed, names);
 }
 
 // Returns the part of a message with the name that the user typed and the nearest known name.
 std::string found_name(const CLI::App& app, const std::string& typed) {
-  const std::string nearest = nearest_name(app, typed);
+  const std::string nearest = nearest_in(app, typed);
   return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));
 }
 
@@ -106,6 +83,7 @@ void add_commands(CLI::App& program, Result<void>& result) {
   add_studio(program, result);
   add_compare(program, result);
   add_batch(program, result);
+  add_thumbnail(program, result);
   add_options(program, result);
   program.footer(
       "Examples:\n"

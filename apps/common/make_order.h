@@ -79,6 +79,7 @@ struct FinishedRelief {
   InputFacts inputs;
   std::optional<double> draft_deg;
   std::vector<StageTime> times = {};  // empty before end()
+  nlohmann::json kept_report = {};    // the report of a relief that was stored and read again; else null
 
   // Ends the progress, and keeps the times of its stages.
   void end(Progress& progress);

@@ -107,10 +107,13 @@ nlohmann::json models_report(const Scene& scene, const View& view) {
 }
 
 nlohmann::json FinishedRelief::report(LengthUnit unit) const {
-  nlohmann::json report = report_json(made.report, times);
-  report["size_mm"] = as_list(Box::of(made.solid.points).size());
+  nlohmann::json report = kept_report;
+  if (report.is_null()) {
+    report = report_json(made.report, times);
+    report["size_mm"] = as_list(Box::of(made.solid.points).size());
+    report["models"] = inputs.models;
+  }
   report["units"] = name_of(unit);
-  report["models"] = inputs.models;
   return report;
 }
 

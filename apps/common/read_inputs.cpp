@@ -96,11 +96,20 @@ class FileSource : public ByteSource {
   Descriptor file_;
 };
 
-// Returns the size of a large file, which is read in blocks if its format allows; nothing for small files.
+// Returns the size of a file that may have to be read in blocks, where its format allows; nothing for small
+// files. A point has at least one byte.
 std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
   const std::optional<std::uint64_t> size = file_size(path);
-  if (!size || static_cast<double>(*size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
+  const double most = std::min(1e6 * arguments.stream_above_mb, arguments.most_points);
+  if (!size || static_cast<double>(*size) <= most) return std::nullopt;
   return size;
+}
+
+// Returns whether a file that begins with `head` has too many points to be read at once.
+bool has_too_many_points(std::span<const std::byte> head, const std::string& path, std::uint64_t bytes,
+                         double most_points) {
+  const ScanSize size = scan_size(head, path, bytes);
+  return size.is_stated && size.triangles == 0 && static_cast<double>(size.points) > most_points;
 }
 
 // Reads a large file in blocks. Returns nothing for small files and for formats that cannot be read in
@@ -109,9 +118,11 @@ Result<std::optional<SceneModel>> read_large(const std::string& path, const Inpu
                                              const PointsWanted& seen, Progress* progress) {
   const std::optional<std::uint64_t> size = large_size(path, arguments);
   if (!size) return std::nullopt;
+  const bool is_large = static_cast<double>(*size) > 1e6 * arguments.stream_above_mb;
   FileSource source(path, *size);
   std::vector<std::byte> head(static_cast<std::size_t>(std::min<std::uint64_t>(*size, 1 << 20)));
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
+  if (!is_large && !has_too_many_points(head, path, *size, arguments.most_points)) return std::nullopt;
   RELIEVO_TRY(auto streamed,
               stream_front(source, path, seen.view, {seen.points, arguments.keeps_doubtful}, progress));
   SceneModel input{path, nullptr};

@@ -1,6 +1,7 @@
 // Reads the inputs of a relief from disk: clouds, meshes, depth images, and scenes that consist of these.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,13 +14,18 @@
 
 namespace relievo::app {
 
+// The 4 GiB of memory that a program in WebAssembly has at most are filled by about three million points
+// that the view shows.
+constexpr double most_points_at_once = sizeof(void*) == 4 ? 3e6 : std::numeric_limits<double>::infinity();
+
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;            // camera of a depth image: numbers, or a file with them
-  double stream_above_mb = 512;  // larger files are read in blocks where that is possible
-  bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
-  bool keeps_doubtful = false;   // as in ReadOptions
-  bool is_lithophane = false;    // whether the brightness of a picture becomes thickness, not height
+  std::string camera;                        // camera of a depth image: numbers, or a file with them
+  double stream_above_mb = 512;              // larger files are read in blocks where that is possible
+  double most_points = most_points_at_once;  // clouds of more points, without triangles, are so, too
+  bool are_pipes_fine = false;               // whether inputs may be pipes, as on a command line
+  bool keeps_doubtful = false;               // as in ReadOptions
+  bool is_lithophane = false;  // whether the brightness of a picture becomes thickness, not height
 
   bool operator==(const InputArguments&) const = default;
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "relievo/core/text.h"
 
@@ -59,6 +61,21 @@ Remark remark_on(const ScanReport::FoundPlane& plane) {
                                " % of the visible points");
   return plane.is_left_out ? Remark{cat("left out ", what), "plane", "keep", "keeps it"}
                            : Remark{cat("found ", what), "plane", "drop", "leaves it out"};
+}
+
+// Returns how many letters must be inserted, removed or changed to turn one text into the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
 }
 
 std::string line_of(const Remark& remark) {
@@ -125,6 +142,17 @@ std::string found(const nlohmann::json& value) {
   std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   if (text.size() > 32) text.replace(32, text.size(), "...");
   return ", found " + text;
+}
+
+std::string nearest_name(std::string_view typed, const std::vector<std::string>& names) {
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const bool is_begun = typed.size() > 3 && name.starts_with(typed);
+    if (const std::size_t distance = is_begun ? 1 : edit_distance(typed, name); distance < least)
+      least = distance, nearest = name;
+  }
+  return nearest;
 }
 
 }  // namespace relievo::app

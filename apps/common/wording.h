@@ -30,4 +30,10 @@ std::string as_sentence(std::string line);
 // bytes; ", found none" for null.
 std::string found(const nlohmann::json& value);
 
+// Returns the name that a user may have meant who typed an unknown one: the first of those with the fewest
+// letters that differ. Returns an empty text if more than a third of the letters, and more than two, differ.
+// The beginning of a name, of at least four letters, counts as one that differs: "--out" means --output,
+// although --up has fewer.
+std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
+
 }  // namespace relievo::app

@@ -16,6 +16,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::ifstream file(argv[1], std::ios::binary);
+  if (!file) {
+    std::fprintf(stderr, "my_program: %s: expected a file that can be read\n", argv[1]);
+    return 1;
+  }
   const std::vector<char> scan{std::istreambuf_iterator<char>(file), {}};
   const auto stl = relief_of(std::as_bytes(std::span(scan)));
   if (!stl) {

@@ -11,27 +11,44 @@ const OUTPUTS = { output: "solid", preview: "preview", heightmap: "heightmap", "
 const MAP_VALUES = ["pixel", "dpi", "heightmap-bits", "heightmap-area", "heightmap-zero", "heightmap-high"];
 const OTHER_VALUES = [...MAP_VALUES, "units", "heightmap-size", "preview-size", "camera", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
 
-function fail(message) {
+// Ends the program: with exit code 2 for misuse, 1 for bad input or output.
+function fail(message, code = 1) {
   process.stderr.write(`relievo: ${message}\n`);
-  process.exit(1);
+  process.exit(code);
 }
+
+const misuse = (message) => fail(message, 2);
 
 const USAGE = `Usage: relievo make INPUT... -o OUT [--preview P.png] [--heightmap H.png] [--report R.json] [OPTION VALUE]...
        relievo options
-       relievo --version`;
+       relievo --version
+The native program does the same and more: info, studio, sample, batch, compare and bench.
+`;
+
+// Returns ", the nearest is ..." if a user may have meant one of these names.
+async function nearest(name, names) {
+  const { json } = (await newEngine()).call("nearest", { name, names });
+  return json.name && `, the nearest is ${json.name}`;
+}
+
+async function refuseFlag(typed, known) {
+  const near = await nearest(typed, [...known, "quiet", "help"].map((name) => `--${name}`));
+  misuse(`expected only known options, found '${typed}'${near}; see relievo make --help`);
+}
 
 // Returns { inputs, values } of the arguments. The value of a flag follows it, after "=" or as the next argument.
-function parse(args) {
+async function parse(args) {
   const inputs = [], values = {};
   const known = new Set([...optionTable.map((option) => option.name), ...OTHER_VALUES]);
   for (let i = 0; i < args.length; i++) {
     const arg = args[i] === "-o" ? "--output" : args[i];
-    if (!arg.startsWith("--")) inputs.push(arg);
+    if (arg === "--help" || arg === "-h") values.help = true;
+    else if (!arg.startsWith("-") || arg === "-") inputs.push(arg);
     else if (arg === "--quiet") values.quiet = true;
     else {
       const [flag, given] = arg.includes("=") ? [arg.slice(2, arg.indexOf("=")), arg.slice(arg.indexOf("=") + 1)] : [arg.slice(2), args[++i]];
-      if (!known.has(flag)) fail(`${arg}: expected a flag of relievo make; \`relievo options\` lists them`);
-      if (given === undefined) fail(`--${flag}: expected a value`);
+      if (!known.has(flag)) await refuseFlag(arg.split("=")[0], known);
+      if (given === undefined) misuse(`--${flag}: expected a value`);
       values[flag] = given;
     }
   }
@@ -44,13 +61,26 @@ function optionValue(option, text, units) {
   if (option.unit === "MM") return isNumber && units === "in" ? `${text}in` : isNumber ? Number(text) : text;
   const isOfNumbers = "min" in option || "max" in option || typeof option.default === "number";
   if (!isOfNumbers) return text;
-  if (!isNumber) fail(`${option.name}: expected a number, found '${text}'`);
+  if (!isNumber) misuse(`--${option.name}: expected a number, found '${text}'`);
   return Number(text);
+}
+
+// Returns the number of a flag outside the table of options.
+function numberOf(values, flag, otherwise) {
+  const value = Number(values[flag] ?? otherwise);
+  if (!Number.isFinite(value)) misuse(`--${flag}: expected a number, found '${values[flag]}'`);
+  return value;
 }
 
 // Returns a file on disk that the engine reads block by block.
 function fileOnDisk(name) {
-  const descriptor = fs.openSync(name, "r");
+  let descriptor;
+  try {
+    descriptor = fs.openSync(name, "r");
+  } catch ({ message }) { // such as "ENOENT: no such file or directory, open 'scan.ply'"
+    const reason = message.replace(/^\w+: |, open .*/g, "");
+    throw new RelievoError({ kind: "input", message: `${name}: expected a file that can be read: ${reason}` });
+  }
   const status = fs.fstatSync(descriptor);
   if (!status.isFile()) throw new RelievoError({ kind: "input", message: `${name}: expected a file` });
   return { size: status.size, read: (offset, to) => fs.readSync(descriptor, to, 0, to.length, offset) };
@@ -58,20 +88,19 @@ function fileOnDisk(name) {
 
 const REFERRING = [".obj", ".gltf", ".json", ".relievo"];
 
-// Gives the engine the input files and, if these can refer to other files, all files of their folders.
+// Gives the engine the input files, by the names that the user typed, and, if these can refer to other files, all files
+// of their folders.
 function addFiles(engine, inputs) {
-  const names = new Map();
   const add = (file) => {
-    const name = path.relative(process.cwd(), path.resolve(file)).split(path.sep).join("/").replaceAll("../", "_up/");
-    if (!names.has(file)) engine.addFile(name, fileOnDisk(file));
-    names.set(file, name);
+    const name = file.split(path.sep).join("/");
+    engine.addFile(name, fileOnDisk(file));
     return name;
   };
-  const added = inputs.map(add);
-  for (const input of inputs.filter((name) => REFERRING.includes(path.extname(name).toLowerCase())))
-    for (const entry of fs.readdirSync(path.dirname(input) || ".", { withFileTypes: true }))
-      if (entry.isFile()) add(path.join(path.dirname(input), entry.name));
-  return added;
+  for (const input of inputs.filter((name) => REFERRING.includes(path.extname(name).toLowerCase()))) {
+    const folder = input.slice(0, input.length - path.basename(input).length);
+    for (const entry of fs.readdirSync(folder || ".", { withFileTypes: true })) if (entry.isFile()) add(folder + entry.name);
+  }
+  return inputs.map(add);
 }
 
 function showProgress(isQuiet) {
@@ -80,13 +109,15 @@ function showProgress(isQuiet) {
 }
 
 async function make(args) {
-  const { inputs, values } = parse(args);
-  if (inputs.length === 0 || !values.output) fail(USAGE);
+  const { inputs, values } = await parse(args);
+  if (values.help) return listOptions(USAGE);
+  if (inputs.length === 0) misuse("expected input, found none; see relievo make --help");
+  if (!values.output) misuse("expected --output, found none; see relievo make --help");
   const units = values.units ?? "mm";
   const engine = await newEngine();
   const request = { inputs: addFiles(engine, inputs), options: {}, camera: values.camera };
   if (request.camera && fs.existsSync(request.camera)) request.camera = fs.readFileSync(request.camera, "utf8");
-  if (values["stream-above"]) request.stream_above_mb = Number(values["stream-above"]);
+  if (values["stream-above"]) request.stream_above_mb = numberOf(values, "stream-above");
   if (values["base-image"]) [request.base_image] = addFiles(engine, [values["base-image"]]);
   for (const option of optionTable)
     if (option.name in values) request.options[option.name] = optionValue(option, values[option.name], units);
@@ -99,7 +130,7 @@ async function make(args) {
     const kind = flag === "output" && /\.(png|tiff?)$/i.test(values[flag]) ? "heightmap" : usual;
     const bytes = kind === "report" ? JSON.stringify({ ...json.report, units }, null, 2) + "\n"
       : engine.call("file", { relief: json.relief, kind, path: values[flag], units, ...map,
-          heightmap_px: Number(values["heightmap-size"] ?? 1024), preview_px: Number(values["preview-size"] ?? 1200) }).bytes;
+          heightmap_px: numberOf(values, "heightmap-size", 1024), preview_px: numberOf(values, "preview-size", 1200) }).bytes;
     files.push([values[flag], bytes]);
   }
   writeAll(files);
@@ -108,9 +139,21 @@ async function make(args) {
   process.stderr.write(`${values.output}: ${json.report.visible_points} of ${json.report.input_points} points, height ${json.report.height_mm.toFixed(4).replace(/\.?0+$/, "")} mm\n`);
 }
 
-function listOptions() {
+function listOptions(head = "") {
+  process.stdout.write(head);
   for (const { name, unit, help, default_text: initial } of optionTable)
     process.stdout.write(`--${name} ${unit}\n    ${help}${initial ? ` [${initial}]` : ""}\n`);
+}
+
+async function refuseCommand(command) {
+  misuse(`expected make or options, found '${command}'${await nearest(command, ["make", "options"])}; see relievo --help`);
+}
+
+// An error of an option names its flag, as in the native program, and is misuse.
+function end(error) {
+  if (error.kind !== "option") fail(error.message);
+  const isFlag = optionTable.some(({ name }) => name === error.input) || OTHER_VALUES.includes(error.input);
+  misuse(isFlag ? `--${error.message}` : error.message);
 }
 
 const [command, ...rest] = process.argv.slice(2);
@@ -118,11 +161,10 @@ try {
   if (command === "make") await make(rest);
   else if (command === "options") listOptions();
   else if (command === "--version") process.stdout.write(`relievo ${version}\n`);
-  else {
-    process.stdout.write(`${USAGE}\n`);
-    process.exitCode = command === undefined || command === "--help" || command === "-h" ? 0 : 1;
-  }
+  else if (command === "--help" || command === "-h") process.stdout.write(USAGE);
+  else if (command === undefined) misuse("expected a command such as make, found none; see relievo --help");
+  else await refuseCommand(command);
 } catch (error) {
-  if (error instanceof RelievoError || error.code) fail(error.message);
+  if (error instanceof RelievoError || error.code) end(error);
   throw error;
 }

@@ -1,24 +1,26 @@
 // Makes files from arrays: PLY from clouds and meshes, TIFF from depths. The engine reads them like other files.
 
 function expectLength(name, array, length) {
-  if (!ArrayBuffer.isView(array) || array.length !== length)
-    throw new TypeError(`${name}: expected a typed array of ${length} numbers, found ${array?.length ?? typeof array}`);
+  if (array.length !== length)
+    throw new TypeError(`${name}: expected ${length} numbers, found ${array.length}`);
 }
 
-function typedArray(name, array, Type) {
+// Takes rows of numbers, too: [[x, y, z], ...].
+function typedArray(name, given, Type) {
+  const array = Array.isArray(given?.[0]) || ArrayBuffer.isView(given?.[0]) ? Array.from(given, (row) => [...row]).flat() : given;
   if (ArrayBuffer.isView(array) || Array.isArray(array)) return array instanceof Type ? array : Type.from(array);
   throw new TypeError(`${name}: expected an array of numbers`);
 }
 
 // Returns a PLY file of points (x, y, z of each in turn), and of normals, colours and faces if they are given.
 export function cloudFile({ points, normals, colours, faces }) {
-  const p = typedArray("points", points, Float64Array), count = Math.floor(p.length / 3);
+  const p = typedArray("points", points, Float64Array), count = Math.ceil(p.length / 3);
   expectLength("points", p, 3 * count);
   const n = normals && typedArray("normals", normals, Float32Array), c = colours && typedArray("colours", colours, Uint8Array);
   const f = faces && typedArray("faces", faces, Uint32Array);
   if (n) expectLength("normals", n, p.length);
   if (c) expectLength("colours", c, p.length);
-  if (f) expectLength("faces", f, 3 * Math.floor(f.length / 3));
+  if (f) expectLength("faces", f, 3 * Math.ceil(f.length / 3));
   const header = ["ply", "format binary_little_endian 1.0", `element vertex ${count}`,
     ...["x", "y", "z"].map((name) => `property double ${name}`),
     ...(n ? ["nx", "ny", "nz"] : []).map((name) => `property float ${name}`),

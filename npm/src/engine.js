@@ -11,7 +11,7 @@ export class RelievoError extends Error {
   }
 }
 
-const MEMORY = "expected more memory: a program in WebAssembly has at most 4 GiB; fewer points, the option points or a coarser scan need less";
+const MEMORY = "expected more memory: a program in WebAssembly has at most 4 GiB; a coarser scan needs less, and the native program has what the machine has";
 
 // The memory of an instance is freed when nothing refers to the instance any more.
 export class Engine {

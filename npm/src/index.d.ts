@@ -9,19 +9,22 @@ export interface ReadableFile {
   read(offset: number, to: Uint8Array): number;
 }
 
+/** Numbers one after the other, or rows of them. */
+export type Numbers = ArrayLike<number> | readonly ArrayLike<number>[];
+
 export interface CloudArrays {
   /** x, y and z of each point. */
-  points: ArrayLike<number>;
-  normals?: ArrayLike<number>;
+  points: Numbers;
+  normals?: Numbers;
   /** Red, green and blue of each point, 0 to 255. */
-  colours?: ArrayLike<number>;
+  colours?: Numbers;
   /** The indices of the three points of each triangle. */
-  faces?: ArrayLike<number>;
+  faces?: Numbers;
 }
 
 export interface DepthArrays {
   /** Depths row by row from the top; 0 is missing. */
-  depths: ArrayLike<number>;
+  depths: Numbers;
   width: number;
   height: number;
 }
@@ -33,15 +36,16 @@ export interface InputOptions {
   /** The name of the file. Its ending decides between text formats. */
   name?: string;
   /** The camera of a depth image, as numbers. */
-  camera?: string;
-  /** Files above this size are read in blocks if their format allows it. Default: 512. */
+  camera?: string | Numbers;
+  /** Files above this size are read in blocks if their format allows it. By default that is 512 MB, and files with more
+   * than three million points and no triangles, which fill the memory of WebAssembly. */
   streamAboveMb?: number;
   /** The height map of a base of the kind "image": a PNG or TIFF file. */
   baseImage?: Bytes | { name: string; bytes: Bytes };
 }
 
 export interface Watching {
-  /** Called at the beginning of each stage; returning false cancels. */
+  /** Called at the beginning of each stage. Returning false cancels; what it throws is thrown by the call. */
   progress?: (stage: string, fraction: number) => boolean | void;
   /** Checked between stages. */
   signal?: AbortSignal;

@@ -1,6 +1,6 @@
 // Relievo in JavaScript: makes reliefs from scans.
 import { RelievoError } from "./engine.js";
-import { filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
+import { checkNumbers, filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
 import { newEngine } from "./new_engine.js";
 import { optionTable, samples, version } from "./options.js";
 
@@ -10,19 +10,32 @@ const BASE_IMAGE = "base-image/";
 
 function call(engine, name, request = {}) {
   try {
+    checkNumbers(request);
     return engine.call(name, request);
   } catch (error) {
     throw withKeyword(error);
   }
 }
 
-// Calls the engine and reports the progress. Cancels the call as soon as the signal is aborted or the callback returns
-// false.
+const nearestIn = (engine) => (name, names) => engine.call("nearest", { name, names }).json.name;
+
+// Calls the engine and reports the progress. Cancels the call as soon as the signal is aborted, or the callback returns
+// false or throws; what it throws is thrown on.
 function watchedCall(engine, name, request, { progress, signal } = {}) {
   signal?.throwIfAborted();
-  engine.progress = (stage, fraction) => progress?.(stage, fraction) !== false && !signal?.aborted;
+  const thrown = [];
+  engine.progress = (stage, fraction) => {
+    try {
+      return thrown.length === 0 && progress?.(stage, fraction) !== false && !signal?.aborted;
+    } catch (error) {
+      thrown.push(error);
+      return false;
+    }
+  };
   try {
     return call(engine, name, request);
+  } catch (error) {
+    throw thrown.length > 0 ? thrown[0] : error;
   } finally {
     engine.progress = null;
   }
@@ -33,7 +46,7 @@ async function engineWith(source, options = {}) {
   const engine = await newEngine();
   const files = filesOf(source, options.name);
   for (const [name, file] of files) engine.addFile(name, file);
-  const request = { ...requestOf(options), inputs: modelsOf(files) };
+  const request = { ...requestOf(options, nearestIn(engine)), inputs: modelsOf(files) };
   if (options.baseImage) {
     request.base_image = BASE_IMAGE + (options.baseImage.name ?? "base.png");
     engine.addFile(request.base_image, options.baseImage.bytes ?? options.baseImage);
@@ -152,7 +165,7 @@ export class Session {
   }
 
   frame(options = {}) {
-    return new Frame(this.#engine, call(this.#engine, "frame", { session: this.#number, ...requestOf(options) }).json);
+    return new Frame(this.#engine, call(this.#engine, "frame", { session: this.#number, ...requestOf(options, nearestIn(this.#engine)) }).json);
   }
 
   picture(frame, options = {}) {
@@ -160,7 +173,7 @@ export class Session {
   }
 
   make(options = {}) {
-    const request = { session: this.#number, ...requestOf(options) };
+    const request = { session: this.#number, ...requestOf(options, nearestIn(this.#engine)) };
     return new Relief(this.#engine, watchedCall(this.#engine, "session_make", request, options).json);
   }
 

@@ -1,23 +1,30 @@
 // Converts the arguments of users to files and requests for the engine.
 import { cloudFile, depthFile } from "./arrays.js";
-import { optionTable } from "./options.js";
 import { RelievoError } from "./engine.js";
+import { optionTable } from "./options.js";
 
 const camelCase = (keyword) => keyword.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
 const nameOf = new Map(optionTable.map(({ keyword, name }) => [camelCase(keyword), name]));
+const isNumber = new Set(optionTable.filter((option) => "min" in option).map(({ name }) => name));
 const keywordOf = new Map([...nameOf].map(([keyword, name]) => [name, keyword]));
 const OF_THE_CALL = new Set(["progress", "signal", "camera", "baseImage", "streamAboveMb", "name"]);
+// The keywords, also by their names without a unit, which users often leave out.
+const all = [...nameOf.keys(), ...OF_THE_CALL];
+const keywords = new Map([...all.map((keyword) => [keyword.replace(/(Mm|Deg|Mb)$/, ""), keyword]), ...all.map((keyword) => [keyword, keyword])]);
 
 const isBytes = (source) => source instanceof ArrayBuffer || ArrayBuffer.isView(source);
 const isReadable = (source) => typeof source?.read === "function";
 
-// Returns a name for a file from its first bytes, as readers recognise some formats only by the name.
+// Returns a name for a file from its first bytes, as readers recognise some formats only by the name. STL is the only
+// such format of binary files; its texts begin with "solid".
 function guessName(bytes) {
-  const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(8, bytes.byteLength)));
+  const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(512, bytes.byteLength)));
   const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"], ["\xFF\xD8\xFF", "scan.jpg"], ["\x93NUMPY", "scan.npy"],
     ["II*\0", "scan.tif"], ["MM\0*", "scan.tif"], ["ASTM-E57", "scan.e57"], ["OFF", "scan.off"], ["PK\x03\x04", "scan.zip"],
-    ["# .PCD", "scan.pcd"], ["VERSION", "scan.pcd"]];
-  return known.find(([mark]) => head.startsWith(mark))?.[1] ?? "scan.stl";
+    ["# .PCD", "scan.pcd"], ["VERSION", "scan.pcd"], ["solid", "scan.stl"]];
+  const name = known.find(([mark]) => head.startsWith(mark))?.[1];
+  if (name || /[\0-\x08\x0e-\x1f]/.test(head)) return name ?? "scan.stl";
+  return /^(v|o|g|mtllib) /m.test(head) ? "scan.obj" : "scan.xyz";
 }
 
 // Returns [[name, source], ...] for bytes, arrays, or an object of names and bytes.
@@ -43,17 +50,40 @@ export function modelsOf(files) {
   return names.filter((name) => !beside.has(ending(name)));
 }
 
-// Returns the request for a user's options. Throws for unknown option names.
-export function requestOf(options = {}) {
+// Returns numbers as a text: a row with commas, rows with semicolons, X,Y;X,Y. Returns other values unchanged.
+function textOf(value) {
+  if (typeof value === "number") return String(value);
+  if (!Array.isArray(value) && !ArrayBuffer.isView(value)) return value;
+  const parts = [...value];
+  return parts.map(textOf).join(parts.some((part) => Array.isArray(part)) ? ";" : ",");
+}
+
+function optionError(input, expected) {
+  return new RelievoError({ kind: "option", input, expected, message: `${input}: ${expected}` });
+}
+
+// Throws for a number that is not finite, in whatever part of a request: JSON has no such numbers.
+export function checkNumbers(request) {
+  for (const [name, value] of Object.entries(request)) {
+    if (typeof value === "number" && !Number.isFinite(value)) throw optionError(name, `expected a finite number, found ${value}`);
+    if (value && typeof value === "object") checkNumbers(value);
+  }
+}
+
+// Returns the request for a user's options. Throws for unknown option names; `nearest` takes one, and the known ones.
+export function requestOf(options, nearest) {
   const request = { options: {} };
   for (const [keyword, value] of Object.entries(options)) {
     if (value === undefined || value === null || OF_THE_CALL.has(keyword)) continue;
-    if (!nameOf.has(keyword))
-      throw new RelievoError({ kind: "option", input: keyword, expected: "expected the name of an option",
-        message: `${keyword}: expected the name of an option` });
-    request.options[nameOf.get(keyword)] = value;
+    const name = nameOf.get(keyword);
+    if (!name) {
+      const meant = keywords.get(nearest(keyword, [...keywords.keys()]));
+      throw optionError(keyword, `expected the name of an option${meant ? `, the nearest is ${meant}` : ""}`);
+    }
+    if (typeof value === "number" && !Number.isFinite(value)) throw optionError(keyword, `expected a finite number, found ${value}`);
+    request.options[name] = isNumber.has(name) ? value : textOf(value);
   }
-  if (options.camera) request.camera = options.camera;
+  if (options.camera) request.camera = textOf(options.camera);
   if (options.streamAboveMb !== undefined) request.stream_above_mb = options.streamAboveMb;
   return request;
 }

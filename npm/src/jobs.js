@@ -44,10 +44,19 @@ export class WorkerJobs {
     }).finally(() => signal?.removeEventListener("abort", abort));
   }
 
+  // Ends the worker if the callback returns false or throws.
+  #report({ progress }, stage, fraction) {
+    try {
+      if (progress?.(stage, fraction) === false) this.terminate();
+    } catch (error) {
+      this.terminate(error);
+    }
+  }
+
   #take({ id, value, error, stage, fraction }) {
     const waiting = this.#waiting.get(id);
     if (!waiting) return;
-    if (stage !== undefined) return void waiting.progress?.(stage, fraction);
+    if (stage !== undefined) return this.#report(waiting, stage, fraction);
     this.#waiting.delete(id);
     if (this.#waiting.size === 0) this.#worker?.rest?.();
     error ? waiting.reject(error.kind ? new RelievoError(error) : new Error(error.message)) : waiting.resolve(value);

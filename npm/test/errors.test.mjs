@@ -45,12 +45,59 @@ test("a file of 3 GB that cannot be read by pieces is refused before it is read"
 
 test("options have names and ranges", async () => {
   const cloud = await sample("shell", { points: 20000 });
-  assert.match((await errorOf(() => make(cloud, { hight: 2 }))).message, /^hight: expected the name of an option/);
+  assert.match((await errorOf(() => make(cloud, { heigthMm: 2 }))).message, /^heigthMm: expected the name of an option, the nearest is heightMm$/);
+  assert.match((await errorOf(() => make(cloud, { height: 2 }))).message, /, the nearest is heightMm$/);
+  assert.match((await errorOf(() => make(cloud, { verbose: 2 }))).message, /^verbose: expected the name of an option$/);
   const range = await errorOf(() => make(cloud, { heightMm: -1 }));
   assert.equal(range.kind, "option");
   assert.equal(range.input, "heightMm");
   assert.equal((await errorOf(() => make(cloud, { heightMm: "two" }))).kind, "option");
   await assert.rejects(() => make("scan.ply"), TypeError);
+});
+
+test("numbers are finite, wherever they stand", async () => {
+  const cloud = await sample("shell", { points: 20000 });
+  for (const value of [NaN, Infinity, -Infinity])
+    for (const keyword of ["heightMm", "steepestDeg", "points", "view", "streamAboveMb"]) {
+      const error = await errorOf(() => make(cloud, { [keyword]: value }));
+      assert.equal(error.kind, "option");
+      assert.match(error.message, new RegExp(`expected a finite number, found ${value}$`));
+    }
+  await errorOf(() => make(cloud, { view: [1, NaN, 0] }));
+  const relief = await make(cloud), session = await Session.open(cloud);
+  await errorOf(() => relief.heightMap({ size: NaN }));
+  await errorOf(() => relief.preview({ size: Infinity }));
+  await errorOf(() => session.picture(session.frame(), { yawDeg: NaN }));
+  await errorOf(() => sample("shell", { points: NaN }));
+});
+
+test("numbers may stand in arrays where the command line has commas", async () => {
+  const cloud = await sample("shell", { points: 20000 });
+  const bytes = async (options) => (await make(cloud, options)).solid("stl");
+  assert.deepEqual(await bytes({ view: [1, 0, 3], tone: [[0, 1], [1, 0.5]], denoise: 0 }), await bytes({ view: "1,0,3", tone: "0,1;1,0.5", denoise: "0" }));
+});
+
+test("bytes without a name are what they look like", async () => {
+  const names = [["garbage\nnothing else", "scan.xyz"], ["v 0 0 0\nv 1 1\n", "scan.obj"], ["solid a\nfacet\n", "scan.stl"]];
+  for (const [content, name] of names) assert.equal((await errorOf(() => make(text([content])))).input, name);
+});
+
+test("what the progress callback throws is thrown on", async () => {
+  const cloud = await sample("shell", { points: 20000 }), mine = new Error("mine");
+  await assert.rejects(() => make(cloud, { progress: () => { throw mine; } }), (error) => error === mine);
+});
+
+test("a cloud of more points than fit is read piece by piece", async () => {
+  const side = 1800, head = new TextEncoder().encode("ply\nformat binary_little_endian 1.0\n" +
+    `element vertex ${side * side}\nproperty float x\nproperty float y\nproperty float z\nend_header\n`);
+  const bytes = new Uint8Array(head.length + 12 * side * side), view = new DataView(bytes.buffer);
+  bytes.set(head);
+  for (let i = 0, at = head.length; i < side * side; i++, at += 12) {
+    const x = i % side, y = Math.floor(i / side);
+    [x, y, 60 * Math.sin(x / 150) * Math.cos(y / 170)].forEach((value, k) => view.setFloat32(at + 4 * k, value, true));
+  }
+  const relief = await make({ "big.ply": bytes }, { points: 50000 });
+  assert.match(relief.remarks.join("\n"), /big\.ply: \d+ points for the 3240000 of the file/);
 });
 
 test("progress names stages and cancels", async () => {
@@ -67,6 +114,8 @@ test("lengths may have units, and arrays are scans", async () => {
   const points = [], n = 120;
   for (let y = 0; y < n; y++) for (let x = 0; x < n; x++) points.push(x, y, 8 * Math.sin(x / 9) * Math.cos(y / 11));
   const relief = await make({ points }, { heightMm: "0.1in" });
+  const rows = Array.from({ length: points.length / 3 }, (_, i) => points.slice(3 * i, 3 * i + 3));
+  assert.deepEqual((await make({ points: rows }, { heightMm: "0.1in" })).solid("stl"), relief.solid("stl"));
   assert.ok(Math.abs(relief.report.height_mm - 2.54) < 1e-6);
   const { vertices, faces } = relief;
   const z = vertices.filter((_, i) => i % 3 === 2);

@@ -34,6 +34,13 @@ test("README's example runs", () => {
   assert.equal(fs.readFileSync(path.join(folder, "coin.png")).subarray(1, 4).toString(), "PNG");
 });
 
+test("the licences of all libraries inside are part of the package", () => {
+  const licences = fs.readFileSync(path.join(folder, "node_modules/relievo/LIBRARIES.txt"), "utf8");
+  for (const library of ["libeigen3-dev", "libspng-dev", "libtiff-dev", "libzip-dev", "zlib1g-dev", "wasi-libc"])
+    assert.match(licences, new RegExp(`\n${library}, `));
+  assert.match(licences, /Permission is hereby granted/);
+});
+
 test("the program makes a relief with the native flags", () => {
   const program = path.join(folder, "node_modules/.bin/relievo");
   const { status, stderr } = node([program, "make", "scan.ply", "-o", "medal.stl", "--height", "2", "--outline=circle", "--report", "r.json", "--heightmap", "h.png"]);
@@ -44,20 +51,42 @@ test("the program makes a relief with the native flags", () => {
   assert.equal(fs.statSync(path.join(folder, "medal.stl")).size % 50, 84 % 50);
 });
 
-test("the program fails with one line", () => {
+test("the program fails with one line and the exit codes of the native program", () => {
   const program = path.join(folder, "node_modules/.bin/relievo");
   fs.writeFileSync(path.join(folder, "broken.ply"), "ply\nformat ascii 1.0\n");
-  for (const [args, message] of [
-    [["make", "broken.ply", "-o", "b.stl"], /^relievo: broken\.ply.*expected/],
-    [["make", "scan.ply", "-o", "b.txt"], /^relievo: .*expected a file ending in/],
-    [["make", "missing.ply", "-o", "b.stl"], /^relievo: .*missing\.ply/],
-    [["make", "scan.ply", "-o", "b.stl", "--hight", "2"], /^relievo: --hight: expected a flag/]]) {
+  fs.mkdirSync(path.join(folder, "below"));
+  for (const [args, code, message] of [
+    [["make", "broken.ply", "-o", "b.stl"], 1, /^relievo: broken\.ply.*expected/],
+    [["make", "below/../broken.ply", "-o", "b.stl"], 1, /^relievo: below\/\.\.\/broken\.ply.*expected/],
+    [["make", path.join(folder, "broken.ply"), "-o", "b.stl"], 1, new RegExp(`^relievo: ${folder}/broken\\.ply.*expected`)],
+    [["make", "scan.ply", "-o", "b.stl", "--height", "500"], 1, /^relievo: scan\.ply: expected a height that can be reached/],
+    [["make", "missing.ply", "-o", "b.stl"], 1, /^relievo: missing\.ply: expected a file that can be read: no such file/],
+    [["make", "scan.ply", "-o", "b.txt"], 2, /^relievo: .*expected a file ending in/],
+    [["make", "scan.ply", "-o", "b.stl", "--height", "-1"], 2, /^relievo: --height: expected/],
+    [["make", "scan.ply", "-o", "b.stl", "--points", "many"], 2, /^relievo: --points: expected a number, found 'many'/],
+    [["make", "scan.ply", "-o", "b.stl", "--preview", "p.png", "--preview-size", "x"], 2, /^relievo: --preview-size: expected a number/],
+    [["make", "scan.ply", "-o", "b.stl", "--heigth", "2"], 2, /found '--heigth', the nearest is --height; see relievo make --help/],
+    [["make", "scan.ply", "-o", "b.stl", "--verbose", "2"], 2, /found '--verbose'; see/],
+    [["make"], 2, /^relievo: expected input, found none/],
+    [["mak"], 2, /found 'mak', the nearest is make; see relievo --help/],
+    [[], 2, /^relievo: expected a command such as make, found none/]]) {
     const { status, stderr } = node([program, ...args]);
-    assert.equal(status, 1, stderr);
+    assert.equal(status, code, `${args.join(" ")}: ${stderr}`);
     assert.match(stderr, message);
     assert.equal(stderr.trim().split("\n").length, 1, stderr);
   }
   assert.ok(!fs.existsSync(path.join(folder, "b.stl")));
+});
+
+test("the program helps", () => {
+  const program = path.join(folder, "node_modules/.bin/relievo");
+  for (const args of [["--help"], ["make", "-h"], ["make", "--help"]]) {
+    const { status, stdout, stderr } = node([program, ...args]);
+    assert.equal(status, 0, stderr);
+    assert.match(stdout, /^Usage: relievo make INPUT/);
+  }
+  const scan = path.join("..", path.basename(folder), "scan.ply");
+  assert.equal(node([program, "make", scan, "-o", "up.stl", "--quiet"]).status, 0);
 });
 
 test("a worker makes a relief, and can be ended", () => {
@@ -101,7 +130,8 @@ test("types hold under tsc --strict", () => {
     import { make, Session, RelievoError, type ReliefOptions } from "relievo";
     import { RelievoWorker } from "relievo/worker";
     const options: ReliefOptions = { heightMm: "4in", outline: "circle", draftDeg: 15, tone: "0,1" };
-    const relief = await make({ points: new Float64Array(9) }, { ...options, progress: (stage: string) => stage !== "normals" });
+    const numbers: ReliefOptions = { view: [1, 0, 3], tone: [[0, 1], [1, .5]], base: "wave:height=5", denoise: 0 };
+    const relief = await make({ points: new Float64Array(9) }, { ...options, ...numbers, progress: (stage: string) => stage !== "normals" });
     const size: number = relief.report.size_mm[2] + relief.heightMap({ size: 10 }).heights.length;
     const session = await Session.open(new Uint8Array());
     const pixels: Uint8ClampedArray = session.picture(session.frame(options), { yawDeg: 3 }).pixels;
@@ -109,7 +139,9 @@ test("types hold under tsc --strict", () => {
     try { console.log(size, pixels, made.preview?.length); } catch (error) { if (error instanceof RelievoError) console.log(error.place); }
     export {};`);
   assert.equal(right.status, 0, right.stdout);
-  const wrong = compile("wrong.ts", `import { make } from "relievo"; make(new Uint8Array(), { hightMm: 2 }); make("scan.ply");`);
+  const wrong = compile("wrong.ts", `import { make } from "relievo"; make(new Uint8Array(), { hightMm: 2 }); make("scan.ply");
+    make({ points: [[0, 0, 0]] }, { outline: "circel" });`);
   assert.match(wrong.stdout, /hightMm/);
   assert.match(wrong.stdout, /scan\.ply|string/);
+  assert.match(wrong.stdout, /circel/);
 });

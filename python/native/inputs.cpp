@@ -36,15 +36,18 @@ struct ArrayModel {
 // One model, or the path of a model, a scene or a project.
 using Source = std::variant<std::string, FileBytes, ArrayModel>;
 
-// Returns the model of points, with normals, colours and triangles if they are not None.
+// Returns the model of points, with normals, colours and triangles if they are not None. `missing` is the
+// number of rows that were left out before.
 ArrayModel array_model(const py::array& points, const std::optional<py::array>& normals,
-                       const std::optional<py::array>& colours, const std::optional<py::array>& faces) {
+                       const std::optional<py::array>& colours, const std::optional<py::array>& faces,
+                       std::size_t missing) {
   auto file = std::make_shared<CloudFile>();
   Cloud& cloud = file->cloud;
   cloud.points = points_of({"points", points});
   if (normals) cloud.normals = normals_of({"normals", *normals}, cloud.size());
   if (colours) cloud.colours = colours_of({"colours", *colours}, cloud.size());
   file->format = "array";
+  if (missing > 0) file->remarks.push_back(cat("left out ", missing, " rows that are not finite"));
   if (!faces) return {"points", std::move(file), nullptr};
   Mesh mesh{cloud.points, triangles_of({"faces", *faces}, cloud.size()), {}, cloud.colours};
   for (const auto& [a, b, c] : mesh.triangles)
@@ -64,6 +67,12 @@ struct NameOf {
   std::string operator()(const ArrayModel& model) const { return model.name; }
 };
 
+SceneModel scene_model(const ArrayModel& model) {
+  SceneModel made{model.name, model.file};
+  for (const std::string& remark : model.file->remarks) made.remarks.push_back(cat(model.name, ": ", remark));
+  return made;
+}
+
 struct SourceReader {
   const app::InputArguments& arguments;
   const app::PointsWanted& wanted;
@@ -82,7 +91,7 @@ struct SourceReader {
     return Scene{{std::move(model)}};
   }
   Result<Scene> operator()(const ArrayModel& model) const {
-    if (model.file) return Scene{{{model.name, model.file}}};
+    if (model.file) return Scene{{scene_model(model)}};
     RELIEVO_TRY(SceneModel read,
                 app::take_depths(*model.depths, model.name, arguments, wanted.points, progress));
     return Scene{{std::move(read)}};
@@ -162,7 +171,7 @@ void take_sources(const py::list& list, app::MakeOrder& order) {
 void add_inputs(py::module_& module) {
   py::class_<ArrayModel>(module, "Model");
   module.def("array_model", &array_model, py::arg("points"), py::arg("normals"), py::arg("colours"),
-             py::arg("faces"));
+             py::arg("faces"), py::arg("missing") = 0);
   module.def("depth_model", &depth_model);
   module.def("sample", &sample);
   module.def("write_cloud", &write_cloud);

@@ -1,9 +1,12 @@
 #include "native/options.h"
 
+#include <pybind11/stl.h>
+
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "common/option_list.h"
+#include "common/wording.h"
 #include "native/errors.h"
 #include "relievo/core/text.h"
 
@@ -59,6 +62,7 @@ app::InputArguments input_arguments(const py::dict& given) {
 
 void add_options(py::module_& module) {
   module.def("option_table", &table);
+  module.def("nearest_name", &app::nearest_name);
 }
 
 }  // namespace relievo::python

@@ -11,6 +11,7 @@
 #include "native/errors.h"
 #include "native/inputs.h"
 #include "native/options.h"
+#include "native/pickling.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
@@ -155,6 +156,7 @@ app::MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
 
 void add_relief(py::module_& module) {
   py::class_<app::FinishedRelief, SharedRelief>(module, "Relief")
+      .def(py::pickle([](const app::FinishedRelief& relief) { return state_of(relief); }, &relief_in))
       .def("save",
            [](const SharedRelief& relief, const py::dict& paths, const std::string& units, int heightmap_px,
               int preview_px) {

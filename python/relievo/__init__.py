@@ -4,6 +4,7 @@ An option of the command line is a keyword of the same name, with underscores; w
 the keyword ends in its unit: --rim-height is rim_height_mm, --draft is draft_deg.
 """
 
+import operator as _operator
 import os as _os
 
 from . import _native
@@ -51,7 +52,10 @@ def threads() -> int:
 
 def set_threads(number: int) -> None:
     """Sets the number of threads of this process, at most 256; 0 means one per processor. Waits for running calls."""
-    _native.set_threads(number)
+    try:
+        _native.set_threads(_operator.index(number))
+    except TypeError:
+        raise TypeError(f"set_threads() expected a whole number, found {type(number).__name__}") from None
 
 
 # A forked process has only the thread that forked, so the library's threads are ended before a fork.

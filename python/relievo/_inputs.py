@@ -52,6 +52,8 @@ def _is_array(source: Any) -> bool:
 
 def _array(source: Any, normals: Any, colours: Any, faces: Any) -> Any:
     points = numbers("points", source)
+    if points.ndim == 2 and points.shape[0] == 3 and points.shape[1] != 3:
+        raise Error("input", "points", "shape", f"expected (N, 3), found {points.shape}; the transposed array, .T, has rows of points")
     if points.ndim == 2 and points.shape[1] != 3 and normals is None and colours is None and faces is None:
         return _native.depth_model(points)
     return _array_model(points, normals, colours, faces)
@@ -86,9 +88,21 @@ def _object(source: Any) -> Any:
 
 
 def _array_model(points: Any, normals: Any, colours: Any, faces: Any) -> Any:
-    return _native.array_model(
-        numbers("points", points), numbers("normals", normals), numbers("colours", colours), numbers("faces", faces)
-    )
+    """Leaves out points that are not finite, as readers of files do, unless faces name points by their rows."""
+    given = [numbers("points", points), numbers("normals", normals), numbers("colours", colours)]
+    kept = _finite_rows(given[0]) if faces is None else None
+    if kept is not None:
+        rows = [array if array is None or len(array) != len(kept) else array[kept] for array in given]
+        return _native.array_model(*rows, None, missing=len(kept) - int(kept.sum()))
+    return _native.array_model(*given, numbers("faces", faces))
+
+
+def _finite_rows(points: Any) -> Any:
+    """Returns for each row whether it is finite, or None if all rows are or none is."""
+    if points.ndim != 2 or points.dtype.kind != "f":
+        return None
+    kept = np.isfinite(points).all(axis=1)
+    return None if kept.all() or not kept.any() else kept
 
 
 def _first(source: Any, *names: str) -> Any:

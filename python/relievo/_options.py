@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import numbers
 import os
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar, Union
 
@@ -33,6 +33,9 @@ OF_MAKE = [row["keyword"] for row in TABLE if row["stage"] != "input"] + INPUT
 OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]
 OF_FRAME = of_stage("shape")
 
+# Keywords that another function takes.
+ELSEWHERE = {"threads": "set_threads() sets the number of threads"}
+
 _EXTRA_HELP = {
     "camera": "of a depth image: FX,FY,CX,CY, the matrix, or a file with one of them",
     "base_image": "height map for base image: a path or a 2-D array, bright is high",
@@ -49,8 +52,19 @@ def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
         if name in OF_MAKE:
             where = "make() takes it" if name in OF_SESSION else "a session prepares it once, so open another"
             raise TypeError(f"{function}() cannot change '{name}': {where}")
-        nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
-        raise TypeError(f"{function}() got an unexpected keyword argument '{name}'; the nearest is '{nearest[0]}'")
+        hint = ELSEWHERE.get(name)
+        if hint is None:
+            # Users often leave the unit out.
+            names = {re.sub("_(mm|deg|mb)$", "", keyword): keyword for keyword in known} | dict(zip(known, known))
+            nearest = _native.nearest_name(name, list(names))
+            hint = f"the nearest is '{names[nearest]}'" if nearest else ""
+        raise TypeError(f"{function}() got an unexpected keyword argument '{name}'{hint and '; ' + hint}")
+
+
+def check_progress(progress: Any) -> None:
+    """Raises TypeError unless the argument is a function or None."""
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress: expected a function, found {type(progress).__name__}")
 
 
 def texts(options: Mapping[str, Any]) -> dict[str, Any]:

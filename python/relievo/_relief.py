@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import warnings
 from collections.abc import Callable
@@ -125,6 +126,15 @@ class Relief:
         size = " x ".join(f"{mm:.4g}" for mm in self.report["size_mm"])
         return f"<relievo.Relief {size} mm, {len(self.faces)} triangles>"
 
+    def __reduce__(self) -> tuple[type[Relief], tuple[Any]]:
+        """Pickles the relief with its report, so that other processes may save it."""
+        return Relief, (self._native,)
+
+
+_options.ELSEWHERE.update(
+    {name: f"save() takes {name}" for name in inspect.signature(Relief.save).parameters if name not in ("self", "solid")}
+)
+
 
 @_options.with_keywords(_options.OF_MAKE)
 def make(
@@ -148,6 +158,7 @@ def make(
     and the relief does not use, such as points that the file marks as noise, is told by a warning.
     """
     _options.check("make", options, _options.OF_MAKE)
+    _options.check_progress(progress)
     sources = _inputs.sources_of(source, normals, colours, faces)
     native = _native.make(sources, _options.texts(options), progress)
     for line in native.left_out():

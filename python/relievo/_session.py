@@ -47,6 +47,9 @@ class Frame:
         """Millimetres per unit of the session's points, at the requested width."""
         return self._native.mm_per_unit()
 
+    def __repr__(self) -> str:
+        return f"<relievo.Frame {self.height_mm:.4g} mm, {len(self.heights)} points>"
+
 
 class Session:
     """A scan with its visible surface prepared, so that a change of the options takes milliseconds.
@@ -69,6 +72,7 @@ class Session:
         """Prepares the scan, which may have any form that make() takes. The options are the defaults of frame() and
         make()."""
         _options.check("Session", options, _options.OF_MAKE)
+        _options.check_progress(progress)
         sources = _inputs.sources_of(source, normals, colours, faces)
         self._options = _options.texts(options)
         self._native = _native.open(sources, self._options, progress)
@@ -101,6 +105,7 @@ class Session:
     def make(self, *, progress: Progress = None, **options: Any) -> Relief:
         """Returns the finished relief, as relievo.make() does, without preparing the scan again."""
         _options.check("make", options, _options.OF_SESSION)
+        _options.check_progress(progress)
         return Relief(self._native.make({**self._options, **_options.texts(options)}, progress))
 
     def picture(
@@ -116,4 +121,9 @@ class Session:
         is_fine: bool = False,
     ) -> NDArray[np.uint8]:
         """Returns a shaded picture of a frame on its plate: (height, width, 4), red, green, blue and opacity."""
+        if not isinstance(frame, Frame):
+            raise TypeError(f"picture() expected a frame, found {type(frame).__name__}")
         return self._native.picture(frame._native, width, height, yaw_deg, pitch_deg, zoom, material, is_fine)
+
+    def __repr__(self) -> str:
+        return f"<relievo.Session {len(self.points)} points, {len(self.triangles)} triangles>"

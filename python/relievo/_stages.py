@@ -98,6 +98,10 @@ class Cloud:
     def __len__(self) -> int:
         return len(self.points)
 
+    def __repr__(self) -> str:
+        extras = [name for name in ("normals", "colours") if getattr(self, name) is not None]
+        return f"<relievo.Cloud {len(self)} points{' with ' + ' and '.join(extras) if extras else ''}>"
+
 
 @_documented("make_sample")
 def sample(name: str, *, points: int = 300_000, noise: float = 0.15) -> Cloud:

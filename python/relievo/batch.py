@@ -75,7 +75,7 @@ def run(
     called after each scan. Scans that were made before from the same contents and options are kept. A scan that fails
     does not end the run. Raises ValueError with the program's message if options are wrong or there is no scan.
     """
-    program = shutil.which(program) or program
+    program = _path_of(program)
     output = os.path.abspath(output)
     flags = [*flags, *(f"--{name.replace('_', '-')}={value}" for name, value in options.items())]
     lines = _call([program, "batch", source, "-o", output, "--list", *flags]).splitlines()
@@ -85,6 +85,14 @@ def run(
     subprocess.run([program, "batch", source, "-o", output, "--pages", "--quiet", *flags], stderr=subprocess.DEVNULL,
                    check=False)
     return Run(records, os.path.join(output, "index.html"))
+
+
+def _path_of(program: str) -> str:
+    found = shutil.which(program)
+    if found is None:
+        raise ValueError(f"{program}: expected the program relievo, which Python's package does not bring along; "
+                         "its path is given as program= or --program")
+    return found
 
 
 def _call(command: list[str]) -> str:

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import relievo
+import relievo.batch
 from support import InFolder, scan
 
 
@@ -40,6 +41,25 @@ class Refusals(InFolder):
         for wrong, nearest in [("hieght_mm", "height_mm"), ("height", "height_mm"), ("rim_hight", "rim_height_mm"), ("out_line", "outline")]:
             with self.assertRaisesRegex(TypeError, f"'{wrong}'; the nearest is '{nearest}'"):
                 relievo.make(scan(), **{wrong: 1})
+        for far, hint in [("verbose", "'verbose'$"), ("units", "save\\(\\) takes units$"), ("threads", "set_threads\\(\\) sets")]:
+            with self.assertRaisesRegex(TypeError, hint):
+                relievo.make(scan(), **{far: 1})
+
+    def test_name_what_is_no_function_frame_or_number(self):
+        with self.assertRaisesRegex(TypeError, "progress: expected a function, found int"):
+            relievo.make(scan(), progress=3)
+        with self.assertRaisesRegex(TypeError, "expected a frame, found NoneType"):
+            relievo.Session(scan()).picture(None)
+        with self.assertRaisesRegex(TypeError, "expected a whole number, found str"):
+            relievo.set_threads("x")
+
+    def test_name_the_program_that_batch_needs(self):
+        with self.assertRaisesRegex(ValueError, "relievoo: expected the program relievo, which Python's package"):
+            relievo.batch.run(".", "out", program="relievoo")
+
+    def test_hint_at_the_transposed_array(self):
+        error = self.refused("input", relievo.make, np.array(scan().points).T)
+        self.assertRegex(error.expected, r"^expected \(N, 3\), found \(3, \d+\); the transposed array, \.T,")
 
     def test_are_type_errors_for_wrong_types(self):
         for wrong in [5, None, object(), lambda: 0]:
@@ -65,7 +85,8 @@ class Refusals(InFolder):
             ("dtype", "points", points.astype(object), {}),
             ("dtype", "points", points.astype("U9"), {}),
             ("dtype", "points", points > 0, {}),
-            ("row 7", "points", with_nan, {}),
+            ("row 0", "points", points * np.nan, {}),
+            ("row 7", "points", with_nan, {"faces": [[0, 1, 2]]}),
             ("shape", "normals", points, {"normals": normals[:-1]}),
             ("row 9", "normals", points, {"normals": with_zero}),
             ("shape", "colours", points, {"colours": np.zeros((len(points), 2), "u1")}),

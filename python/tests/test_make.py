@@ -1,8 +1,10 @@
 """Reliefs of all kinds of inputs have the bytes that the command line writes."""
 
+import copy
 import inspect
 import json
 import os
+import pickle
 import re
 import subprocess
 import unittest
@@ -176,6 +178,42 @@ class Results(InFolder):
         self.assertTrue(np.array_equal(vertices, before[0]) and np.array_equal(faces, before[1]))
         with self.assertRaises(ValueError):
             vertices[0] = 0
+
+    def test_are_pickled_and_copied_whole(self):
+        for options in [{"colours": scan().points * 0 + 0.5}, {"wrap": "cylinder:diameter=80"}, {"form": "lithophane"},
+                        {"tool": "ball:diameter=2", "draft_deg": 15}]:
+            relief = make(scan().points, normals=scan().normals, height_mm=2, **options)
+            for other in [pickle.loads(pickle.dumps(relief)), copy.deepcopy(relief), copy.copy(relief)]:
+                for format in ["stl", "3mf", "ply", "obj", "heightmap", "tiff", "preview"]:
+                    self.assertEqual(other.to_bytes(format, heightmap_size=64), relief.to_bytes(format, heightmap_size=64))
+                self.assertEqual((other.report, other.remarks, repr(other)), (relief.report, relief.remarks, repr(relief)))
+                for number, each in enumerate([relief, other]):
+                    picture = {"tool_picture": f"{number}.png"} if "tool" in options else {}
+                    each.save(f"{number}.stl", report=f"{number}.json", units="in", **picture)
+                for ending in ["stl", "json"] + ["png"] * len(picture):
+                    self.assertEqual(Path(f"0.{ending}").read_bytes(), Path(f"1.{ending}").read_bytes())
+
+    def test_of_pickles_that_are_cut_are_refused(self):
+        state = list(self.relief._native.__getstate__())
+        for wrong in [state[:-1], [state[0][:4], *state[1:]], [(b"1", *state[0][1:]), *state[1:]], [(b"", *state[0][1:]), *state[1:]],
+                      [*state[:6], b"{", *state[7:]]]:
+            with self.assertRaises(ValueError):
+                type(self.relief._native).__new__(type(self.relief._native)).__setstate__(tuple(wrong))
+
+    def test_leave_out_rows_that_are_not_finite(self):
+        points, normals = scan().points, np.array(scan().normals)
+        wanted = make(points, normals=normals, height_mm=3)
+        self.assertFalse([line for line in wanted.remarks if "not finite" in line])
+        more = np.vstack([[[np.nan] * 3], points, [[np.inf, 1, 2]]])
+        relief = make(more, normals=np.vstack([[[np.nan] * 3], normals, [[0, 0, 1]]]), height_mm=3)
+        self.assertEqual(relief.to_bytes("stl"), wanted.to_bytes("stl"))
+        self.assertIn("points: left out 2 rows that are not finite", relief.remarks)
+
+    def test_say_what_they_are(self):
+        session = relievo.Session(scan())
+        self.assertRegex(repr(session), r"^<relievo\.Session \d+ points, \d+ triangles>$")
+        self.assertRegex(repr(session.frame(height_mm=3)), r"^<relievo\.Frame 3 mm, \d+ points>$")
+        self.assertEqual(repr(scan()), f"<relievo.Cloud {len(scan())} points with normals>")
 
     def test_are_pictures(self):
         picture = self.relief.preview(200, material="bronze")

@@ -1,4 +1,4 @@
-"""The README is right about Python: building the wheel, installing it, and using it in an empty folder."""
+"""docs/python.md is right: building the wheel, installing it, and using it in an empty folder."""
 
 import os
 import re
@@ -14,9 +14,9 @@ from support import SOURCE
 
 
 def section():
-    """Returns the README's section on Python."""
-    text = (SOURCE / "README.md").read_text(encoding="utf-8")
-    return re.search(r"^## In Python\n(.*?)^## ", text, re.DOTALL | re.MULTILINE)[1]
+    """Returns the page's section on installing."""
+    text = (SOURCE / "docs" / "python.md").read_text(encoding="utf-8")
+    return re.search(r"^## Installing\n(.*?)^## ", text, re.DOTALL | re.MULTILINE)[1]
 
 
 MISSING = [name for name in ("pip", "setuptools", "wheel", "ensurepip") if not find_spec(name)]
@@ -25,14 +25,15 @@ MISSING = [name for name in ("pip", "setuptools", "wheel", "ensurepip") if not f
 @unittest.skipIf("LD_PRELOAD" in os.environ, "a sanitizer has nothing to gain")
 @unittest.skipIf(MISSING, f"SKIPPED: without {', '.join(MISSING)} no wheel is made (scripts/prepare --python)")
 class Package(unittest.TestCase):
-    def test_installs_and_runs_as_the_readme_says(self):
+    def test_installs_and_runs_as_the_page_says(self):
         commands = re.findall(r"^    (.*)$", section(), re.MULTILINE)
         code = re.search(r"```python\n(.*?)```", section(), re.DOTALL)[1]
         with tempfile.TemporaryDirectory() as name:
             project, empty = Path(name) / "project", Path(name) / "empty"
             empty.mkdir()
             shutil.copytree(SOURCE / "python", project / "python", ignore=shutil.ignore_patterns("build", "*.egg-info"))
-            (project / "include").symlink_to(SOURCE / "include")
+            for name in ("include", "LICENSE", "packaging"):
+                (project / name).symlink_to(SOURCE / name)
             environment = {
                 "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin",
                 "HOME": name,

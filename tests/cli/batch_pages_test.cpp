@@ -1,4 +1,5 @@
 // Tests the contact sheet, and the parts of the index page.
+#include "batch/caption.h"
 #include "batch/contact_sheet.h"
 #include "batch/index_page.h"
 #include "relievo/core/text.h"
@@ -42,12 +43,41 @@ TEST(ContactSheet, ReadsThePngThatWeWrite) {
 }
 
 TEST(ContactSheet, HasAPlaceForEachTile) {
-  const std::vector<Image8> tiles(7, filled_image<std::uint8_t>(20, 20, std::uint8_t{77}, 3));
+  const std::vector<Tile> tiles(7, {filled_image<std::uint8_t>(20, 20, std::uint8_t{77}, 3), ""});
   const Image8 sheet = contact_sheet(tiles, 20);  // 3 x 3 places
-  EXPECT_EQ(sheet.width, sheet.height);
+  EXPECT_EQ(sheet.width, 3 * 30 + 10);
+  EXPECT_EQ(sheet.height, sheet.width + 3 * caption_height_px);
   std::size_t dark = 0;
   for (const std::uint8_t value : sheet.pixels) dark += value == 77;
   EXPECT_EQ(dark, 7U * 20 * 20 * 3);
+}
+
+// Returns the number of pixels in that colour, and fails if one lies outside of the columns and rows.
+int count_within(const Image8& image, int left, int right, int top, int bottom) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (image.at(x, y) == 9) {
+        ++count;
+        EXPECT_TRUE(x >= left && x < right && y >= top && y < bottom) << x << ' ' << y;
+      }
+  return count;
+}
+
+TEST(Caption, StaysWithinItsPlace) {
+  const auto written = [](std::string_view text) {
+    Image8 image = filled_image<std::uint8_t>(100, 30, std::uint8_t{200}, 3);
+    write_caption(image, {10, 8, 80}, text, {9, 9, 9});
+    return image;
+  };
+  EXPECT_EQ(count_within(written(""), 0, 0, 0, 0), 0);
+  // An l is an upright of seven pixels with a foot of two and a serif of one.
+  EXPECT_EQ(count_within(written("l"), 47, 53, 8, 15), 7 + 3);
+  const int three = count_within(written("lll"), 41, 59, 8, 15);
+  EXPECT_EQ(three, 3 * 10);
+  EXPECT_GT(count_within(written(std::string(500, 'W')), 10, 90, 8, 16), 100);
+  EXPECT_EQ(written("\xC3").pixels, written("?").pixels);
+  EXPECT_NE(written("scan-1").pixels, written("scan-2").pixels);
 }
 
 TEST(Html, EscapesWhatIsNoText) {
@@ -62,12 +92,12 @@ TEST(IndexPage, NamesWhatFailedAndLinksWhatIsMade) {
   Records records;
   records["a & b"] = {"a & b", "/s/a.ply", true};
   records["a & b"].outputs["a & b.stl"] = 2500000;
-  records["bad"] = {"bad", "/s/bad.ply", false, "bad.ply, line 3: expected 3 numbers, found '<x>'"};
+  records["bad"] = {"bad", "/s/bad.ply", false, "/s/bad.ply, line 3: expected 3 numbers, found '<x>'"};
   const Workshop workshop{"/out", *parse_output_kinds("stl"), {}};
   const std::string page = index_page(jobs, records, workshop, {"contact-sheet.png"});
   for (const char* part :
        {"1 relief is made, 1 failed, 1 is not done yet", "<b>a &amp; b</b>", "href=\"a%20%26%20b.stl\"",
-        "2.5 MB", "height 4", "found '&lt;x&gt;'", "contact-sheet.png"})
+        "2.5 MB", "height 4", "<td>bad.ply, line 3: expected", "found '&lt;x&gt;'", "contact-sheet.png"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 

@@ -1,5 +1,8 @@
 // Tests inputs on a disk: buffers beside a glTF, meshes that are read in parts, and names with control
 // characters.
+#include "common/read_inputs.h"
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 
@@ -74,6 +77,27 @@ TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_NE(made.err.find("faces.ply: left out the 1 faces of the mesh"), std::string::npos) << made.err;
   EXPECT_EQ(run("make torus.ply -o t.stl --stream-above 0.1").err.find("faces"), std::string::npos);
+}
+
+// In WebAssembly clouds of more points than fit into memory are read piece by piece. Meshes are not, as only the
+// points that are seen of their triangles are kept.
+TEST_F(CliInputs, ReadsCloudsOfTooManyPointsPieceByPiece) {
+  const std::string torus = (folder_ / "torus.ply").string();
+  const auto remarks = [&](const std::string& path, double most_points) {
+    app::InputArguments arguments;
+    arguments.most_points = most_points;
+    const auto scene = app::read_scene({path}, arguments, {View{}, 2000}, nullptr);
+    return scene ? app::joined(app::remarks_of(*scene)) : scene.error().message();
+  };
+  const double points = static_cast<double>(read_cloud(bytes_of(read_all(torus)), torus)->cloud.size());
+  EXPECT_NE(remarks(torus, points - 1).find(cat("points for the ", points, " of the file")),
+            std::string::npos);
+  EXPECT_EQ(remarks(torus, points), "");
+  std::string text = read_all(torus);
+  const std::string end = "end_header\n";
+  text.insert(text.find(end), "element face 1\nproperty list uchar int vertex_indices\n");
+  write_all(folder_ / "mesh.ply", text + "\3" + raw(0) + raw(1) + raw(2));
+  EXPECT_EQ(remarks((folder_ / "mesh.ply").string(), 10).find("points for the"), std::string::npos);
 }
 
 TEST_F(CliInputs, HintsAtAnotherViewWhereOneFaceIsSeen) {

@@ -1,6 +1,7 @@
 #include "web/calls.h"
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "common/prepared_model.h"
 #include "common/relief_files.h"
 #include "common/stage_names.h"
+#include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
@@ -83,6 +85,8 @@ Result<MakeOrder> order_from(const Json& json) {
   order.in.camera = text(json, "camera");
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");
+  if (json.contains("stream_above_mb"))
+    order.in.most_points = std::numeric_limits<double>::infinity();  // the caller knows how much fits
   order.in.stream_above_mb = number(json, "stream_above_mb", order.in.stream_above_mb);
   if (const auto inputs = json.find("inputs"); inputs != json.end() && inputs->is_array())
     for (const Json& path : *inputs)
@@ -242,6 +246,15 @@ Result<CallAnswer> picture(const Json& json) {
       bytes_of_all(made.image.pixels)};
 }
 
+// Returns the name that a user may have meant: {"name", "names"}.
+Result<CallAnswer> nearest(const Json& json) {
+  std::vector<std::string> names;
+  if (const auto known = json.find("names"); known != json.end() && known->is_array())
+    for (const Json& name : *known)
+      if (name.is_string()) names.push_back(name.get<std::string>());
+  return CallAnswer{{{"name", nearest_name(text(json, "name"), names)}}};
+}
+
 Result<CallAnswer> release(const Json& json) {
   kept().erase(integer(json, "number", 0));
   return CallAnswer{};
@@ -262,6 +275,7 @@ constexpr std::pair<std::string_view, Function> functions[] = {{"about", about},
                                                                {"surface_points", surface_points},
                                                                {"surface_triangles", surface_triangles},
                                                                {"picture", picture},
+                                                               {"nearest", nearest},
                                                                {"release", release}};
 
 }  // namespace

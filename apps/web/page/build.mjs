@@ -1,5 +1,6 @@
 // Puts the studio's page into one file: build.mjs MODULE FOLDER writes relievo.html. Beside it, writes the files with
 // which a browser can install the page from a server.
+import {execFileSync} from "node:child_process";
 import crypto from "node:crypto";
 import fs from "node:fs";
 import {createRequire} from "node:module";
@@ -38,6 +39,8 @@ const dataAddress = (name) => {
 const pictures = Object.fromEntries(fs.readdirSync(page).filter((name) => /\.(jpg|svg)$/.test(name))
   .map((name) => [name, dataAddress(name)]));
 
+const licences = execFileSync(path.join(here, "../../../scripts/licence-texts"), ["web"], {encoding: "utf8"});
+
 const hashOf = (text) => `'sha256-${crypto.createHash("sha256").update(text).digest("base64")}'`;
 const script = (await bundlePage()).trim(), style = bundle({entryPoints: [path.join(page, "style.css")]}).trim();
 const worker = bundle({entryPoints: [path.join(here, "worker.js")]}, {format: "iife"}).trim();
@@ -56,7 +59,8 @@ const html = read("index.html")
     `<script id="pictures" type="application/json">${JSON.stringify(pictures)}</script>`,
     `<script id="worker" type="text/plain">${worker}</script>`,
     `<script id="engine" type="text/plain">${packed}</script>`,
-    `<script type="module">${script}</script>`, "</body>"].join("\n"));
+    `<script type="module">${script}</script>`,
+    `<script id="licences" type="text/plain">\n${licences}</script>`, "</body>"].join("\n"));
 
 const manifest = {name: "Relievo", short_name: "Relievo", description: "From scan to bas-relief", start_url: "relievo.html",
   display: "standalone", background_color: "#f4f2ee", theme_color: "#f4f2ee",

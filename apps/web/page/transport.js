@@ -13,9 +13,10 @@ const closed = () => new EngineError({kind: "closed", text: "expected a document
 const LIMITS = [
   "This page has the engine inside: it needs no program and no network, and nothing leaves this machine.",
   "It computes with one processor, and takes several times as long as the program relievo with all of them.",
-  "It has at most 4 GiB of memory, which is enough for about 10 million points; the program has what the machine has.",
+  "It has at most 4 GiB of memory. Of binary PLY, PCD and LAS with more than 3 million points it takes those that the view shows, piece by piece, within a minute or two.",
   "Depth images in TIFF are read plain or packed by LZW, Deflate or PackBits, not by JPEG, WebP, Zstandard, LERC or LZMA.",
   "Scans and work stay in this browser, for the 24 documents used last; save a project to keep or to move one.",
+  "The licences of the software inside stand at the end of this file.",
 ];
 
 export class Transport {
