@@ -231,8 +231,8 @@ FrameOptions options_of(const Shape& shape) {
   return options;
 }
 
-const Strokes beside_the_top{dab(Brush::sharpen, {.3, -.9, .3}, .2),
-                             dab(Brush::sink, {-.5, .4, -.8}, .2, .2)};
+const Strokes beside_the_top{dab(Brush::sharpen, {-.2, .2, -1.117}, .2),
+                             dab(Brush::sink, {-.5, .4, -.997}, .2, .2)};
 
 TEST(StrokesOfReliefs, MoveNothingElseAndKeepTheHeight) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
