@@ -14,8 +14,8 @@ const isReadable = (source) => typeof source?.read === "function";
 // Returns a name for a file from its first bytes, as readers recognise some formats only by the name.
 function guessName(bytes) {
   const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(8, bytes.byteLength)));
-  const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"], ["\xFF\xD8\xFF", "scan.jpg"], ["\x93NUMPY", "scan.npy"],
-    ["II*\0", "scan.tif"], ["MM\0*", "scan.tif"], ["ASTM-E57", "scan.e57"], ["OFF", "scan.off"], ["PK\x03\x04", "scan.zip"],
+  const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"],
+    ["\xFF\xD8\xFF", "scan.jpg"], ["\x93NUMPY", "scan.npy"], ["II*\0", "scan.tif"], ["MM\0*", "scan.tif"], ["ASTM-E57", "scan.e57"], ["OFF", "scan.off"], ["PK\x03\x04", "scan.zip"],
     ["# .PCD", "scan.pcd"], ["VERSION", "scan.pcd"]];
   return known.find(([mark]) => head.startsWith(mark))?.[1] ?? "scan.stl";
 }
