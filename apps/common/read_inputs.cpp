@@ -41,7 +41,7 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
     line += cat(", ", made.background,
                 " points of background taken out, behind a depth jump (--background keep keeps them)");
   if (made.blur > 0)
-    line += cat(", ", made.blur, " blurred between two depths taken out (--blur keep keeps them)");
+    line += cat(", ", made.blur, " on blurred or ragged outlines taken out (--blur keep keeps them)");
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 

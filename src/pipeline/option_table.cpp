@@ -294,7 +294,8 @@ std::vector<OptionRow> input_rows() {
        .initial = "auto", .access = word<&DepthOptions::background, removal_choices>},
       {.name = "blur", .unit = "B", .stage = input, .choices = names_of(removal_choices),
        .help = "of a depth image: points between two levels that continue neither; auto drops them over at most 3 "
-               "pixels, but keeps them in heights; drop over at most 12, as auto does for depth cameras",
+               "pixels, but keeps them in heights; drop over at most 12, as auto does for depth cameras, whose thin "
+               "teeth of outlines go, too",
        .initial = "auto", .access = word<&DepthOptions::blur, removal_choices>},
   };
 }

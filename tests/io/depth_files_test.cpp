@@ -111,7 +111,7 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
     EXPECT_TRUE(message.contains("expected the data of a PNG picture, found ")) << message;
   }
   EXPECT_EQ(message_of("GIF89a"),
-            "d: expected a picture of depths (PNG, TIFF, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
+            "d: expected a picture of depths (PNG, TIFF, JPEG, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
             "heights), found "
             "a GIF picture; save it as PNG");
   EXPECT_EQ(message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),

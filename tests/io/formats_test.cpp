@@ -16,8 +16,8 @@ TEST(Formats, AreListedForHelp) {
   const std::string list = readable_formats();
   EXPECT_TRUE(list.starts_with("point cloud (PLY, PCD, ")) << list;
   EXPECT_TRUE(list.contains("XYZ, PTS), mesh (PLY, glTF, ")) << list;
-  EXPECT_TRUE(
-      list.ends_with(") or depth image (PNG, TIFF, NPY, PFM, PGM, PPM, BMP, Esri grid, table of heights)"))
+  EXPECT_TRUE(list.ends_with(
+      ") or depth image (PNG, TIFF, JPEG, NPY, PFM, PGM, PPM, BMP, Esri grid, table of heights)"))
       << list;
 }
 

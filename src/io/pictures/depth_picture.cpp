@@ -37,15 +37,6 @@ Result<void> check_room(const Source& source, const StoredPixels& stored) {
                                                  "; the file is cut, get it anew"));
 }
 
-std::optional<float> pixel_value(const PixelColour& colour, std::size_t channels,
-                                 const PictureChannels& wanted) {
-  if (wanted.channel > 0) return colour[static_cast<std::size_t>(wanted.channel) - 1];
-  const bool is_grey = channels == 1 || (colour[0] == colour[1] && colour[1] == colour[2]);
-  if (is_grey) return colour[0];
-  if (!wanted.is_luminance_wanted) return std::nullopt;
-  return luminance_shares[0] * colour[0] + luminance_shares[1] * colour[1] + luminance_shares[2] * colour[2];
-}
-
 Result<void> check_channel(const Source& source, const PictureChannels& wanted, std::size_t channels) {
   if (wanted.channel <= static_cast<int>(channels)) return {};
   return source.error({}, cat("expected a channel from 1 to ", channels, ", found ", wanted.channel));

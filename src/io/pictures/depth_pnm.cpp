@@ -66,10 +66,11 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
   return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels, true, false, is_text};
 }
 
-// Returns a function from the number of a pixel to its colour.
-auto binary_colours(const char* data, const PnmHeader& header, const PnmValues& stored) {
-  return [=](std::size_t i) {
-    const unsigned bytes = stored.format.bits / 8;
+Result<void> fill_from_bytes(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
+                             const PnmValues& stored, Image<float>& values) {
+  const char* const data = source.bytes.data() + header.data;
+  const unsigned bytes = stored.format.bits / 8;
+  return fill_values(source, wanted, stored.channels, values, [&](std::size_t i) {
     const std::size_t row = i / header.width, from = stored.is_upside_down ? header.height - 1 - row : row,
                       first = (from * header.width + i % header.width) * stored.channels;
     PixelColour colour{};
@@ -77,7 +78,7 @@ auto binary_colours(const char* data, const PnmHeader& header, const PnmValues& 
       colour[c] =
           decode_sample(stored.format, whole_number(data + bytes * (first + c), bytes, stored.is_big_endian));
     return colour;
-  };
+  });
 }
 
 // Returns the numbers of a picture in text, which may have comments and line breaks anywhere.
@@ -146,10 +147,8 @@ Result<DepthImage> read_depth_pnm(const Source& source, const PictureChannels& w
   DepthImage image{
       {}, is_fraction ? 0. : 1., cat(is_fraction ? "PFM, " : "PNM, ", stored->format.bits, " bits")};
   image.values.resize(static_cast<int>(header.width), static_cast<int>(header.height));
-  const char* const data = source.bytes.data() + header.data;
   RELIEVO_CHECK(stored->is_text ? fill_from_text(source, header, wanted, stored->channels, image.values)
-                                : fill_values(source, wanted, stored->channels, image.values,
-                                              binary_colours(data, header, *stored)));
+                                : fill_from_bytes(source, header, wanted, *stored, image.values));
   return image;
 }
 

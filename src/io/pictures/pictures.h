@@ -60,8 +60,14 @@ using PixelColour = std::array<float, 3>;
 
 // Returns the value of a pixel of `channels` channels; nothing if they differ, as in a photograph or in depths
 // that are shown in colours, and neither one channel nor luminance is wanted.
-std::optional<float> pixel_value(const PixelColour& colour, std::size_t channels,
-                                 const PictureChannels& wanted);
+inline std::optional<float> pixel_value(const PixelColour& colour, std::size_t channels,
+                                        const PictureChannels& wanted) {
+  if (wanted.channel > 0) return colour[static_cast<std::size_t>(wanted.channel) - 1];
+  const bool is_grey = channels == 1 || (colour[0] == colour[1] && colour[1] == colour[2]);
+  if (is_grey) return colour[0];
+  if (!wanted.is_luminance_wanted) return std::nullopt;
+  return luminance_shares[0] * colour[0] + luminance_shares[1] * colour[1] + luminance_shares[2] * colour[2];
+}
 
 // Returns an error if the wanted channel does not exist.
 Result<void> check_channel(const Source& source, const PictureChannels& wanted, std::size_t channels);

@@ -105,6 +105,7 @@ DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCl
   note(is_left_out, PixelUse::blur, out.uses);
   for (std::size_t i = 0; i < is_left_out.size(); ++i)
     if (is_left_out[i]) grid.bounds.is_known[i] = 0;
+  if (limits && grid.is_sensor) out.blur += drop_teeth(grid.bounds);
   return grid;
 }
 

@@ -110,6 +110,11 @@ struct BlurLimits {
   float least_share = 0;  // least distance between the two levels, as a share of all depths
 };
 
+// Makes unknown what is thinner than 3 grid points, such as the teeth of a depth camera's outlines: a known point
+// stays if a square of 3 x 3 known points contains it, of which those beyond the grid count as known. Returns the
+// number of points that became unknown.
+std::size_t drop_teeth(BoundedGrid& grid);
+
 // Adds to the mask the grid points between two levels which continue neither, as blurred outlines have, in
 // rows and columns. Returns the number of points that were added.
 std::size_t add_blur(const DepthGrid& grid, const BlurLimits& limits, GridMask& is_left_out);
