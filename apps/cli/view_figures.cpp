@@ -33,7 +33,7 @@ View turned(const View& view, int steps) {
 }
 
 void make_frame(const ReliefModel& model, double spacing_ratio) {
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   options.shape.boundary_width *= spacing_ratio;
   Frame frame;
   FrameMaker(model).make(options, frame);

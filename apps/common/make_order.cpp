@@ -99,6 +99,7 @@ void FinishedRelief::end(Progress& progress) {
 
 std::vector<std::string> FinishedRelief::remarks() const {
   std::vector<std::string> lines = inputs.remarks;
+  if (!kept_report.is_null()) return lines;  // all remarks were stored
   for (std::string& line : remarks_on(made.report)) lines.push_back(std::move(line));
   return lines;
 }

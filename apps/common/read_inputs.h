@@ -20,12 +20,13 @@ constexpr double most_points_at_once = sizeof(void*) == 4 ? 3e6 : std::numeric_l
 
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;                        // camera of a depth image: numbers, or a file with them
-  double stream_above_mb = 512;              // larger files are read in blocks where that is possible
-  double most_points = most_points_at_once;  // clouds of more points, without triangles, are so, too
-  bool are_pipes_fine = false;               // whether inputs may be pipes, as on a command line
-  bool keeps_doubtful = false;               // as in ReadOptions
-  bool is_lithophane = false;  // whether the brightness of a picture becomes thickness, not height
+  std::string camera;            // camera of a depth image: numbers, or a file with them
+  double stream_above_mb = 512;  // larger files are read in blocks where that is possible
+  bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
+  bool keeps_doubtful = false;   // as in ReadOptions
+  bool is_lithophane = false;    // whether the brightness of a picture becomes thickness, not height
+  // Clouds of more points, without triangles, are read in blocks, too.
+  double most_points = most_points_at_once;
 
   bool operator==(const InputArguments&) const = default;
 };

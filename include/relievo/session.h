@@ -29,7 +29,9 @@ struct Preparation {
   using Points = Result<std::shared_ptr<const Cloud>>;
   using Model = std::shared_ptr<const ReliefModel>;
 
-  std::function<Points(Progress&)> points;  // returns the cloud; may read files and may take long
+  // Returns the cloud; may read files and may take long. The cloud of a mesh that read_cloud() has read is its
+  // vertices alone: sample_for_view() in scene.h takes points of its triangles.
+  std::function<Points(Progress&)> points;
   View view = {};
   ModelOptions model = {Mode::automatic};
 

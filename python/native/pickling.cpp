@@ -72,22 +72,23 @@ Image<float> image_in(const py::tuple& state) {
   return image;
 }
 
-// The numbers of ToolReach are in the report, and its pictures make the tool's picture.
 py::object state_of(const std::optional<ToolReach>& reach) {
   if (!reach) return py::none();
   return py::make_tuple(state_of(reach->heights_mm), state_of(reach->residual_mm), reach->tolerance_mm,
-                        reach->mm_per_sample);
+                        reach->mm_per_sample, reach->reached_share, reach->largest_residual_mm);
 }
 
 std::optional<ToolReach> reach_in(const py::object& state) {
   if (state.is_none()) return std::nullopt;
   const auto parts = state.cast<py::tuple>();
-  check(parts.size() == 4);
+  check(parts.size() == 6);
   ToolReach reach;
   reach.heights_mm = image_in(parts[0]);
   reach.residual_mm = image_in(parts[1]);
   reach.tolerance_mm = parts[2].cast<double>();
   reach.mm_per_sample = parts[3].cast<double>();
+  reach.reached_share = parts[4].cast<double>();
+  reach.largest_residual_mm = parts[5].cast<double>();
   return reach;
 }
 

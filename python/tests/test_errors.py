@@ -121,7 +121,9 @@ class Refusals(InFolder):
         packed["p"] = points  # not aligned
         for array in [strided, points[::-1][::-1], packed["p"], np.ma.array(points), points.tolist()]:
             self.assertEqual(relievo.make(array, height_mm=3, resolution_mm=0.5).to_bytes("stl"), wanted)
-        self.refused("input", relievo.make, np.ma.masked_less(points, 0))
+        masked = relievo.make(np.ma.masked_less(points, 0), height_mm=3, resolution_mm=0.5)
+        self.assertRegex("\n".join(masked.remarks), r"points: left out \d+ rows that are not finite")
+        self.refused("input", relievo.make, np.ma.masked_all(points.shape))
 
     def test_of_strange_paths(self):
         self.assertEqual(self.refused("input", relievo.make, b"no\xffsuch".decode("utf-8", "surrogateescape")).kind, "input")

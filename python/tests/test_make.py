@@ -181,7 +181,7 @@ class Results(InFolder):
 
     def test_are_pickled_and_copied_whole(self):
         for options in [{"colours": scan().points * 0 + 0.5}, {"wrap": "cylinder:diameter=80"}, {"form": "lithophane"},
-                        {"tool": "ball:diameter=2", "draft_deg": 15}]:
+                        {"tool": "ball:2", "draft_deg": 15}]:
             relief = make(scan().points, normals=scan().normals, height_mm=2, **options)
             for other in [pickle.loads(pickle.dumps(relief)), copy.deepcopy(relief), copy.copy(relief)]:
                 for format in ["stl", "3mf", "ply", "obj", "heightmap", "tiff", "preview"]:

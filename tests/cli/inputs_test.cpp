@@ -1,5 +1,6 @@
 // Tests inputs on a disk: buffers beside a glTF, meshes that are read in parts, and names with control
 // characters.
+#include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
@@ -89,7 +90,7 @@ TEST_F(CliInputs, ReadsCloudsOfTooManyPointsPieceByPiece) {
     const auto scene = app::read_scene({path}, arguments, {View{}, 2000}, nullptr);
     return scene ? app::joined(app::remarks_of(*scene)) : scene.error().message();
   };
-  const double points = static_cast<double>(read_cloud(bytes_of(read_all(torus)), torus)->cloud.size());
+  const double points = static_cast<double>(read_cloud(app::bytes_of(read_all(torus)), torus)->cloud.size());
   EXPECT_NE(remarks(torus, points - 1).find(cat("points for the ", points, " of the file")),
             std::string::npos);
   EXPECT_EQ(remarks(torus, points), "");

@@ -59,7 +59,7 @@ TEST_P(FrameOfModel, KeepsALockedHeight) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);
   Frame frame;
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   int met = 0;
   for (const double share : {.2, .1, .05, .025, .0125})
     for (const double beta : {0.0, .01, 1.0}) {

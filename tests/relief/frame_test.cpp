@@ -71,7 +71,7 @@ TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
 TEST(Frame, AreCompressedAsTheirShapeSays) {
   FrameMaker maker(model());
   Frame frame;
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   options.shape = layered_shape();
   for (const std::optional<double>& share : {std::optional<double>(), {.6}, {.9}, {}}) {
     options.shape.height_share = share;
@@ -85,7 +85,7 @@ TEST(Frame, AreCompressedAsTheirShapeSays) {
 void expect_locked_heights(const ReliefModel& m, Style style, std::span<const double> shares) {
   FrameMaker maker(m);
   Frame frame;
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   for (const double share : shares) {
     options.height = share * m.surface().diagonal;
     for (const double beta : style == Style::layered ? std::vector{0.} : std::vector{0., .01, .5, 5., .2})
@@ -108,7 +108,7 @@ TEST(Frame, KeepsALockedHeightWhileOthersMove) {
 TEST(Frame, FollowsASliderInTwoSolves) {
   FrameMaker maker(model());
   Frame frame;
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   options.height = .025 * model().surface().diagonal;
   maker.make(options, frame);
   maker.make(options, frame);
@@ -125,7 +125,7 @@ TEST(Frame, FollowsASliderInTwoSolves) {
 TEST(Frame, FollowsASliderInOneSolveWhereHeightsMayDiffer) {
   FrameMaker maker(model());
   Frame frame;
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   options.height = .025 * model().surface().diagonal;
   options.height_tolerance = .03;
   int solves = 0;
@@ -142,7 +142,7 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
   const ReliefModel smooth = test::prepared(test::sphere(30000, 1));  // without depth jumps
   FrameMaker maker(smooth);
   Frame frame;
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   options.height = 10 * smooth.surface().diagonal;
   maker.make(options, frame);
   EXPECT_FALSE(frame.is_height_met);
@@ -155,7 +155,7 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
 
 // A wider boundary makes the rim less steep. The inside becomes lower with the rim, but keeps its slopes.
 TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   const Frame narrow = frame_of(options);
   options.shape.boundary_width = 8;
   const Frame wide = frame_of(options);
@@ -173,7 +173,7 @@ TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
 }
 
 TEST(Frame, KnowsItsLowestAndHighestPoints) {
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   const auto expect_both = [&] {
     const Frame frame = frame_of(options);
     const auto [lowest, highest] = std::ranges::minmax(frame.heights);
@@ -190,7 +190,7 @@ TEST(Frame, KnowsItsLowestAndHighestPoints) {
 }
 
 TEST(Frame, ABaseIsAddedToTheHeights) {
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   const Frame plane = frame_of(options);
   auto base = std::make_shared<std::vector<float>>(plane.heights.size());
   for (std::size_t i = 0; i < base->size(); ++i)
@@ -202,7 +202,7 @@ TEST(Frame, ABaseIsAddedToTheHeights) {
 }
 
 TEST(Frame, OfASubspaceIsItsRelief) {
-  FrameOptions options;
+  FrameOptions options{Shape{}};
   options.shape = {{.7, .5}, .04};
   options.shape.boundary_width = 3;
   FrameMaker maker(subspace_model());

@@ -1,6 +1,11 @@
 // Errors as values: the library throws nothing and prints nothing.
 #pragma once
 
+#include <version>
+#ifndef __cpp_lib_expected
+#error "Relievo's headers need C++23 with std::expected: g++ 12, or clang++ 19 with libstdc++, and -std=c++23"
+#endif
+
 #include <expected>
 #include <string>
 #include <string_view>

@@ -12,11 +12,14 @@
 
 namespace relievo {
 
-// The options that can change from frame to frame. No change requires a new factorisation.
+// The options that can change from frame to frame. No change requires a new factorisation. The shape is that of
+// make_relief() without options; shape_of() in make_relief.h returns that of other ReliefOptions.
 struct FrameOptions {
-  Shape shape;
-  std::optional<double> height;                    // a locked height: u is searched until the relief has it
-  std::shared_ptr<const std::vector<float>> base;  // heights of the base, one per point; null is a plane
+  Shape shape = layered_shape();
+  // A locked height, in units of the cloud: u is searched until the relief has it. mm_per_unit() in
+  // make_relief.h converts it.
+  std::optional<double> height = {};
+  std::shared_ptr<const std::vector<float>> base = {};  // heights of the base, one per point; null is a plane
   double height_tolerance = 5e-4;  // relative to the locked height; a larger tolerance may save a solve
 
   bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
