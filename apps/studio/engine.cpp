@@ -48,17 +48,6 @@ OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best
   return values;
 }
 
-// Returns how depth images are read for these values. Values that cannot be read are refused elsewhere.
-InputArguments reading_of(const OptionValues& values) {
-  const ReliefOptions options = parse_options(values).value_or(ReliefOptions{});
-  InputArguments how;
-  how.depth = parse_depth(values).value_or(how.depth);
-  how.keeps_doubtful = parse_doubtful(values).value_or(how.keeps_doubtful);
-  how.depth.points = options.points.value_or(how.depth.points);
-  how.is_lithophane = options.form == Form::lithophane;
-  return how;
-}
-
 struct Shared {
   ScanSource wanted;  // requested last, with its view
   OptionValues view;

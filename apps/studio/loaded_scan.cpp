@@ -113,6 +113,16 @@ Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, std
   return sample.cloud;
 }
 
+InputArguments reading_of(const OptionValues& values) {
+  const ReliefOptions options = parse_options(values).value_or(ReliefOptions{});
+  InputArguments how;
+  how.depth = parse_depth(values).value_or(how.depth);
+  how.keeps_doubtful = parse_doubtful(values).value_or(how.keeps_doubtful);
+  how.depth.points = options.points.value_or(how.depth.points);
+  how.is_lithophane = options.form == Form::lithophane;
+  return how;
+}
+
 Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted) {
   Result<LoadedScan> scan = within_memory([&]() -> Result<LoadedScan> {
     ScanOrder order = from;

@@ -63,6 +63,9 @@ class LoadedScan {
   std::size_t left_out_ = 0;
 };
 
+// Returns how depth images are read for these values. Values that cannot be read count as their defaults.
+InputArguments reading_of(const OptionValues& values);
+
 // Reads a scan. Errors: those of load_input(); kind memory, which names the scan; kind cancelled as soon as
 // `is_unwanted` returns true.
 Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted);

@@ -111,8 +111,9 @@ TEST(ParseDepth, ReadsAndChecksTheRowsOfDepthImages) {
   EXPECT_EQ(options->range, 2);
   EXPECT_EQ(options->channel, 3);
   EXPECT_EQ(options->background, Removal::keep);
+  EXPECT_EQ(parse_depth({{"depth-values", "auto"}})->values, DepthValues::automatic);
   EXPECT_EQ(depth_complaint({{"depth-values", "far"}}),
-            "depth-values: expected one of depth, height, inverse or luminance, found 'far'");
+            "depth-values: expected one of depth, height, inverse, luminance or auto, found 'far'");
   EXPECT_TRUE(depth_complaint({{"background", "cut"}}).starts_with("background: "));
   EXPECT_EQ(depth_complaint({{"depth-range", 11.}}),
             "depth-range: expected a number from 0.01 to 10, found 11");

@@ -138,6 +138,29 @@ TEST(DepthConventions, MissingValuesAreCountedAndTheirMarkerNamed) {
   for (std::size_t i = 0; i < far.cloud.size(); ++i) EXPECT_EQ(far.cloud.points[i], none.cloud.points[i]);
 }
 
+TEST(DepthConventions, EveryPixelHasItsUse) {
+  DepthImage image = picture(conventions().front(), 1, 0);
+  for (int r = 0; r < 20; ++r) image.values.at(0, r) = 0;
+  const auto made = value_of(depth_cloud(image, DepthOptions()));
+  ASSERT_EQ(made.uses.size(), image.values.size());
+  const auto number_of = [&](PixelUse use) {
+    return static_cast<std::size_t>(std::ranges::count(made.uses.pixels, use));
+  };
+  EXPECT_EQ(number_of(PixelUse::missing), 20U);
+  EXPECT_EQ(number_of(PixelUse::background), made.background);
+  EXPECT_GT(made.background, 10000U);
+  EXPECT_EQ(number_of(PixelUse::blur), made.blur);
+  ASSERT_EQ(number_of(PixelUse::kept), made.cloud.size());
+  std::size_t point = 0;
+  for (int r = 0; r < side; ++r)
+    for (int c = 0; c < side; ++c) {
+      if (made.uses.at(c, r) != PixelUse::kept) continue;
+      EXPECT_NE(bust(c, r), nothing) << c << ", " << r;
+      const Vec3& p = made.cloud.points[point++];
+      EXPECT_EQ(p.head<2>(), Vec2(c - (side - 1) / 2., (side - 1) / 2. - r));
+    }
+}
+
 TEST(DepthConventions, UnknownHeightsOfTerrainAreMissing) {
   for (const float marker : {-9999.F, -32768.F}) {
     const Convention heights{"heights", DepthValues::height, 0, [](double d) { return 5 - d; }, {}};

@@ -1,7 +1,7 @@
 // Keeps the document: the steps of the user's work, each with the options of the relief, for undo and redo. It is plain
 // data, so that it can be stored and saved.
 
-import {about, defaultOf, optionOf} from "./about.js";
+import {about, defaultOf, namesOf, optionOf} from "./about.js";
 
 // Returns the value of an option in a new document: the studio's own default, or else the engine's.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
@@ -162,13 +162,11 @@ export class Document {
   }
 }
 
-const SCALE = ["mm-per-value", "ground"];
-
 // A lithophane, which is printed, has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
 // The options of the shape of heights, which one vertical scale does not have.
-const SHAPE = ["height", "height-of-diagonal", "saturation", "detail", "boundary", "steepest", "steps", "planes", "tone"];
+const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/.test(name));
 
 // Returns whether one vertical scale gives the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
@@ -190,7 +188,7 @@ export function engineOptions(step) {
     for (const name of SHAPE) delete options[name];
     return {...options, method: "linear"};
   }
-  for (const name of SCALE) delete options[name];
+  delete options["mm-per-value"], delete options.ground; // kept for forms that have a scale
   if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for the other method
   return options;
 }

@@ -27,7 +27,7 @@ const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane dr
 
 // Returns whether a note is also shown beside the picture. This is so if something was removed from the picture, or if
 // something other than the figure fills it.
-const isOffered = ({option}) => ["crumbs", "plane", "background", "blur"].includes(option);
+const isOffered = ({option, short}) => Boolean(short) || ["crumbs", "plane"].includes(option);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
   make("input", {id: name, "data-option": name, type: "checkbox"}));

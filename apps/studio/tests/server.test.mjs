@@ -282,6 +282,14 @@ test("crops a scan as seen", async () => {
   await engine.prepare({view: "front"});
 });
 
+test("shows the pixels of a depth image, and no other scan", async () => {
+  const none = await engine.post("pixels");
+  assert.equal(none.status, 409);
+  assert.match(String(none.body), /expected a depth image to be open/);
+  assert.equal((await facts()).depth_image, null);
+  assert.equal((await engine.post("view", {view: "front", "depth-values": "deep"})).status, 422);
+});
+
 test("removes as much noise as is measured or asked for", async () => {
   const measured = (await facts()).noise;
   assert.equal((await engine.prepare({view: "front", denoise: "0.6"})).shown.denoise, "0.6");
