@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -55,6 +56,7 @@ struct Corner {
   double length;
   Vec2 place;
   double turn;
+  Vec2 before = {}, after = {};  // places on its sides
 };
 
 // The part of a course that a fit may use: up to the nearest corner on either side, or all of the course if
@@ -209,7 +211,8 @@ Side side_of(const Course& course, double at, double from, double to) {
 // Returns the corner between two sides of equal length, with turn 0 if there is none. At a corner the sides
 // turn by more than their curvature and the scatter of their samples explain.
 Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
-  constexpr double least_turn = std::numbers::pi / 4, sure = 3;  // `sure` is in standard deviations
+  constexpr double least_turn = std::numbers::pi / 4, most_turn = 110 * std::numbers::pi / 180;
+  constexpr double sure = 3;  // in standard deviations
   const double skip = .5 * options.spacing, roughest = .6 * options.spacing;
   const Side before = side_of(course, at, at - reach, at - skip),
              after = side_of(course, at, at + skip, at + reach);
@@ -218,9 +221,9 @@ Corner corner_between(const Course& course, double at, double reach, const FairC
   const double turn = std::abs(std::atan2(sine, before.direction.dot(after.direction)));
   const double error = std::hypot(before.turn_error, after.turn_error);
   const double smooth = (std::abs(before.curvature) + std::abs(after.curvature)) / 2 * (reach + skip);
-  if (turn < least_turn + smooth + sure * error || turn > 3) return {at, {}, 0};
+  if (turn < least_turn + smooth + sure * error || turn > most_turn) return {at, {}, 0};
   const double share = cross(after.point - before.point, after.direction) / sine;
-  return {at, before.point + share * before.direction, turn};
+  return {at, before.point + share * before.direction, turn, before.point, after.point};
 }
 
 // Returns the corner at a length, with turn 0 if there is none. Long sides are tried first, because they
@@ -233,19 +236,57 @@ Corner corner_at(const Course& course, double at, const FairCurveOptions& option
   return {at, {}, 0};
 }
 
+double distance_from(const Vec2& place, const Vec2& from, const Vec2& to) {
+  const Vec2 along = to - from;
+  const double share =
+      std::clamp((place - from).dot(along) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
+  return (place - from - share * along).norm();
+}
+
+double distance_from_line(const Vec2& place, std::span<const Vec2> line) {
+  double nearest = 1e300;
+  for (std::size_t k = 1; k < line.size(); ++k)
+    nearest = std::min(nearest, distance_from(place, line[k - 1], line[k]));
+  return nearest;
+}
+
+// Returns whether the samples near a corner lie as near to its sides as to the curve drawn without it, up to
+// their scatter. At the tip of a round shape they do not: its sides meet beyond the tip.
+bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> drawn, double window) {
+  constexpr double scatter = 12;  // ratio of squared distances; corners of noisy gears reach 10
+  const auto n = static_cast<std::ptrdiff_t>(drawn.size());
+  const double per_length = static_cast<double>(n) / course.length();
+  const auto middle = static_cast<std::ptrdiff_t>((c.length - course.begin()) * per_length),
+             reach = static_cast<std::ptrdiff_t>(2 * window * per_length);
+  std::vector<Vec2> curve;
+  for (std::ptrdiff_t k = middle - reach; k <= middle + reach; ++k)
+    if (course.is_closed() || (k >= 0 && k < n))
+      curve.push_back(drawn[static_cast<std::size_t>((k % n + n) % n)]);
+  const std::array sides{c.before, c.place, c.after};
+  double from_sides = 0, from_curve = 0;
+  course.between(c.length, c.length - window, c.length + window, [&](const Sample& s, double) {
+    const double side = distance_from_line(s.place, sides), off = distance_from_line(s.place, curve);
+    from_sides += s.weight * side * side;
+    from_curve += s.weight * off * off;
+  });
+  return from_sides < scatter * from_curve;
+}
+
 // Returns the corners in the order of their length. Of corners closer together than 1.5 windows only the
 // sharpest is returned. A corner's length is that of the nearest place on the drawn curve.
 std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
   std::vector<Corner> found, corners;
-  std::vector<std::pair<double, Vec2>> drawn_places;
+  std::vector<double> lengths;
+  std::vector<Vec2> drawn;
   for (std::size_t k = 0; k < steps; ++k) {
     const double at = course.begin() + course.length() * static_cast<double>(k) / static_cast<double>(steps);
-    drawn_places.emplace_back(at, fitted(course, at, {}, options.window));
+    lengths.push_back(at);
+    drawn.push_back(fitted(course, at, {}, options.window));
     const Corner corner = corner_at(course, at, options);
-    if (corner.turn > 0 && (corner.place - drawn_places.back().second).norm() < options.window)
-      found.push_back(corner);
+    if (corner.turn > 0 && (corner.place - drawn.back()).norm() < options.window) found.push_back(corner);
   }
+  std::erase_if(found, [&](const Corner& c) { return !is_confirmed(course, c, drawn, options.window); });
   const auto apart = [&](double a, double b) {
     const double d = std::abs(a - b);
     return course.is_closed() ? std::min(d, course.length() - d) : d;
@@ -253,9 +294,9 @@ std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& opt
   std::ranges::stable_sort(found, [](const Corner& a, const Corner& b) { return a.turn > b.turn; });
   for (Corner& c : found) {
     double nearest = 1e300, length = c.length;
-    for (const auto& [at, place] : drawn_places)
-      if (apart(at, c.length) < options.window && (place - c.place).norm() < nearest)
-        nearest = (place - c.place).norm(), length = at;
+    for (std::size_t k = 0; k < steps; ++k)
+      if (apart(lengths[k], c.length) < options.window && (drawn[k] - c.place).norm() < nearest)
+        nearest = (drawn[k] - c.place).norm(), length = lengths[k];
     c.length = length;
     if (std::ranges::all_of(
             corners, [&](const Corner& k) { return apart(c.length, k.length) > 1.5 * options.window; }))

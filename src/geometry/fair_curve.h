@@ -26,9 +26,9 @@ struct FairCurve {
 
 // Returns the curve through nodes, which are given in their order along it. Each point of the curve lies on a
 // quadratic fitted to the nodes nearby by weighted least squares. The fit is made twice: nodes far from the
-// first curve count little in the second fit. Corners of more than 45 degrees between straight sides stay: no
-// fit goes across them. Empty if the curve is shorter than four spacings, if an open curve has fewer than 3
-// nodes or a closed one fewer than 6.
+// first curve count little in the second fit. Corners of 45 to 110 degrees between straight sides stay, if the
+// nodes near them lie about as near to these sides as to the smooth curve: no fit goes across them. Empty if
+// the curve is shorter than four spacings, if an open curve has fewer than 3 nodes or a closed one fewer than 6.
 FairCurve fair_curve(std::span<const CurveNode> nodes, bool is_closed, const FairCurveOptions& options);
 
 }  // namespace relievo

@@ -56,6 +56,10 @@ struct FormedFront {
   std::size_t full_triangles = 0;      // triangles of the front with all samples
 };
 
+// Returns the heights in millimetres of the base under the points of an upright front; empty for a plane.
+// Errors: those of plate_base().
+Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options);
+
 // Returns the surface's triangles as a front in millimetres, with its points at these heights.
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 

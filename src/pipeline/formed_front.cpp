@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/slope_limit.h"
 #include "pipeline/body.h"
 #include "pipeline/vertical_scale.h"
 #include "plate/front/sample_front.h"
@@ -10,6 +11,7 @@
 #include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "relievo/plate/simplify.h"
+#include "relievo/relief/draft.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
 #include "scan/jumps.h"
@@ -22,13 +24,6 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   double lowest = front.ground_mm, highest = lowest;
   for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
   return {lowest, highest};
-}
-
-// Returns whether the front is resampled. A front with a draft angle is not, because the angle is ensured
-// only for triangles between the given points. A lithophane is not, because its heights are not heights of a
-// surface.
-bool is_sampled(const ReliefOptions& options) {
-  return !options.draft_deg && options.form != Form::lithophane;
 }
 
 // Returns, per triangle, whether it lies on one surface: it is neither ground nor wall, and does not span a
@@ -55,6 +50,58 @@ Result<double> sample_step(const Surface& surface, const ReliefOptions& options)
                                           "th of the width, found ", *options.resolution_mm, " mm"));
   return options.resolution_mm.value_or(
       std::min(width_mm / samples, surface.rho * mm_per_unit(surface, options)));
+}
+
+// Returns for each point of a front whether it is ground, or the highest or the lowest point.
+std::vector<std::uint8_t> fixed_points(const HeightFieldMesh& front) {
+  std::vector<std::uint8_t> is_fixed;
+  for (const Vec3& p : front.points) is_fixed.push_back(p.z() == front.ground_mm);
+  const auto [lowest, highest] =
+      std::ranges::minmax_element(front.points, {}, [](const Vec3& p) { return p.z(); });
+  for (const auto extreme : {lowest, highest})
+    is_fixed[static_cast<std::size_t>(extreme - front.points.begin())] = 1;
+  return is_fixed;
+}
+
+// Limits the slopes of a sampled front, on its base, as the draft angle asks. The ground, the highest and the
+// lowest point stay, and no point leaves their range. Returns whether that is possible. Errors: those of
+// base_heights_mm().
+Result<bool> keep_draft(HeightFieldMesh& front, const ReliefOptions& options) {
+  RELIEVO_TRY(const std::vector<double> base, base_heights_mm(front, options));
+  std::vector<std::uint8_t> is_fixed = fixed_points(front);
+  std::vector<Triangle> free = front.triangles;
+  std::erase_if(
+      free, [&](const Triangle& t) { return std::ranges::all_of(t, [&](Index i) { return is_fixed[i]; }); });
+  const std::vector<Vec2> plane = in_plane(front.points);
+  const double max_slope = kept_slope * slope_at_draft(*options.draft_deg);
+  const auto [low, high] = span_of(front);
+  for (bool is_within = false; !is_within;) {
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < plane.size(); ++i)
+      heights.push_back(front.points[i].z() + (base.empty() ? 0 : base[i]));
+    const std::vector<double> before = heights;
+    if (!limit_slopes({plane, free, is_fixed}, max_slope, Rounding::none, heights)) return false;
+    is_within = true;
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      const double moved = front.points[i].z() + (heights[i] - before[i]);
+      front.points[i].z() = std::clamp(moved, low, high);
+      if (front.points[i].z() != moved) is_fixed[i] = 1, is_within = false;
+    }
+  }
+  return true;
+}
+
+// Samples the smooth surface of a front. A lithophane stays as it is, because its heights are not heights of a
+// surface. So does a front whose samples cannot keep the draft angle.
+Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
+                                std::span<const std::uint8_t> is_smooth, const ReliefOptions& options,
+                                const Progress* progress) {
+  if (options.form == Form::lithophane) return front;
+  RELIEVO_TRY(const double step_mm, sample_step(surface, options));
+  RELIEVO_TRY(HeightFieldMesh samples, sample_front(front, is_smooth, {step_mm}, progress));
+  if (!options.draft_deg) return samples;
+  RELIEVO_TRY(const bool keeps_draft, keep_draft(samples, options));
+  return keeps_draft ? std::move(samples) : std::move(front);
 }
 
 // The largest number of simplifications. On plane ground the first guess of the front's number of triangles
@@ -116,6 +163,16 @@ HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& h
   return front;
 }
 
+Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options) {
+  if (options.base.kind == BaseKind::plane) return std::vector<double>();
+  ReliefOptions upright = options;
+  upright.form = Form::relief;
+  RELIEVO_TRY(const Base base, plate_base(front, plate_of(upright, 1)));
+  std::vector<double> heights;
+  for (const Vec3& p : front.points) heights.push_back(base.height(p.head<2>()));
+  return heights;
+}
+
 Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                const Progress* progress) {
   const double scale = mm_per_unit(surface, options);
@@ -134,11 +191,7 @@ Result<FormedFront> full_front(const Surface& surface, const Relief& relief, con
     is_smooth.resize(made.front.triangles.size());  // walls are plane
     if (options.outline == Outline::none) made.front.is_relief.resize(is_smooth.size(), 1);
   }
-  if (is_sampled(options)) {
-    RELIEVO_TRY(const double step_mm, sample_step(surface, options));
-    const FrontSampling sampling{step_mm};
-    RELIEVO_TRY(made.front, sample_front(made.front, is_smooth, sampling, progress));
-  }
+  RELIEVO_TRY(made.front, sampled(std::move(made.front), surface, is_smooth, options, progress));
   made.full_triangles = made.front.triangles.size();
   if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));
   if (options.form == Form::die) made.front = as_die(std::move(made.front));

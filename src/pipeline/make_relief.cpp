@@ -105,13 +105,10 @@ ReliefReport report_on(const ReliefFacts& facts) {
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();
-  ReliefOptions upright = options;
-  upright.form = Form::relief;
   HeightFieldMesh front = front_in_mm(surface, std::vector<double>(surface.points.size(), 0), mm_per_unit);
   if (options.outline == Outline::none) front.is_relief = surface.boundary.is_inside;
-  RELIEVO_TRY(const Base base, plate_base(front, plate_of(upright, 1)));
-  std::vector<double> heights;
-  for (const Vec3& p : front.points) heights.push_back(base.height(p.head<2>()) / mm_per_unit);
+  RELIEVO_TRY(std::vector<double> heights, base_heights_mm(front, options));
+  for (double& z : heights) z /= mm_per_unit;
   return heights;
 }
 

@@ -18,10 +18,9 @@
 namespace relievo {
 namespace {
 
-// Both are shares of the limit. The relief stays below kept_share, which leaves a thousandth for the rounding
-// of all later steps. The least squares aim at solved_share, because they end with a few triangles up to 0.4
-// % above their target.
-constexpr double kept_share = .999, solved_share = .9945;
+// The share of the limit at which the least squares aim, because they end with a few triangles up to 0.4 %
+// above their target.
+constexpr double solved_share = .9945;
 
 double draft_deg_of(double slope) {
   return 90 - to_degrees(std::atan(slope));
@@ -37,9 +36,9 @@ class Limiter {
       if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }
 
-  // Returns whether relief and base together stay below kept_share of the limit.
+  // Returns whether relief and base together stay below kept_slope of the limit.
   bool keeps(std::span<const double> heights) const {
-    return steepest_of(field(), with_base(heights)) <= kept_share * options_.max_slope;
+    return steepest_of(field(), with_base(heights)) <= kept_slope * options_.max_slope;
   }
 
   double max_slope() const { return options_.max_slope; }
@@ -56,7 +55,7 @@ class Limiter {
     keep_own_heights(relief);
     for (int tries = 0; tries < most_tries; ++tries) {
       std::vector<double> whole = with_base(relief.heights);
-      const bool is_flat = limit_slopes(field(), kept_share * options_.max_slope, Rounding::none, whole);
+      const bool is_flat = limit_slopes(field(), kept_slope * options_.max_slope, Rounding::none, whole);
       for (std::size_t i = 0; i < whole.size(); ++i)
         relief.heights[i] = is_flat ? whole[i] - base(i) : .95 * relief.heights[i];
       relief.height = height_span(relief.heights);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -66,6 +67,43 @@ TEST(FairCurve, KeepsTheCornersOfASquare) {
     EXPECT_NEAR(curve.points[i].cwiseAbs().minCoeff(), 20, .3);
   }
   EXPECT_EQ(corners, 4);
+}
+
+// Returns nodes along a wedge whose tip is an arc of that radius around the origin; the wedge opens towards -x.
+// They begin at the end of the lower side, 20 long.
+std::vector<CurveNode> wedge_nodes(double degrees, double radius) {
+  constexpr double side = 20, pi = std::numbers::pi;
+  const double turn = pi - degrees * pi / 180, arc = turn * radius;
+  std::vector<CurveNode> nodes;
+  for (double at = -side; at < arc + side; at += 1) {
+    const double direction = std::clamp(at / std::max(arc, 1e-9), 0., 1.) * turn - turn / 2;
+    const Vec2 out(std::cos(direction), std::sin(direction)), along(-out.y(), out.x());
+    nodes.push_back({radius * out + (at < 0 ? at : std::max(0., at - arc)) * along});
+  }
+  return nodes;
+}
+
+// The sides of the wedge meet at x = radius / sin(angle / 2), far beyond the arc.
+TEST(FairCurve, OfARoundTipHasNoBarb) {
+  constexpr double radius = 3;
+  for (const double degrees : {50., 70., 90.}) {
+    const FairCurve curve = fair_curve(wedge_nodes(degrees, radius), false, {.75, 3});
+    for (const Vec2& p : curve.points) EXPECT_LT(p.x(), radius + .01) << degrees;
+    EXPECT_EQ(std::ranges::count(curve.is_corner, 1), 0) << degrees;
+  }
+}
+
+TEST(FairCurve, RoundsTheTipOfASharpWedge) {
+  constexpr double least_radius = .5;
+  for (const double degrees : {40., 50., 60.}) {
+    const FairCurve curve = fair_curve(wedge_nodes(degrees, 0), false, {.75, 3});
+    EXPECT_EQ(std::ranges::count(curve.is_corner, 1), 0) << degrees;
+    for (std::size_t k = 2; k < curve.points.size(); ++k) {
+      const Vec2 u = curve.points[k - 1] - curve.points[k - 2], v = curve.points[k] - curve.points[k - 1];
+      const double four_areas = 2 * std::abs(u.x() * v.y() - u.y() * v.x());
+      EXPECT_GT(u.norm() * v.norm() * (u + v).norm(), least_radius * four_areas) << degrees;
+    }
+  }
 }
 
 TEST(FairCurve, OfAnOpenLineReachesBothEnds) {

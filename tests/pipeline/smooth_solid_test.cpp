@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "relievo/make_relief.h"
+#include "relievo/plate/draft_in_file.h"
+#include "relievo/relief/draft.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -52,8 +54,16 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-MadeRelief made_of(const Cloud& cloud) {
-  ReliefOptions options;
+// Returns the difference between the highest and the lowest point of the front.
+double height_of_front(const Solid& solid) {
+  std::vector<double> heights;
+  for (std::size_t t = 0; t < solid.front_triangles; ++t)
+    for (const Index i : solid.triangles[t]) heights.push_back(solid.points[i].z());
+  const auto [lowest, highest] = std::ranges::minmax(heights);
+  return highest - lowest;
+}
+
+MadeRelief made_of(const Cloud& cloud, ReliefOptions options = {}) {
   options.width_mm = width_mm;
   options.height_mm = 3;
   return make_relief(cloud, options).value();
@@ -76,6 +86,20 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
   EXPECT_LT(quantile(angles, .99), GetParam().most_deg);
   EXPECT_LT(quantile(angles, .999), GetParam().rare_deg);
+}
+
+// The limit takes the rounding from the edges, which leaves a crease around each button.
+TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
+  for (const Form form : {Form::relief, Form::die}) {
+    ReliefOptions options;
+    options.draft_deg = 30;
+    options.form = form;
+    const MadeRelief made = made_of(two_buttons(20000), options);
+    EXPECT_LE(steepest_slope(made.solid), slope_at_draft(30));
+    EXPECT_NEAR(height_of_front(made.solid), 3, 1e-5);
+    const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
+    EXPECT_LT(quantile(angles, .99), 5);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,

@@ -12,6 +12,10 @@ namespace relievo {
 // Returns the slope (rise over run) of a wall at the angle `draft_deg`, in (0, 90) degrees, to the vertical.
 double slope_at_draft(double draft_deg);
 
+// The share of the limit below which reliefs are brought. It leaves a thousandth for the rounding of all later
+// steps.
+inline constexpr double kept_slope = .999;
+
 struct DraftOptions {
   double max_slope = 1;  // largest slope that a triangle may have, > 0
   // Heights of the base, one per point, in the surface's units; empty for a plane. The limit applies to the
