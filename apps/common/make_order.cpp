@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/ornament_file.h"
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
@@ -12,7 +13,10 @@ namespace relievo::app {
 
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
-  if (stored) project = stored->project;
+  if (stored) {
+    project = stored->project;
+    find_ornament_files(project->options, stored->folder);
+  }
   OptionValues values = order.values;
   if (project) values = with_given(project->options, values);
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
@@ -21,12 +25,13 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
       std::shared_ptr<const Image<float>> image,
       order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
+  RELIEVO_CHECK(read_ornaments(options));
   return options;
 }
 
 std::vector<std::string> CheckedOrder::paths() const {
   std::vector<std::string> all = inputs;
-  all.insert(all.end(), {base_image_path, scan_path});
+  all.insert(all.end(), {base_image_path, scan_path, options.font_name, options.ornament_source});
   return all;
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/descriptor.h"
 #include "common/files.h"
+#include "common/ornament_file.h"
 #include "common/read_inputs.h"
 #include "common/wording.h"
 #include "relievo/core/json_place.h"
@@ -122,6 +123,7 @@ Result<ReliefOptions> options_from_json(const Json& json, std::string_view name)
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(std::shared_ptr<const Image<float>> image, last_base_image(base_image_path_in(json)));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
+  RELIEVO_CHECK(read_ornaments(options));
   return options;
 }
 

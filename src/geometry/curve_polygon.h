@@ -1,5 +1,5 @@
 // Polygons along lines, quadratic and cubic curves, for glyphs and drawings. Tested by
-// tests/geometry/curve_polygon_test.cpp.
+// tests/io/svg_test.cpp.
 #pragma once
 
 #include <algorithm>

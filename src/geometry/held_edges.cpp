@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 // The side of a triangle that lies opposite to its corner `apex`.
-struct Side {
+struct EdgeOfTriangle {
   Index triangle = no_index;
   std::size_t apex = 0;
 };
@@ -35,7 +35,7 @@ class EdgeHolder {
     return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
   }
 
-  Index corner(const Side& side, std::size_t after) const {
+  Index corner(const EdgeOfTriangle& side, std::size_t after) const {
     return mesh_.triangles[side.triangle][(side.apex + after) % 3];
   }
 
@@ -46,11 +46,11 @@ class EdgeHolder {
 
   // Calls visit(side) for the sides opposite to the point, in each triangle around it, until that is true.
   template <typename Visit>
-  Side around(Index point, Visit&& visit) const {
+  EdgeOfTriangle around(Index point, Visit&& visit) const {
     for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
       Index t = at_[point];
       do {
-        const Side side{t, place_of(t, point)};
+        const EdgeOfTriangle side{t, place_of(t, point)};
         if (visit(side)) return side;
         t = mesh_.neighbours[t][(side.apex + turn) % 3];
       } while (t != no_index && t != at_[point]);
@@ -60,8 +60,9 @@ class EdgeHolder {
   }
 
   // Returns the side whose ends are a and b; without a triangle if there is none.
-  Side find(Index a, Index b) const {
-    const Side side = around(a, [&](const Side& s) { return corner(s, 1) == b || corner(s, 2) == b; });
+  EdgeOfTriangle find(Index a, Index b) const {
+    const EdgeOfTriangle side =
+        around(a, [&](const EdgeOfTriangle& s) { return corner(s, 1) == b || corner(s, 2) == b; });
     if (side.triangle == no_index) return side;
     return {side.triangle, (side.apex + (corner(side, 1) == b ? 2 : 1)) % 3};
   }
@@ -74,7 +75,8 @@ class EdgeHolder {
 
   // Collects the edges that the line from a to b crosses. Returns false if it meets a point or a held edge.
   bool collect(Index a, Index b, std::deque<EdgeEnds>& crossed) const {
-    Side side = around(a, [&](const Side& s) { return is_crossing(a, b, corner(s, 1), corner(s, 2)); });
+    EdgeOfTriangle side =
+        around(a, [&](const EdgeOfTriangle& s) { return is_crossing(a, b, corner(s, 1), corner(s, 2)); });
     while (side.triangle != no_index) {
       const Index u = corner(side, 1), v = corner(side, 2);
       if (held_.contains(key(u, v))) return false;
@@ -96,7 +98,7 @@ class EdgeHolder {
   }
 
   // Replaces the side's edge by the other diagonal of its two triangles.
-  void flip(const Side& side) {
+  void flip(const EdgeOfTriangle& side) {
     const Index t = side.triangle, s = mesh_.neighbours[t][side.apex];
     const Index p = corner(side, 0), u = corner(side, 1), v = corner(side, 2);
     const std::size_t in_s = place_of(s, u);
@@ -111,7 +113,7 @@ class EdgeHolder {
   }
 
   // Returns the corner of the triangle across the side.
-  Index facing(const Side& side) const {
+  Index facing(const EdgeOfTriangle& side) const {
     const Index s = mesh_.neighbours[side.triangle][side.apex];
     return mesh_.triangles[s][(place_of(s, corner(side, 1)) + 1) % 3];
   }
@@ -123,7 +125,7 @@ class EdgeHolder {
     for (std::size_t idle = 0; !crossed.empty() && idle <= crossed.size();) {
       const auto [u, v] = crossed.front();
       crossed.pop_front();
-      const Side side = find(u, v);
+      const EdgeOfTriangle side = find(u, v);
       const Index p = corner(side, 0), q = facing(side);
       if (!is_crossing(p, q, u, v)) {
         crossed.push_back({u, v});
@@ -145,7 +147,7 @@ class EdgeHolder {
   // Flips new edges that are not locally Delaunay.
   void restore(const std::vector<EdgeEnds>& made) {
     for (const auto& [u, v] : made) {
-      const Side side = find(u, v);
+      const EdgeOfTriangle side = find(u, v);
       if (side.triangle == no_index || held_.contains(key(u, v))) continue;
       if (mesh_.neighbours[side.triangle][side.apex] == no_index) continue;
       const Index p = corner(side, 0), q = facing(side);

@@ -10,6 +10,7 @@
 
 #include "relievo/core/error.h"
 #include "relievo/core/types.h"
+#include "relievo/lettering/ornament.h"
 #include "relievo/plate/base.h"
 #include "relievo/plate/outline.h"
 #include "relievo/plate/tool.h"
@@ -59,7 +60,11 @@ struct PlateOptions {
   // Width and height of the outline, see OutlineOptions; 0: no given size. For a die with a groove for the
   // rim this is the size of the piece that the die makes.
   Vec2 size_mm = Vec2::Zero();
-  Vec2 shift_mm = Vec2::Zero();  // shift of the front from the middle of an outline with a given size
+  Vec2 shift_mm = Vec2::Zero();          // shift of the front from the middle of an outline with a given size
+  std::vector<Ornament> ornaments = {};  // on the ground; they need an outline other than `none`
+  double ornament_slope = 3.7;           // of the ornaments' walls, > 0: 15 degrees off the vertical
+  bool is_mirrored = false;              // ornaments have left and right swapped
+  bool is_die = false;                   // raised ornaments are sunk, and sunk ones raised
 };
 
 // The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.
@@ -76,6 +81,7 @@ struct Solid {
   Vec3 shift = Vec3::Zero();  // added to the front's coordinates to get the solid's, if the ground is flat
   double ground_mm = 0;       // height of the flat ground, or of a curved base in the middle
   double error_mm = 0;        // largest distance to the exact surface, from curving and simplifying
+  OrnamentFacts ornaments = {};
   LengthUnit unit = LengthUnit::mm;  // unit of the coordinates; other units only by in_unit() and in files
 };
 
