@@ -43,9 +43,11 @@ LevelGround find_ground(const Solid& surface, std::span<const Vec2> inner) {
 }
 
 std::unexpected<Error> touching(const RaisedShape& shape, std::string_view what) {
-  return option_error("text", cat("expected room for ", shape.name, ", found ", what,
-                                  " in its place: a smaller text-size, a wider margin or, in ornaments, "
-                                  "another place gives room"));
+  const bool is_text = shape.name.starts_with("the text");
+  return option_error(is_text ? "text" : "ornaments",
+                      cat("expected room for ", shape.name, ", found ", what,
+                          " in its place: a smaller text-size, a wider margin or, in ornaments, "
+                          "another place gives room"));
 }
 
 // Finds what is under and beside shapes.

@@ -72,7 +72,7 @@ TEST(ReadSvg, LeavesOutWhatIsNotFilled) {
       "<svg><defs><path d=\"M0 0H9V9Z\"/></defs><g style=\"fill:none\"><path d=\"M0 0H5V5Z\"/></g>"
       "<path d=\"M0 0H1V1H0Z\"/></svg>";
   EXPECT_NEAR(area_of(text), 1, 1e-9);
-  expect_error(read_svg(svg_of("M0 0H5V5Z", "fill=\"none\""), "a.svg"), "a filled path, found none");
+  expect_error(read_svg(svg_of("M0 0H5V5Z", "fill=\"none\""), "a.svg"), "expected a filled path, found none");
 }
 
 TEST(ReadSvg, ALineAfterAClosedOutlineBeginsWhereThatBegan) {
@@ -82,7 +82,8 @@ TEST(ReadSvg, ALineAfterAClosedOutlineBeginsWhereThatBegan) {
 TEST(ReadSvg, RefusesWhatItDoesNotRead) {
   expect_error(read_svg("<html/>", "a.svg"), "expected svg, found html");
   expect_error(read_svg("<svg><rect/></svg>", "a.svg"), "expected paths alone, found rect");
-  expect_error(read_svg(svg_of("M0 0H9V9Z", "transform=\"scale(2)\""), "a.svg"), "without transform");
+  expect_error(read_svg(svg_of("M0 0H9V9Z", "transform=\"scale(2)\""), "a.svg"),
+               "expected paths without transform, found one on path");
   expect_error(read_svg(svg_of("M0 0L9"), "a.svg"), "expected numbers of the command");
   expect_error(read_svg(svg_of("9 9L3 3"), "a.svg"), "expected a command, found '9 9L3 3'");
   expect_error(read_svg(svg_of("M0 0L1e300 4Z"), "a.svg"), "expected numbers");

@@ -184,7 +184,12 @@ TEST(OrnamentShapes, RefuseWhatHasNoRoom) {
   Ornament wide{.kind = OrnamentKind::line};
   wide.size_mm = 40;
   EXPECT_NE(refusal(wide).find("within"), std::string::npos);
-  EXPECT_NE(refusal(Ornament{.kind = OrnamentKind::drawing}).find("area"), std::string::npos);
+  EXPECT_NE(
+      refusal(Ornament{.kind = OrnamentKind::drawing}).find("expected a drawing with an area, found none"),
+      std::string::npos);
+  Ornament sizeless{.kind = OrnamentKind::drawing};
+  sizeless.outlines = {{{0, 0}, {2, 0}, {2, 1}}};
+  EXPECT_NE(refusal(sizeless).find("expected a drawing with its size, found none"), std::string::npos);
   Ornament flat = text_on(TextArc::top, "A");
   flat.height_mm = 0;
   EXPECT_NE(refusal(flat).find("lengths"), std::string::npos);
