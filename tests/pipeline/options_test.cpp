@@ -148,7 +148,7 @@ TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
 
 TEST(Options, TextsGetAMarginThatHasRoomForThem) {
   const auto margin = [](const OptionValues& values) {
-    return value_of(parse_options(values)).effective_margin_mm();
+    return parse_options(values).value().effective_margin_mm();
   };
   EXPECT_EQ(margin({{"diameter", 40.}}), 1);
   EXPECT_EQ(margin({{"diameter", 40.}, {"text", "LEX"}}), 5);
@@ -157,8 +157,7 @@ TEST(Options, TextsGetAMarginThatHasRoomForThem) {
 }
 
 TEST(Options, TextBecomesTheFirstOrnament) {
-  ReliefOptions options =
-      value_of(parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}}));
+  ReliefOptions options = parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}}).value();
   options.ornaments.push_back({.kind = OrnamentKind::beads});
   const std::vector<Ornament> all = options.all_ornaments();
   ASSERT_EQ(all.size(), 2U);
