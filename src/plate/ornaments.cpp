@@ -263,7 +263,7 @@ class GroundMaker {
     for (const auto& [a, b, c] : ground) {
       triangles.push_back({number(a), number(b), number(c)});
       const auto is_low = [&](Index i) { return surface_.points[i].z() == surface_.ground_mm; };
-      regions.push_back(std::ranges::all_of(triangles.back(), is_low) ? Region::ground : Region::relief);
+      regions.push_back(std::ranges::all_of(triangles.back(), is_low) ? Region::ground : Region::bevel);
     }
     surface_.triangles = std::move(triangles);
     surface_.regions = std::move(regions);

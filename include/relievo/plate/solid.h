@@ -67,7 +67,7 @@ struct PlateOptions {
   bool is_die = false;                   // raised ornaments are sunk, and sunk ones raised
 };
 
-// The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.
+// The parts of a front; ornaments are bevel. Renderers draw a crease where two of them meet, however small the angle is.
 enum class Region : std::uint8_t { relief, ground, bevel };
 
 // A closed triangle mesh, oriented outwards. The first `front_triangles` triangles are the front (relief,
