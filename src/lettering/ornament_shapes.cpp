@@ -86,7 +86,7 @@ class TextPlacer {
         tracking_(ornament.tracking_mm) {}
 
   Result<Outlines> place() {
-    const double inset = ornament_.inset_mm.value_or((frame_.margin_mm - size_) / 2);
+    const double inset = ornament_.inset_mm.value_or(usual_inset());
     length_ = size_ * line_.advance + tracking_ * static_cast<double>(line_.clusters.size() - 1);
     if (ornament_.arc == TextArc::straight) return straight(inset);
     const bool is_bottom = ornament_.arc == TextArc::bottom;
@@ -105,6 +105,21 @@ class TextPlacer {
   }
 
  private:
+  // Returns the distance of the capitals from the rim at which the text, with what stands out above capitals and hangs
+  // below the line, lies in the middle of the margin.
+  double usual_inset() const {
+    constexpr double usual_overshoot = .1;
+    Box box;
+    for (const GlyphCluster& cluster : line_.clusters)
+      for (const std::vector<Vec2>& outline : cluster.outlines)
+        box.extend(Box::of(outline).min), box.extend(Box::of(outline).max);
+    const double above = box.max.y() > 1 + usual_overshoot ? box.max.y() - 1 : 0,
+                 below = box.min.y() < -usual_overshoot ? -box.min.y() : 0;
+    const double space = (frame_.margin_mm - size_ * (1 + above + below)) / 2;
+    return space +
+           size_ * (ornament_.arc == TextArc::straight || ornament_.arc == TextArc::bottom ? below : above);
+  }
+
   // Widens the spaces until the text goes all around.
   void spread(double way) {
     const auto n = static_cast<double>(line_.clusters.size());

@@ -57,6 +57,12 @@ TEST(OrnamentShapes, LettersStandInTheMiddleOfTheMargin) {
   EXPECT_NEAR(below_high, 29, .02);
 }
 
+TEST(OrnamentShapes, LettersThatHangBelowTheLineMakeItRise) {
+  const auto [low, high] = radii_of(shape_of(text_on(TextArc::bottom, "Ip")));
+  EXPECT_NEAR(low - 25, 30 - high, .15);  // the ends of a line are farther out than its middle
+  EXPECT_LT(low, 25.8);
+}
+
 TEST(OrnamentShapes, ArcsAreReadFromLeftToRightAndUpright) {
   for (const TextArc arc : {TextArc::top, TextArc::bottom, TextArc::straight}) {
     const RaisedShape shape = shape_of(text_on(arc, "IL"));
