@@ -93,7 +93,7 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // box starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z =
 // thickness_mm. Its z extent is thickness + (highest - lowest point of the front, ground and rim included).
 // The front's points and triangles come first, in their order; the ground adds only the corners of the
-// outline and of the rim's edges as points. If two points coincide in single precision, the second is lifted
+// outline and of the rim's edges as points, and ornaments add theirs. If two points coincide in single precision, the second is lifted
 // or lowered by the smallest step that separates them.
 //
 // Outline `none` makes a body of the relief only, with its holes, or several bodies if the relief has several
@@ -102,7 +102,7 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
-// bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, a front with
+// bevel wider than its rim, a rim or ornaments for outline `none`, or ornaments without room; kind geometry for an empty front, a front with
 // triangles whose corners are missing or not finite, or a front without relief for outline `none`. Time: O(n
 // log n), 0.1 s for 340k points.
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);
