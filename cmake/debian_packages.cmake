@@ -44,7 +44,8 @@ the library that programs are linked with.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME librelievo-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_package} (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4), \
-libspng-dev, libtiff-dev, libjpeg62-turbo-dev, liblzf-dev, libzip-dev, libbz2-dev, libssl-dev")  # the last two for static libzip
+libspng-dev, libtiff-dev, libjpeg62-turbo-dev, liblzf-dev, libzip-dev, libharfbuzz-dev, libfribidi-dev, libbz2-dev, \
+libssl-dev")  # the last two for static libzip
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "bas-reliefs from 3D scans - headers and static library
 Relievo makes a bas-relief of a point cloud, a mesh or a depth image. With this
 package C++ programs are built that call it, by CMake or pkg-config.")

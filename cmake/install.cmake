@@ -29,7 +29,7 @@ endfunction()
 
 # Programs that link the static library must also link the libraries that it calls. Programs that link the shared
 # library need not.
-set(private_libraries "spng libtiff-4 libjpeg liblzf libzip")
+set(private_libraries "spng libtiff-4 libjpeg liblzf libzip harfbuzz fribidi")
 if(BUILD_SHARED_LIBS)
   relievo_install_library(relievo shared)
 else()

@@ -11,7 +11,10 @@ if(NOT RELIEVO_WEB)
   pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
   pkg_check_modules(LIBLZF REQUIRED IMPORTED_TARGET liblzf)
   pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # libzip's own CMake file in Debian needs its programs, too
-  set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF JPEG::JPEG PkgConfig::LIBLZF PkgConfig::LIBZIP Threads::Threads)
+  pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz)
+  pkg_check_modules(FRIBIDI REQUIRED IMPORTED_TARGET fribidi)
+  set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF JPEG::JPEG PkgConfig::LIBLZF PkgConfig::LIBZIP Threads::Threads
+    $<LINK_ONLY:PkgConfig::HARFBUZZ> $<LINK_ONLY:PkgConfig::FRIBIDI>)  # only src/lettering/font.cpp sees their headers
   return()
 endif()
 

@@ -2,7 +2,7 @@
 # on the same kind of processor. It is linked from the objects of the program, the static libraries of Debian and the
 # libraries of scripts/build-static-libraries. If that script has not run, there is no such target.
 set(RELIEVO_STATIC_LIBRARIES ${PROJECT_SOURCE_DIR}/build/static CACHE PATH "Folder of scripts/build-static-libraries")
-if(NOT EXISTS ${RELIEVO_STATIC_LIBRARIES}/libspng.a)
+if(NOT EXISTS ${RELIEVO_STATIC_LIBRARIES}/libharfbuzz.a)
   message(STATUS "scripts/build-static-libraries has not run: there is no target relievo_portable")
   return()
 endif()
@@ -14,5 +14,5 @@ add_dependencies(relievo_portable relievo_app)
 target_link_directories(relievo_portable PRIVATE ${RELIEVO_STATIC_LIBRARIES})
 target_link_libraries(relievo_portable PRIVATE
   $<TARGET_FILE:relievo_app> $<TARGET_FILE:relievo_samples> $<TARGET_FILE:relievo>
-  cpp-httplib ssl crypto brotlienc brotlidec brotlicommon zip lzf
+  cpp-httplib ssl crypto brotlienc brotlidec brotlicommon zip lzf harfbuzz fribidi
   spng tiff webp Lerc zstd lzma jpeg deflate z)

@@ -29,6 +29,9 @@ void add_file(const std::string& path, std::vector<std::string>& files) {
       add_file((folder / project->input.path).string(), files);
     if (project && !project->base_image_path.empty())
       files.push_back((folder / project->base_image_path).string());
+    for (const auto& [option, value] : project ? project->options : OptionValues())
+      if (const auto* const text = std::get_if<std::string>(&value))
+        if (const std::string file = (folder / *text).string(); is_path(option, file)) files.push_back(file);
   }
   if (ending == "gltf") {
     const Json json = Json::parse(text_of_file(path), nullptr, false);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/files.h"
+#include "common/ornament_file.h"
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
@@ -34,7 +35,8 @@ OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
   if (stored) project = stored->project;
-  OptionValues values = values_of(order, stored);
+  if (project) find_ornament_files(project->options, stored->folder);
+  OptionValues values = project ? with_given(project->options, order.values) : order.values;
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
   RELIEVO_CHECK(read_strokes(values));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
@@ -42,12 +44,13 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
       std::shared_ptr<const Image<float>> image,
       order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
+  RELIEVO_CHECK(read_ornaments(options));
   return options;
 }
 
 std::vector<std::string> CheckedOrder::paths() const {
   std::vector<std::string> all = inputs;
-  all.insert(all.end(), {base_image_path, scan_path});
+  all.insert(all.end(), {base_image_path, scan_path, options.font_name, options.ornament_source});
   return all;
 }
 

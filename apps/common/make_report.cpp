@@ -25,6 +25,13 @@ nlohmann::json reach_json(const ReliefReport& report) {
           {"mm_per_sample", report.reach->mm_per_sample}};
 }
 
+nlohmann::json ornaments_json(const OrnamentFacts& facts) {
+  if (facts.highest_mm == 0) return {};
+  return {{"highest_mm", facts.highest_mm},
+          {"thinnest_mm",
+           std::isfinite(facts.thinnest_mm) ? nlohmann::json(facts.thinnest_mm) : nlohmann::json()}};
+}
+
 std::vector<double> row_by_row(const Mat3& m) {
   std::vector<double> values;
   for (int i = 0; i < 9; ++i) values.push_back(m(i / 3, i % 3));
@@ -83,6 +90,7 @@ nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime
        {{"rotation", row_by_row(report.rotation)},
         {"scale", report.scale},
         {"offset", as_list(report.offset)}}},
+      {"ornaments", ornaments_json(report.ornaments)},
       {"remarks", remarks_on(report)}};
 }
 

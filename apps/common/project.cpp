@@ -11,6 +11,7 @@
 
 #include "common/descriptor.h"
 #include "common/files.h"
+#include "common/ornament_file.h"
 #include "common/wording.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/parallel.h"
@@ -121,6 +122,7 @@ Result<ReliefOptions> options_from_json(const Json& json, std::string_view name)
   RELIEVO_CHECK(parse_depth(values));
   RELIEVO_TRY(std::shared_ptr<const Image<float>> image, last_base_image(base_image_path_in(json)));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
+  RELIEVO_CHECK(read_ornaments(options));
   return options;
 }
 

@@ -108,6 +108,26 @@ std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
   return all;
 }
 
+namespace {
+
+// Adds what a user should know about texts, borders and drawings.
+void add_ornament_remarks(const ReliefReport& report, std::vector<std::string>& lines) {
+  const auto& [highest_mm, thinnest_mm] = report.ornaments;
+  constexpr double usual_nozzle_mm = .4;
+  const double least_mm = !report.tool                         ? usual_nozzle_mm
+                          : report.tool->kind == Tool::Kind::v ? report.tool->tip_mm
+                                                               : report.tool->diameter_mm;
+  const auto in_mm = [](double mm) { return cat(std::round(1e3 * mm) / 1e3, " mm"); };
+  if (thinnest_mm < least_mm)
+    lines.push_back(cat("the thinnest stroke of the ornaments is ", in_mm(thinnest_mm), " wide, and ",
+                        report.tool ? "the tool is wider: " : "a usual nozzle wider: ", in_mm(least_mm)));
+  if (report.rim_height_mm && highest_mm > *report.rim_height_mm)
+    lines.push_back(cat("the ornaments reach ", in_mm(highest_mm), ", and the rim only ",
+                        in_mm(*report.rim_height_mm), ": rim-height or text-height change that"));
+}
+
+}  // namespace
+
 std::vector<std::string> remarks_on(const ReliefReport& report) {
   std::vector<std::string> lines;
   if (report.height_usual_mm)
@@ -121,6 +141,7 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
                         std::lround(100 * report.steps), " % of it"));
   for (const Remark& remark : remarks_on(static_cast<const ScanReport&>(report)))
     lines.push_back(line_of(remark));
+  add_ornament_remarks(report, lines);
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)
     lines.push_back(cat("the front has ", report.front_triangles, " triangles, the full relief ",

@@ -68,6 +68,8 @@ struct ReliefReport : ScanReport {
 
   std::optional<Tool> tool;        // the tool of the options
   std::optional<ToolReach> reach;  // the tool's reach on the front
+  OrnamentFacts ornaments;
+  std::optional<double> rim_height_mm;  // above the ground; nothing without a rim
 
   // Largest difference between the simplified front and the full one, if a tolerance or a number of triangles
   // was given.

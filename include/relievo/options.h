@@ -1,10 +1,15 @@
 // The options of a relief as typed values. A program fills them in, or parse_options() reads them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "relievo/core/choice.h"
+#include "relievo/lettering/ornament.h"
 #include "relievo/plate/base.h"
 #include "relievo/plate/forms.h"
 #include "relievo/plate/outline.h"
@@ -37,16 +42,18 @@ struct NumericOptions {
   double steps = 0;                      // least share of the height for depth jumps, see Shape
   std::optional<double> planes;          // least step of parts, see Shape; effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // of the subspace, approximately
-  double corner_mm = 5;                 // radius of the corners of Outline::round
-  std::optional<double> margin_mm;      // least flat ground around the relief; see effective_margin_mm()
-  std::optional<double> thickness_mm;   // smallest thickness of the plate; see effective_thickness_mm()
-  std::optional<double> rim_mm;         // width of a raised edge along the outline; none
-  std::optional<double> rim_height_mm;  // height of the edge above ground; the relief's if its bevel fits
-  std::optional<double> rim_bevel_mm;   // width of the edge's slanting inner side; 0.3 of the edge's height
-  std::optional<double> points;         // number of visible points to sample; see usual_points()
-  std::optional<double> resolution_mm;  // finest step of samples; the smaller of width / 700 and rho
-  std::optional<double> tolerance_mm;   // largest error of the simplified mesh; without it all points stay
-  std::optional<double> triangles;      // most triangles of the solid; any number
+  double corner_mm = 5;                  // radius of the corners of Outline::round
+  std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
+  std::optional<double> thickness_mm;    // smallest thickness of the plate; see effective_thickness_mm()
+  std::optional<double> rim_mm;          // width of a raised edge along the outline; none
+  std::optional<double> rim_height_mm;   // height of the edge above ground; the relief's if its bevel fits
+  std::optional<double> rim_bevel_mm;    // width of the edge's slanting inner side; 0.3 of the edge's height
+  std::optional<double> text_mm;         // height of the text's capitals; 0.6 of the margin
+  std::optional<double> text_height_mm;  // of the text above the ground; see Ornament
+  std::optional<double> points;          // number of visible points to sample; see usual_points()
+  std::optional<double> resolution_mm;   // finest step of samples; the smaller of width / 700 and rho
+  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; without it all points stay
+  std::optional<double> triangles;       // most triangles of the solid; any number
 
   bool operator==(const NumericOptions&) const = default;
 };
@@ -72,6 +79,12 @@ struct ReliefOptions : NumericOptions {
   Vec2 shift_mm = Vec2::Zero();  // shift of the relief in a plate with a given size, right and up
   BaseOptions base;              // a base of kind image includes its height map
   WrapOptions wrap;
+  std::string text;  // on the ground; none if empty
+  TextArc text_arc = TextArc::straight;
+  std::string font_name;                      // file of the text's font; the font inside the program if empty
+  std::shared_ptr<const FontFile> font = {};  // its bytes, which the programs read
+  std::string ornament_source;                // list of further ornaments: its file, or JSON
+  std::vector<Ornament> ornaments;            // its content, which the programs read
   Form form = Form::relief;
   std::optional<Tool> tool;  // the report states which part the tool reaches
   Finish finish = Finish::full;
@@ -94,8 +107,13 @@ struct ReliefOptions : NumericOptions {
   double effective_alpha() const { return alpha.value_or(4); }
   // The default is the angle of Shape::max_slope.
   double effective_steepest_deg() const { return steepest_deg.value_or(76); }
-  // The margin is small if a diameter is given, as for coins.
-  double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
+  // The margin is small if a diameter is given, as for coins, and wide enough for a text.
+  double effective_margin_mm() const {
+    if (text_mm && !text.empty()) return margin_mm.value_or(std::max(diameter_mm ? 1. : 5., *text_mm / .6));
+    return margin_mm.value_or(diameter_mm && text.empty() ? 1 : 5);
+  }
+  // Returns the text and the further ornaments.
+  std::vector<Ornament> all_ornaments() const;
   // The plate of a lithophane is thin, because light has to pass through its thinnest places.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
   // Returns the view, for the paper's method without removal of noise and of crumbs.

@@ -24,8 +24,9 @@ constexpr double rim_bevel = .3;  // share of the rim's height: 17 degrees off t
 // The limit for slopes of simplified fronts, as a share of the steepest slope allowed. It is above the 0.999
 // of limit_draft(), to give simplification some freedom, and below 1 because of rounding.
 constexpr double front_share = .9995;
-constexpr double most_held_mm = 1e-5;  // usual upper limit of moves by enforce_draft_in_float()
-constexpr double rounded_up = 1.002;   // curved rims are polygons, which makes their bevels steeper
+constexpr double ornament_share = .997;  // the same for walls of ornaments, whose corners are rounded
+constexpr double most_held_mm = 1e-5;    // usual upper limit of moves by enforce_draft_in_float()
+constexpr double rounded_up = 1.002;     // curved rims are polygons, which makes their bevels steeper
 
 bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
@@ -110,6 +111,15 @@ Result<void> check_rim(const ReliefOptions& options, double height_mm) {
                           " mm leans as draft asks, found ", rim.bevel_mm, " mm"));
 }
 
+// No font takes the place of one that was not read.
+Result<void> check_files(const ReliefOptions& options) {
+  if (!options.font_name.empty() && !options.font)
+    return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));
+  if (!options.ornament_source.empty() && options.ornaments.empty())
+    return option_error("ornaments", cat("expected those of '", options.ornament_source, "', found none"));
+  return {};
+}
+
 bool is_simplified_as_plate(const ReliefOptions& options) {
   const bool is_made_whole = is_curved(options) || options.finish == Finish::reachable;
   return is_simplified(options) && is_made_whole && options.outline != Outline::none;
@@ -141,6 +151,10 @@ PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
   plate.size_mm = plate_size_of(options);
   plate.shift_mm = options.shift_mm;
   if (is_mirrored(options.form)) plate.shift_mm.x() *= -1;
+  plate.ornaments = options.all_ornaments();
+  plate.is_mirrored = is_mirrored(options.form);
+  plate.is_die = options.form == Form::die;
+  if (options.draft_deg) plate.ornament_slope = ornament_share * slope_at_draft(*options.draft_deg);
   if (options.finish == Finish::reachable) plate.tool = options.tool;
   if (options.tolerance_mm)
     plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
@@ -155,6 +169,7 @@ PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options) {
   const PlateOptions plate = plate_of(options, relief_mm);
   RELIEVO_CHECK(check_rim(options, relief_mm));
+  RELIEVO_CHECK(check_files(options));
   RELIEVO_TRY(Solid solid, make_plate(front, plate));
   if (options.draft_deg) {
     RELIEVO_TRY(const double moved_mm, enforce_draft_in_float(solid, slope_at_draft(*options.draft_deg)));

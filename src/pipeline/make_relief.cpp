@@ -76,6 +76,8 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
     report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;
   report.tool = options.tool;
   if (options.tool) report.reach = measure_reach(plate, *options.tool);
+  report.ornaments = plate.ornaments;
+  if (options.rim_mm) report.rim_height_mm = std::abs(plate_of(options, formed.height_mm).rim.height_mm);
   if (body.wrap)
     report.wrap = {body.wrap->diameter_mm(), body.wrap->turn_deg(), body.wrap->mm_per_degree(),
                    body.wrap->is_inside(), body.wrap->across()};

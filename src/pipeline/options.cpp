@@ -96,6 +96,21 @@ Result<void> check_draft(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_text_options(const ReliefOptions& options) {
+  const bool has_text = !options.text.empty();
+  if (!has_text && (options.text_mm || options.text_height_mm || options.text_arc != TextArc::straight ||
+                    !options.font_name.empty()))
+    return option_error("text", "expected a text with text-arc, text-size, text-height and font, found none");
+  if (!has_text && options.ornament_source.empty()) return {};
+  if (options.outline == Outline::none)
+    return option_error("text", "expected an outline with ground for it, found none");
+  if (options.form == Form::lithophane)
+    return option_error("text", "expected a form other than lithophane, which has no ground");
+  if (has_text && !has_lettering())
+    return option_error("text", "expected none, as this build has no HarfBuzz to set it");
+  return {};
+}
+
 // Returns the name of the option that gives the plate a size, and the shorter side of that size.
 std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
   if (options.diameter_mm) return {"diameter", *options.diameter_mm};
@@ -187,6 +202,18 @@ double ReliefOptions::effective_planes() const {
   return planes.value_or(default_shape(effective_method()).planes);
 }
 
+std::vector<Ornament> ReliefOptions::all_ornaments() const {
+  std::vector<Ornament> all;
+  if (!text.empty()) {
+    Ornament ornament{.text = text, .font = font, .arc = text_arc};
+    ornament.size_mm = text_mm;
+    ornament.height_mm = text_height_mm;
+    all.push_back(std::move(ornament));
+  }
+  all.insert(all.end(), ornaments.begin(), ornaments.end());
+  return all;
+}
+
 Result<void> check(const ReliefOptions& options) {
   RELIEVO_CHECK(check_ranges(options));
   RELIEVO_CHECK(check_height(options));
@@ -199,6 +226,7 @@ Result<void> check(const ReliefOptions& options) {
   RELIEVO_CHECK(check_rim(options));
   RELIEVO_CHECK(check_plate_size(options));
   RELIEVO_CHECK(check_base(options));
+  RELIEVO_CHECK(check_text_options(options));
   return check_method(options);
 }
 

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "geometry/convex_polygon.h"
+#include "lettering/ornament_shapes.h"
 #include "plate/deformation.h"
+#include "plate/ornaments.h"
 #include "plate/plate_ground.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/simplify.h"
@@ -51,9 +53,25 @@ void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground
   });
 }
 
-PlateSurface flat_plate_surface(const HeightFieldMesh& front, const PlateOptions& options, double spacing) {
+// Adds the ornaments to the ground within the outline.
+Result<void> add_ornaments(Solid& surface, const PlateOutline& outline, const PlateOptions& options) {
+  if (options.ornaments.empty()) return {};
+  const bool has_rim = options.rim.width_mm > 0;
+  OrnamentFrame frame{rim_inner_polygon(outline, options.rim), options.margin_mm};
+  if (has_rim) frame.rim_mm = std::abs(options.rim.height_mm);
+  frame.slope = options.ornament_slope;
+  frame.is_mirrored = options.is_mirrored;
+  frame.is_die = options.is_die;
+  RELIEVO_TRY(const std::vector<RaisedShape> shapes, ornament_shapes(options.ornaments, frame));
+  return add_shapes(surface, shapes, frame.inner);
+}
+
+Result<PlateSurface> flat_plate_surface(const HeightFieldMesh& front, const PlateOptions& options,
+                                        double spacing) {
   const Box box = used_box(front.points, front.triangles);
   if (options.outline == Outline::none) {
+    if (!options.ornaments.empty())
+      return option_error("text", "expected an outline with ground for it, found none");
     PlateSurface surface{placed_front(front, box, Vec3::Zero()), {}, spacing};
     if (options.tool) make_reachable(surface, *options.tool, {});
     return surface;
@@ -62,6 +80,7 @@ PlateSurface flat_plate_surface(const HeightFieldMesh& front, const PlateOptions
   PlateSurface surface{
       placed_front(front, box, {outline.front_corner.x(), outline.front_corner.y(), 0}), {}, spacing};
   surface.outline = add_ground(surface.solid, front, outline, {options.rim, spacing});
+  RELIEVO_CHECK(add_ornaments(surface.solid, outline, options));
   fill_colours(surface.solid);
   if (!options.tool) return surface;
   make_reachable(surface, *options.tool, rim_edges(outline, options.rim));
@@ -205,7 +224,7 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
   const double none = std::numeric_limits<double>::infinity();
   const bool is_wrapped = options.wrap.kind != WrapKind::none;
   if (base.is_plane() && !is_wrapped) {
-    PlateSurface surface = flat_plate_surface(front, options, none);
+    RELIEVO_TRY(PlateSurface surface, flat_plate_surface(front, options, none));
     RELIEVO_CHECK(simplify_flat(surface, options, rim_inner_of(front, options)));
     return surface;
   }
@@ -219,7 +238,7 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
       options.outline == Outline::none
           ? none
           : ground_spacing(target.deformation, outline, front.ground_mm, options.tolerance_mm);
-  PlateSurface surface = flat_plate_surface(front, options, spacing);
+  RELIEVO_TRY(PlateSurface surface, flat_plate_surface(front, options, spacing));
   const std::vector<Vec2> rim_inner = rim_inner_of(front, options);
   RELIEVO_CHECK(follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner));
   return surface;

@@ -146,5 +146,28 @@ TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
   }
 }
 
+TEST(Options, TextsGetAMarginThatHasRoomForThem) {
+  if (!has_lettering()) GTEST_SKIP() << "this build sets no texts";
+  const auto margin = [](const OptionValues& values) {
+    return parse_options(values).value().effective_margin_mm();
+  };
+  EXPECT_EQ(margin({{"diameter", 40.}}), 1);
+  EXPECT_EQ(margin({{"diameter", 40.}, {"text", "LEX"}}), 5);
+  EXPECT_EQ(margin({{"text", "LEX"}, {"text-size", 6.}}), 10);
+  EXPECT_EQ(margin({{"text", "LEX"}, {"text-size", 6.}, {"margin", 7.}}), 7);
+}
+
+TEST(Options, TextBecomesTheFirstOrnament) {
+  if (!has_lettering()) GTEST_SKIP() << "this build sets no texts";
+  ReliefOptions options = parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}}).value();
+  options.ornaments.push_back({.kind = OrnamentKind::beads});
+  const std::vector<Ornament> all = options.all_ornaments();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].text, "LEX");
+  EXPECT_EQ(all[0].arc, TextArc::top);
+  EXPECT_EQ(all[0].height_mm, -.3);
+  EXPECT_EQ(all[1].kind, OrnamentKind::beads);
+}
+
 }  // namespace
 }  // namespace relievo

@@ -10,6 +10,7 @@
 
 #include "relievo/core/error.h"
 #include "relievo/core/types.h"
+#include "relievo/lettering/ornament.h"
 #include "relievo/plate/base.h"
 #include "relievo/plate/outline.h"
 #include "relievo/plate/tool.h"
@@ -59,10 +60,14 @@ struct PlateOptions {
   // Width and height of the outline, see OutlineOptions; 0: no given size. For a die with a groove for the
   // rim this is the size of the piece that the die makes.
   Vec2 size_mm = Vec2::Zero();
-  Vec2 shift_mm = Vec2::Zero();  // shift of the front from the middle of an outline with a given size
+  Vec2 shift_mm = Vec2::Zero();          // shift of the front from the middle of an outline with a given size
+  std::vector<Ornament> ornaments = {};  // on the ground; they need an outline other than `none`
+  double ornament_slope = 3.7;           // of the ornaments' walls, > 0: 15 degrees off the vertical
+  bool is_mirrored = false;              // ornaments have left and right swapped
+  bool is_die = false;                   // raised ornaments are sunk, and sunk ones raised
 };
 
-// The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.
+// The parts of a front; ornaments are bevel. Renderers draw a crease where two of them meet, however small the angle is.
 enum class Region : std::uint8_t { relief, ground, bevel };
 
 // A closed triangle mesh, oriented outwards. The first `front_triangles` triangles are the front (relief,
@@ -76,6 +81,7 @@ struct Solid {
   Vec3 shift = Vec3::Zero();  // added to the front's coordinates to get the solid's, if the ground is flat
   double ground_mm = 0;       // height of the flat ground, or of a curved base in the middle
   double error_mm = 0;        // largest distance to the exact surface, from curving and simplifying
+  OrnamentFacts ornaments = {};
   LengthUnit unit = LengthUnit::mm;  // unit of the coordinates; other units only by in_unit() and in files
 };
 
@@ -87,7 +93,7 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // box starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z =
 // thickness_mm. Its z extent is thickness + (highest - lowest point of the front, ground and rim included).
 // The front's points and triangles come first, in their order; the ground adds only the corners of the
-// outline and of the rim's edges as points. If two points coincide in single precision, the second is lifted
+// outline and of the rim's edges as points, and ornaments add theirs. If two points coincide in single precision, the second is lifted
 // or lowered by the smallest step that separates them.
 //
 // Outline `none` makes a body of the relief only, with its holes, or several bodies if the relief has several
@@ -96,7 +102,7 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
-// bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, a front with
+// bevel wider than its rim, a rim or ornaments for outline `none`, or ornaments without room; kind geometry for an empty front, a front with
 // triangles whose corners are missing or not finite, or a front without relief for outline `none`. Time: O(n
 // log n), 0.1 s for 340k points.
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);

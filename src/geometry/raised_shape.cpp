@@ -1,0 +1,303 @@
+#include "geometry/raised_shape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "geometry/plane.h"
+
+namespace relievo {
+namespace {
+
+constexpr double fan_step = std::numbers::pi / 18;  // largest turn between rays from a reflex corner
+constexpr double least_opening = .02;               // corners sharper than 16 degrees have a foot only
+constexpr int halvings = 30;
+constexpr double least_share = .05;   // of a wall's width, at which points become one
+constexpr double rounding_mm = 2e-6;  // of union_boundary()
+
+// The place at distance t of the outline is foot + t * direction, up to where another part of it is as near.
+struct Ray {
+  Vec2 foot, direction;
+  bool is_on_side = false;  // the foot is no corner
+  bool is_edge = false;     // two walls meet along the ray
+};
+
+Vec2 left_of(const Vec2& step) {
+  return Vec2(-step.y(), step.x()).normalized();
+}
+
+// Adds the rays of a corner between two sides with these inner normals.
+void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::vector<Ray>& rays) {
+  const double opening = 1 + before.dot(after);
+  const bool is_reflex = cross(before, after) < 0;
+  const double turn = std::acos(std::clamp(before.dot(after), -1.0, 1.0));
+  if (!is_reflex && opening < least_opening) return rays.push_back({corner, Vec2::Zero()});
+  // Longer rays keep their distance from the lines of both sides.
+  if (!is_reflex || turn < fan_step)
+    return rays.push_back({corner, (before + after) / opening, false, turn > fan_step});
+  const int steps = static_cast<int>(std::ceil(turn / fan_step));
+  for (int k = 0; k <= steps; ++k) {
+    const Eigen::Rotation2D<double> rotation(-turn * k / steps);
+    const double length = k == 0 || k == steps ? 1 : 1 / std::cos(turn / steps / 2);
+    rays.push_back({corner, length * (rotation * before)});
+  }
+}
+
+using CornerKey = std::pair<double, double>;
+CornerKey corner_of(const Vec2& p) {
+  return {p.x(), p.y()};
+}
+
+// Returns the sides as closed loops. Where several sides begin at a corner, the loop takes the first that is free.
+std::vector<std::vector<Index>> loops_of(const std::vector<Segment>& sides) {
+  std::map<CornerKey, std::vector<Index>> starting;
+  for (Index i = 0; i < sides.size(); ++i) starting[corner_of(sides[i].from)].push_back(i);
+  std::vector<std::uint8_t> is_used(sides.size(), 0);
+  std::vector<std::vector<Index>> loops;
+  for (Index first = 0; first < sides.size(); ++first) {
+    if (is_used[first]) continue;
+    std::vector<Index>& loop = loops.emplace_back();
+    for (Index i = first; i != no_index;) {
+      is_used[i] = 1;
+      loop.push_back(i);
+      const std::vector<Index>& next = starting[corner_of(sides[i].to)];
+      const auto free = std::ranges::find_if(next, [&](Index n) { return !is_used[n]; });
+      i = free == next.end() ? no_index : *free;
+    }
+  }
+  return loops;
+}
+
+std::vector<Ray> rays_along(const std::vector<Segment>& sides, const std::vector<Index>& loop,
+                            double spacing) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Segment &side = sides[loop[i]], &before = sides[loop[(i + loop.size() - 1) % loop.size()]];
+    const Vec2 step = side.to - side.from, normal = left_of(step);
+    if (before.to == side.from) add_corner(side.from, left_of(before.to - before.from), normal, rays);
+    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / spacing)));
+    for (int k = 1; k < parts; ++k)
+      rays.push_back({side.from + static_cast<double>(k) / parts * step, normal, true});
+  }
+  return rays;
+}
+
+// Points with their numbers, which keep a distance.
+class NumberedPoints {
+ public:
+  explicit NumberedPoints(double distance) : distance_(distance) {}
+
+  // Adds a point of that number unless another is too near. Returns the number of the point that is there.
+  Index add(const Vec2& place, Index number) {
+    const std::int64_t x = cell_of(place.x()), y = cell_of(place.y());
+    const Numbered* nearest = nullptr;
+    for (std::int64_t j = y - 1; j <= y + 1; ++j)
+      for (std::int64_t i = x - 1; i <= x + 1; ++i)
+        if (const auto found = cells_.find({i, j}); found != cells_.end())
+          for (const Numbered& other : found->second)
+            if (!nearest || (other.place - place).norm() < (nearest->place - place).norm()) nearest = &other;
+    if (nearest && (nearest->place - place).norm() < distance_) return nearest->number;
+    cells_[{x, y}].push_back({place, number});
+    return number;
+  }
+
+ private:
+  struct Numbered {
+    Vec2 place;
+    Index number;
+  };
+
+  std::int64_t cell_of(double v) const { return static_cast<std::int64_t>(std::floor(v / distance_)); }
+
+  double distance_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Numbered>> cells_;
+};
+
+class ShapePointMaker {
+ public:
+  explicit ShapePointMaker(const RaisedShape& shape)
+      : shape_(shape),
+        depth_(shape.levels.back().distance_mm),
+        grid_(union_boundary(shape.outlines), std::max(depth_, shape.spacing_mm)),
+        least_(std::max(least_share * std::min(shape.spacing_mm, shape.levels[1].distance_mm), rounding_mm)),
+        near_(least_) {}
+
+  ShapePoints make() {
+    const std::vector<Segment> sides(grid_.segments().begin(), grid_.segments().end());
+    for (const std::vector<Index>& loop : loops_of(sides))
+      loops_.push_back(rays_along(sides, loop, shape_.spacing_mm));
+    for (const std::vector<Ray>& rays : loops_) feet_of_.push_back(add_feet(rays));
+    made_.feet = made_.points.size();
+    tops_.resize(loops_.size());
+    for (std::size_t loop = 0; loop < loops_.size(); ++loop) add_levels(loop);
+    for (const bool are_edges : {true, false})
+      for (std::size_t loop = 0; loop < loops_.size(); ++loop) add_spokes(loop, are_edges);
+    measure_strokes();
+    return std::move(made_);
+  }
+
+ private:
+  // Adds the feet and the outline's edges. Returns the number of each ray's foot.
+  std::vector<Index> add_feet(const std::vector<Ray>& rays) {
+    std::vector<Index> numbers, of_rays;
+    for (const Ray& ray : rays) {
+      const auto [place, is_new] =
+          feet_.try_emplace(corner_of(ray.foot), static_cast<Index>(made_.points.size()));
+      if (is_new) made_.points.emplace_back(ray.foot.x(), ray.foot.y(), 0);
+      if (is_new) near_.add(ray.foot, place->second);
+      if (numbers.empty() || numbers.back() != place->second) numbers.push_back(place->second);
+      of_rays.push_back(place->second);
+    }
+    connect(numbers);
+    return of_rays;
+  }
+
+  void connect(const std::vector<Index>& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+      if (a != no_index && b != no_index && a != b) made_.edges.push_back({a, b});
+    }
+  }
+
+  // Returns whether no part of the outline is nearer than t to the place at t on the ray.
+  bool is_clear(const Ray& ray, double t) const {
+    return grid_.nearest(ray.foot + t * ray.direction, t * (1 - 1e-7) - rounding_mm).segment == no_index;
+  }
+
+  // Adds a point, or takes one that is there already. Returns its number; none on an edge that is kept clear.
+  Index add(const Vec2& place, double height) {
+    const auto next = static_cast<Index>(made_.points.size());
+    const Index number = near_.add(place, next);
+    if (number != next) return number;
+    made_.points.emplace_back(place.x(), place.y(), height);
+    made_.most_mm = std::max(made_.most_mm, std::abs(height));
+    return next;
+  }
+
+  // Adds the points of all levels. Each ray gets those that it reaches, the lowest first.
+  void add_levels(std::size_t loop) {
+    const std::vector<Ray>& rays = loops_[loop];
+    tops_[loop].resize(rays.size());
+    for (std::size_t level = 1; level < shape_.levels.size(); ++level) {
+      const auto [distance, height] = shape_.levels[level];
+      std::vector<Index> numbers;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray& ray = rays[i];
+        const bool is_there = ray.direction != Vec2::Zero() && is_clear(ray, distance);
+        numbers.push_back(is_there ? add(ray.foot + distance * ray.direction, height) : no_index);
+        if (numbers.back() != no_index) tops_[loop][i].push_back(numbers.back());
+      }
+      connect(numbers);
+    }
+  }
+
+  // Joins each foot to the points above it: first for the edges in which two walls meet at a corner, so that no other
+  // point comes too near to them, then for all other rays. Every wall between two rays is plane then.
+  void add_spokes(std::size_t loop, bool are_edges) {
+    for (std::size_t i = 0; i < loops_[loop].size(); ++i) {
+      const Ray& ray = loops_[loop][i];
+      if (ray.is_edge != are_edges || ray.direction == Vec2::Zero()) continue;
+      std::vector<Index>& tops = tops_[loop][i];
+      const Index end = add_ridge(ray);
+      if (end != no_index) tops.push_back(end);
+      Index last = feet_of_[loop][i];
+      for (const Index top : tops) {
+        if (last != top) made_.edges.push_back({last, top});
+        if (last != top && are_edges) keep_clear(last, top);
+        last = top;
+      }
+    }
+  }
+
+  // Keeps later points away from an edge.
+  void keep_clear(Index a, Index b) {
+    const Vec2 from = made_.points[a].head<2>(), step = made_.points[b].head<2>() - from;
+    const int parts = std::min(1000, static_cast<int>(std::ceil(step.norm() / (least_ / 2))));
+    for (int k = 1; k < parts; ++k) near_.add(from + static_cast<double>(k) / parts * step, no_index);
+  }
+
+  double height_at(double distance) const {
+    const std::vector<WallLevel>& levels = shape_.levels;
+    std::size_t k = 1;
+    while (k + 1 < levels.size() && levels[k].distance_mm < distance) ++k;
+    const WallLevel &low = levels[k - 1], &high = levels[k];
+    const double share = (distance - low.distance_mm) / (high.distance_mm - low.distance_mm);
+    return low.height_mm + std::clamp(share, 0.0, 1.0) * (high.height_mm - low.height_mm);
+  }
+
+  // Adds the place where the ray meets the wall of another side, if that is before the last level.
+  Index add_ridge(const Ray& ray) {
+    if (ray.direction == Vec2::Zero() || is_clear(ray, depth_)) return no_index;
+    double low = 0, high = depth_;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = (low + high) / 2;
+      (is_clear(ray, middle) ? low : high) = middle;
+    }
+    return low > 1e-3 * depth_ ? add(ray.foot + low * ray.direction, height_at(low)) : no_index;
+  }
+
+  // Finds the thinnest place between two sides that run in opposite directions.
+  void measure_strokes() {
+    made_.thinnest_mm = std::numeric_limits<double>::infinity();
+    constexpr double opposite = -.95, most_mm = 2;
+    for (const std::vector<Ray>& rays : loops_)
+      for (const Ray& ray : rays) {
+        if (!ray.is_on_side) continue;
+        double low = 0, high = most_mm / 2;
+        if (is_clear(ray, high)) continue;
+        for (int k = 0; k < halvings; ++k) {
+          const double middle = (low + high) / 2;
+          (is_clear(ray, middle) ? low : high) = middle;
+        }
+        const NearestSegment facing = grid_.nearest(ray.foot + high * ray.direction, high * (1 - 1e-9));
+        if (facing.segment == no_index) continue;
+        const Segment& side = grid_.segments()[facing.segment];
+        if (left_of(side.to - side.from).dot(ray.direction) < opposite)
+          made_.thinnest_mm = std::min(made_.thinnest_mm, 2 * high);
+      }
+  }
+
+  const RaisedShape& shape_;
+  double depth_;
+  SegmentGrid grid_;
+  double least_;  // points of levels and ridges keep this distance
+  NumberedPoints near_;
+  std::vector<std::vector<Ray>> loops_;
+  std::map<CornerKey, Index> feet_;
+  std::vector<std::vector<Index>> feet_of_;            // per loop and ray
+  std::vector<std::vector<std::vector<Index>>> tops_;  // per loop and ray, the points above its foot
+  ShapePoints made_;
+};
+
+}  // namespace
+
+std::vector<WallLevel> leaning_wall(double height_mm, double slope) {
+  return {{0, 0}, {std::abs(height_mm) / slope, height_mm}};
+}
+
+std::vector<WallLevel> round_wall(double height_mm, double radius_mm, double slope) {
+  const double most = radius_mm * std::tan(std::atan(slope) / 2);
+  const double height = std::min(std::abs(height_mm), most), sign = height_mm < 0 ? -1 : 1;
+  const double ball = (radius_mm * radius_mm + height * height) / (2 * height);
+  constexpr int steps = 6;
+  std::vector<WallLevel> levels;
+  for (int k = 0; k <= steps; ++k) {
+    const double across = radius_mm * std::cos(k * std::numbers::pi / 2 / steps);
+    const double rise = std::sqrt(ball * ball - across * across) - (ball - height);
+    levels.push_back({radius_mm - across, sign * std::max(0.0, rise)});
+  }
+  levels.front() = {0, 0};
+  levels.back() = {radius_mm, sign * height};
+  return levels;
+}
+
+ShapePoints points_of(const RaisedShape& shape) {
+  return ShapePointMaker(shape).make();
+}
+
+}  // namespace relievo

@@ -1,0 +1,30 @@
+// Shapes texts and outlines their glyphs by HarfBuzz, in the order of FriBidi. Tested by
+// tests/lettering/font_test.cpp.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "geometry/outline_union.h"
+#include "relievo/lettering/ornament.h"
+
+namespace relievo {
+
+// Glyphs that belong together, such as a letter with its marks. Coordinates begin at the line's start and its
+// baseline; the unit is the height of the font's capitals.
+struct GlyphCluster {
+  Outlines outlines;
+  double begin = 0, advance = 0;
+  bool is_joined = false;  // joined to its neighbours, as Arabic letters are
+};
+
+struct ShapedLine {
+  std::vector<GlyphCluster> clusters;  // from left to right
+  double advance = 0, x_height = 0;
+};
+
+// Returns the line of text in that font, or in the font inside the program. Curves become polygons that differ
+// from them by at most `tolerance`, in heights of capitals. Errors: those of check_text().
+Result<ShapedLine> shape_line(const Ornament& ornament, double tolerance);
+
+}  // namespace relievo

@@ -1,0 +1,17 @@
+// Puts letters, borders and drawings on the level ground of a plate. Tested by tests/plate/ornaments_test.cpp.
+#pragma once
+
+#include <span>
+
+#include "geometry/raised_shape.h"
+#include "plate/plate_ground.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// Replaces the level ground of a surface by ground with the shapes on it, which are in the surface's coordinates.
+// `inner` is the polygon inside the rim. All other triangles stay. Fills in `surface.ornaments`. Errors: kind
+// option if a shape touches the relief, the rim or another shape, or if the surface has no level ground.
+Result<void> add_shapes(Solid& surface, std::span<const RaisedShape> shapes, std::span<const Vec2> inner);
+
+}  // namespace relievo

@@ -1,0 +1,25 @@
+// Fuzz target of fonts: texts of several scripts are set in a font with these bytes.
+#include <cstdlib>
+#include <memory>
+#include <string_view>
+
+#include "fuzz/fuzz_program.h"
+#include "lettering/font.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace relievo;
+  const auto* const begin = reinterpret_cast<const std::byte*>(data);
+  const auto font = std::make_shared<const FontFile>("a.ttf", std::vector<std::byte>(begin, begin + size));
+  for (const char* const text : {"AV fi", "سلام 12", "क्षि"}) {
+    const auto line = shape_line({.text = text, .font = font}, .01);
+    if (!line && line.error().expected.empty()) std::abort();
+    if (!line) continue;
+    for (const GlyphCluster& cluster : line->clusters)
+      for (const auto& outline : cluster.outlines)
+        for (const Vec2& p : outline)
+          if (!p.allFinite()) std::abort();
+  }
+  return 0;
+}
+
+RELIEVO_RUN_FILES

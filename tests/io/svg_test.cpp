@@ -1,0 +1,94 @@
+#include "relievo/io/svg.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/outline_union.h"
+#include "geometry/plane.h"
+#include "support/results.h"
+
+namespace relievo {
+namespace {
+
+std::string svg_of(const std::string& path, const std::string& more = {}) {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\"><path " + more + " d=\"" + path + "\"/></svg>";
+}
+
+double area_of(const std::string& text) {
+  double twice = 0;
+  for (const Segment& s : union_boundary(value_of(read_svg(text, "a.svg")))) twice += cross(s.from, s.to);
+  return twice / 2;
+}
+
+void expect_same(const std::string& a, const std::string& b) {
+  const auto first = value_of(read_svg(svg_of(a), "a.svg")), second = value_of(read_svg(svg_of(b), "b.svg"));
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    ASSERT_EQ(first[i].size(), second[i].size());
+    for (std::size_t k = 0; k < first[i].size(); ++k) EXPECT_LT((first[i][k] - second[i][k]).norm(), 1e-9);
+  }
+}
+
+TEST(ReadSvg, TurnsYUp) {
+  const auto outlines = value_of(read_svg(svg_of("M0 0H30V10L0,10z"), "a.svg"));
+  ASSERT_EQ(outlines.size(), 1U);
+  EXPECT_EQ(outlines[0], (std::vector<Vec2>{{0, 0}, {30, 0}, {30, -10}, {0, -10}}));
+}
+
+TEST(ReadSvg, RelativeCommandsMeanTheSame) {
+  expect_same("M10 20 L30 20 L30 40 Z", "m10,20 l20,0 0,20z");
+  expect_same("M10 20 H30 V40 Z", "m10 20h20v20z");
+  expect_same("M1 2 C3 4 5 6 7 2 S9 9 1 9 Z", "m1 2c2 2 4 4 6 0s2 7-6 7z");
+  expect_same("M1 2 Q3 7 7 2 T9 9 Z", "m1 2q2 5 6 0t2 7z");
+  expect_same("M1 2 A3 4 30 0 1 7 2 Z", "m1 2a3 4 30 016 0z");
+}
+
+TEST(ReadSvg, SmoothCommandsMirrorTheLastControlPoint) {
+  expect_same("M0 0C0 5 5 5 5 0S10-5 10 0Z", "M0 0C0 5 5 5 5 0C5-5 10-5 10 0Z");
+  expect_same("M0 0Q2 5 5 0T10 0Z", "M0 0Q2 5 5 0Q8-5 10 0Z");
+}
+
+TEST(ReadSvg, ArcsAreEllipses) {
+  EXPECT_NEAR(area_of(svg_of("M-3 0A3 2 0 0 1 3 0A3 2 0 0 1-3 0Z")), 6 * std::numbers::pi, .01);
+  // Of the two arcs over a chord as long as the radius, one covers a sixth of the disc without its triangle.
+  const double segment = std::numbers::pi / 6 * 100 - std::sqrt(3.) / 4 * 100;
+  EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 0 1 10 0Z")), segment, .05);
+  EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 1 1 10 0Z")), 100 * std::numbers::pi - segment, .3);
+  // Radii that are too small grow until the arc reaches.
+  EXPECT_NEAR(area_of(svg_of("M0 0A1 1 0 0 1 10 0Z")), 12.5 * std::numbers::pi, .02);
+}
+
+TEST(ReadSvg, FollowsTheFillRule) {
+  const std::string nested = "M0 0H10V10H0ZM2 2H8V8H2Z";
+  EXPECT_NEAR(area_of(svg_of(nested)), 100, 1e-9);
+  EXPECT_NEAR(area_of(svg_of(nested, "fill-rule=\"evenodd\"")), 64, 1e-9);
+  EXPECT_NEAR(area_of(svg_of(nested, "style=\"stroke:none; fill-rule:evenodd\"")), 64, 1e-9);
+}
+
+TEST(ReadSvg, LeavesOutWhatIsNotFilled) {
+  const std::string text =
+      "<svg><defs><path d=\"M0 0H9V9Z\"/></defs><g style=\"fill:none\"><path d=\"M0 0H5V5Z\"/></g>"
+      "<path d=\"M0 0H1V1H0Z\"/></svg>";
+  EXPECT_NEAR(area_of(text), 1, 1e-9);
+  expect_error(read_svg(svg_of("M0 0H5V5Z", "fill=\"none\""), "a.svg"), "expected a filled path, found none");
+}
+
+TEST(ReadSvg, ALineAfterAClosedOutlineBeginsWhereThatBegan) {
+  expect_same("M1 1H5V5ZL1 9L0 9Z", "M1 1H5V5ZM1 1L1 9L0 9Z");
+}
+
+TEST(ReadSvg, RefusesWhatItDoesNotRead) {
+  expect_error(read_svg("<html/>", "a.svg"), "expected svg, found html");
+  expect_error(read_svg("<svg><rect/></svg>", "a.svg"), "expected paths alone, found rect");
+  expect_error(read_svg(svg_of("M0 0H9V9Z", "transform=\"scale(2)\""), "a.svg"),
+               "expected paths without transform, found one on path");
+  expect_error(read_svg(svg_of("M0 0L9"), "a.svg"), "expected numbers of the command");
+  expect_error(read_svg(svg_of("9 9L3 3"), "a.svg"), "expected a command, found '9 9L3 3'");
+  expect_error(read_svg(svg_of("M0 0L1e300 4Z"), "a.svg"), "expected numbers");
+  expect_error(read_svg("no svg", "a.svg"), ErrorKind::input, "a.svg");
+}
+
+}  // namespace
+}  // namespace relievo
