@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <span>
-#include <tuple>
-#include <vector>
+#include <utility>
 
+#include "core/groups.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -18,9 +18,6 @@ struct TriangleSide {
 
   Index low() const { return std::min(from, to); }
   Index high() const { return std::max(from, to); }
-  bool is_on_edge_of(const TriangleSide& other) const {
-    return low() == other.low() && high() == other.high();
-  }
 };
 
 // Calls f(sides) for each edge. The edges are ordered by their lower end, then by their higher end. `sides`
@@ -28,20 +25,26 @@ struct TriangleSide {
 // such a side is skipped.
 template <typename IsWanted, typename F>
 void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f) {
-  std::vector<TriangleSide> sides;
-  for (Index t = 0; t < triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Triangle& corners = triangles[t];
-      const TriangleSide side{corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], t};
-      if (is_wanted(side)) sides.push_back(side);
+  Index points = 0;
+  for (const Triangle& corners : triangles) points = std::max(points, 1 + std::ranges::max(corners));
+  auto by_low_end = grouped<TriangleSide>(points, [&](auto&& add) {
+    for (Index t = 0; t < triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Triangle& corners = triangles[t];
+        const TriangleSide side{corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], t};
+        if (is_wanted(side)) add(side.low(), side);
+      }
+  });
+  for (Index low = 0; low < points; ++low) {
+    const auto sides = std::span(by_low_end.items)
+                           .subspan(by_low_end.begin[low], by_low_end.begin[low + 1] - by_low_end.begin[low]);
+    std::ranges::sort(sides, {}, [](const TriangleSide& s) { return std::pair(s.high(), s.triangle); });
+    for (auto begin = sides.begin(); begin != sides.end();) {
+      const auto end = std::find_if_not(begin, sides.end(),
+                                        [&](const TriangleSide& s) { return s.high() == begin->high(); });
+      f(std::span<const TriangleSide>(begin, end));
+      begin = end;
     }
-  std::ranges::sort(sides, {},
-                    [](const TriangleSide& s) { return std::tuple(s.low(), s.high(), s.triangle); });
-  for (auto begin = sides.begin(); begin != sides.end();) {
-    const auto end = std::find_if_not(begin, sides.end(),
-                                      [&](const TriangleSide& side) { return side.is_on_edge_of(*begin); });
-    f(std::span<const TriangleSide>(begin, end));
-    begin = end;
   }
 }
 

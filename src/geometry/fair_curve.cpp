@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/plane.h"
+#include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
@@ -30,6 +31,10 @@ class Course {
   double begin() const { return begin_; }
   double end() const { return end_; }
   double length() const { return end_ - begin_; }
+  // Returns the length at step k of so many equal ones.
+  double at(std::size_t k, std::size_t steps) const {
+    return begin_ + length() * static_cast<double>(k) / static_cast<double>(steps);
+  }
   bool is_closed() const { return is_closed_; }
   std::vector<Sample>& samples() { return samples_; }
 
@@ -136,10 +141,9 @@ std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(8, std::lround(course.length() / (.5 * options.spacing)));
   const Piece whole = course.is_closed() ? Piece{} : Piece{course.begin(), course.end()};
   std::vector<Vec2> line(steps + (course.is_closed() ? 0 : 1));
-  for (std::size_t k = 0; k < line.size(); ++k)
-    line[k] =
-        fitted(course, course.begin() + course.length() * static_cast<double>(k) / static_cast<double>(steps),
-               whole, options.window);
+  parallel_for(
+      line.size(),
+      [&](std::size_t k) { line[k] = fitted(course, course.at(k, steps), whole, options.window); }, 64);
   return line;
 }
 
@@ -276,17 +280,22 @@ bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> d
 // sharpest is returned. A corner's length is that of the nearest place on the drawn curve.
 std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
-  std::vector<Corner> found, corners;
-  std::vector<double> lengths;
-  std::vector<Vec2> drawn;
-  for (std::size_t k = 0; k < steps; ++k) {
-    const double at = course.begin() + course.length() * static_cast<double>(k) / static_cast<double>(steps);
-    lengths.push_back(at);
-    drawn.push_back(fitted(course, at, {}, options.window));
-    const Corner corner = corner_at(course, at, options);
-    if (corner.turn > 0 && (corner.place - drawn.back()).norm() < options.window) found.push_back(corner);
-  }
-  std::erase_if(found, [&](const Corner& c) { return !is_confirmed(course, c, drawn, options.window); });
+  std::vector<Corner> found(steps), corners;
+  std::vector<double> lengths(steps);
+  std::vector<Vec2> drawn(steps);
+  parallel_for(
+      steps,
+      [&](std::size_t k) {
+        lengths[k] = course.at(k, steps);
+        drawn[k] = fitted(course, lengths[k], {}, options.window);
+        found[k] = corner_at(course, lengths[k], options);
+        const bool is_near = found[k].turn > 0 && (found[k].place - drawn[k]).norm() < options.window;
+        if (!is_near) found[k].turn = 0;
+      },
+      64);
+  std::erase_if(found, [&](const Corner& corner) {
+    return corner.turn == 0 || !is_confirmed(course, corner, drawn, options.window);
+  });
   const auto apart = [&](double a, double b) {
     const double d = std::abs(a - b);
     return course.is_closed() ? std::min(d, course.length() - d) : d;

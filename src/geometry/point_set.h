@@ -3,46 +3,66 @@
 
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "relievo/core/types.h"
 
 namespace relievo {
 
-// Points in the square cells of a grid without bounds. Queries look into the neighbouring cells, too.
+// Points in the square cells of a grid without bounds. Queries look into the cells within reach. Cells share
+// buckets, about one for each point; a query then also looks at points of other cells, which are far away.
 class PointSet {
  public:
-  explicit PointSet(double cell) : cell_(cell) {}
+  explicit PointSet(double cell) : cell_(cell), first_(16, no_index) {}
 
   // Adds a point unless a point of the set is nearer than `distance`, which is at most the width of a cell.
   // Returns whether the point was added.
   bool add(const Vec2& p, double distance) {
-    if (is_near(p, distance)) return false;
-    cells_[key(cell_of(p.x()), cell_of(p.y()))].push_back(p);
+    if (distance > 0 && is_near(p, distance)) return false;
+    if (points_.size() == first_.size()) double_buckets();
+    points_.push_back({p, no_index});
+    link(static_cast<Index>(points_.size() - 1));
     return true;
   }
 
   bool is_near(const Vec2& p, double distance) const {
-    const std::int64_t x = cell_of(p.x()), y = cell_of(p.y());
-    for (std::int64_t j = y - 1; j <= y + 1; ++j)
-      for (std::int64_t i = x - 1; i <= x + 1; ++i) {
-        const auto found = cells_.find(key(i, j));
-        if (found == cells_.end()) continue;
-        for (const Vec2& q : found->second)
-          if ((p - q).norm() < distance) return true;
-      }
+    const std::int64_t left = cell_of(p.x() - distance), right = cell_of(p.x() + distance),
+                       top = cell_of(p.y() + distance);
+    for (std::int64_t y = cell_of(p.y() - distance); y <= top; ++y)
+      for (std::int64_t x = left; x <= right; ++x)
+        for (Index i = first_[bucket(x, y)]; i != no_index; i = points_[i].next)
+          if ((p - points_[i].place).norm() < distance) return true;
     return false;
   }
 
  private:
+  struct Member {
+    Vec2 place;
+    Index next;  // in the same bucket
+  };
+
   std::int64_t cell_of(double v) const { return static_cast<std::int64_t>(std::floor(v / cell_)); }
-  static std::uint64_t key(std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(y);
+
+  // Neighbouring cells of a row have neighbouring buckets. The number of buckets is a power of two.
+  std::size_t bucket(std::int64_t x, std::int64_t y) const {
+    return (static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(y) * 0x9E3779B97F4A7C15U) &
+           (first_.size() - 1);
+  }
+
+  void link(Index i) {
+    const Vec2& p = points_[i].place;
+    points_[i].next = std::exchange(first_[bucket(cell_of(p.x()), cell_of(p.y()))], i);
+  }
+
+  void double_buckets() {
+    first_.assign(2 * first_.size(), no_index);
+    for (Index i = 0; i < points_.size(); ++i) link(i);
   }
 
   double cell_;
-  std::unordered_map<std::uint64_t, std::vector<Vec2>> cells_;
+  std::vector<Index> first_;  // first point of each bucket
+  std::vector<Member> points_;
 };
 
 }  // namespace relievo

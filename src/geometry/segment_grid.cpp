@@ -37,7 +37,7 @@ SegmentGrid::SegmentGrid(std::vector<Segment> segments, double cell)
 
 SegmentGrid::Cells SegmentGrid::cells_of(const Vec2& low, const Vec2& high) const {
   const auto at = [&](double v, double origin, int count) {
-    return static_cast<int>(std::clamp(std::floor((v - origin) / cell_), -1.0, static_cast<double>(count)));
+    return static_cast<int>(std::clamp((v - origin) / cell_, -1.0, static_cast<double>(count)));
   };
   return {std::max(0, at(low.x(), origin_.x(), width_)), std::max(0, at(low.y(), origin_.y(), height_)),
           std::min(width_ - 1, at(high.x(), origin_.x(), width_)),

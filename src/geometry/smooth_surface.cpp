@@ -1,7 +1,7 @@
 #include "geometry/smooth_surface.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/groups.h"
@@ -22,6 +22,47 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
+// A least squares fit of x^2, x y, y^2, x and y, in this order, to heights around the origin. Nearer ones count more.
+class Quadratic {
+ public:
+  void add(double x, double y, double z) {
+    const std::array<double, terms> row{x * x, x * y, y * y, x, y};
+    const double weight = 1 / (x * x + y * y + .05);
+    for (std::size_t i = 0; i < terms; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) moments_[i][j] += weight * row[i] * row[j];
+      products_[i] += weight * row[i] * z;
+    }
+  }
+
+  // Returns the factors of x and y: solves by L D L^T, whose last two unknowns need no others.
+  Vec2 slope() const {
+    std::array<std::array<double, terms>, terms> l = moments_;
+    std::array<double, terms> d, rest = products_;
+    // A small amount of bending energy keeps the system solvable where neighbours lie on two lines.
+    for (std::size_t i = 0; i < 3; ++i) l[i][i] += 1e-3 * moments_[3][3] + 1e-12;
+    for (std::size_t i = 0; i < terms; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t k = 0; k < j; ++k)
+          l[i][j] -= l[i][k] * l[j][k];  // l[i][k] still has the factor d[k]
+        rest[i] -= l[i][j] / d[j] * rest[j];
+      }
+      for (std::size_t j = 0; j < i; ++j) {
+        const double factor = l[i][j] / d[j];
+        l[i][i] -= factor * l[i][j];
+        l[i][j] = factor;
+      }
+      d[i] = l[i][i];
+    }
+    const double y = rest[4] / d[4];
+    return {rest[3] / d[3] - l[4][3] * y, y};
+  }
+
+ private:
+  static constexpr std::size_t terms = 5;
+  std::array<std::array<double, terms>, terms> moments_{};  // the lower triangle
+  std::array<double, terms> products_{};
+};
+
 // Returns the slope at the point `centre` of the quadratic through this point that best fits the neighbours;
 // `fallback` if there are too few neighbours.
 Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
@@ -32,20 +73,12 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
     radius_sq = std::max(radius_sq, (points[j] - points[centre]).head<2>().squaredNorm());
   const double unit = std::sqrt(radius_sq);
   if (!(unit > 0)) return fallback;
-  Eigen::Matrix<double, 5, 5> moments = Eigen::Matrix<double, 5, 5>::Zero();
-  Eigen::Matrix<double, 5, 1> products = Eigen::Matrix<double, 5, 1>::Zero(), row;
+  Quadratic fit;
   for (const Index j : neighbours) {
     const Vec3 step = points[j] - points[centre];
-    const double x = step.x() / unit, y = step.y() / unit;
-    row << x, y, x * x, x * y, y * y;
-    const double weight = 1 / (x * x + y * y + .05);
-    moments += weight * row * row.transpose();
-    products += weight * step.z() * row;
+    fit.add(step.x() / unit, step.y() / unit, step.z());
   }
-  // A small amount of bending energy keeps the system solvable where neighbours lie on two lines.
-  for (int i = 2; i < 5; ++i) moments(i, i) += 1e-3 * moments(0, 0) + 1e-12;
-  const Eigen::Matrix<double, 5, 1> fit = moments.ldlt().solve(products);
-  const Vec2 slope = fit.head<2>() / unit;
+  const Vec2 slope = fit.slope() / unit;
   return slope.allFinite() ? slope : fallback;
 }
 
@@ -120,14 +153,36 @@ Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
 }
 
+// Returns a flag for each point that smooth triangles touch but do not enclose. Around an enclosed point each
+// neighbour follows the point in one triangle and precedes it in another.
+std::vector<std::uint8_t> SmoothSurface::open_points() const {
+  // Without scattering, the sums of different numbers would often be equal.
+  const auto scattered = [](Index i) { return i * 2654435761U ^ i * 2654435761U >> 15; };
+  std::vector<Index> balance(points_.size(), 0);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (!is_smooth_[t]) continue;
+    const auto& [a, b, c] = triangles_[t];
+    const Index of_a = scattered(a), of_b = scattered(b), of_c = scattered(c);
+    balance[a] += of_b - of_c, balance[b] += of_c - of_a, balance[c] += of_a - of_b;
+  }
+  std::vector<std::uint8_t> is_open(balance.size());
+  for (std::size_t i = 0; i < balance.size(); ++i) is_open[i] = balance[i] != 0;
+  return is_open;
+}
+
 void SmoothSurface::find_slopes() {
   const auto around = grouped<Index>(points_.size(), [&](auto&& add) {
     for (Index t = 0; t < triangles_.size(); ++t)
       if (is_smooth_[t])
         for (const Index i : triangles_[t]) add(i, t);
   });
+  const std::vector<std::uint8_t> is_open = open_points();
   const auto add_ring = [&](Index i, std::vector<Index>& ring) {
-    for (const Index t : around[i]) ring.insert(ring.end(), triangles_[t].begin(), triangles_[t].end());
+    for (const Index t : around[i]) {
+      const auto& [a, b, c] = triangles_[t];
+      ring.push_back(i == a ? b : i == b ? c : a);
+      if (is_open[i]) ring.push_back(i == a ? c : i == b ? a : b);
+    }
   };
   const auto leave_one_of_each = [](std::vector<Index>& ring) {
     std::ranges::sort(ring);
@@ -138,14 +193,15 @@ void SmoothSurface::find_slopes() {
     std::vector<Vec2> slopes;
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       if (around[i].empty()) continue;
-      near.clear(), all.clear();
+      near.clear();
       add_ring(i, near);
       leave_one_of_each(near);
+      all = near;
       for (const Index j : near) add_ring(j, all);
       leave_one_of_each(all);
       std::erase(all, i);
       Fan fan{around[i], slopes};
-      fan.is_closed = near.size() == around[i].size() + 1;
+      fan.is_closed = !is_open[i];
       measure(fan);
       slopes_[i] = limited(fitted_slope(points_, i, all, fan.mean), fan);
     }

@@ -39,6 +39,7 @@ class SmoothSurface {
   struct Element;
   struct Fan;
 
+  std::vector<std::uint8_t> open_points() const;
   void find_slopes();
   void measure(Fan& fan) const;
   static Vec2 limited(const Vec2& slope, const Fan& fan);

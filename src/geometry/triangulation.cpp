@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "geometry/delaunay_builder.h"
 #include "geometry/hilbert.h"
 #include "geometry/predicates.h"
 
@@ -20,14 +21,6 @@ namespace {
 constexpr Index infinity = no_index;
 constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 2 n triangles of 4 slots each, in 32 bits
 
-// A triangle's side, from `origin` counter-clockwise to the next corner.
-struct HalfEdge {
-  Index origin;
-  Index twin;  // the same side seen from the neighbour
-};
-
-// Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2. The fourth slot is unused: it makes the arithmetic
-// cheap, and no triangle straddles a cache line.
 constexpr Index next(Index e) {
   return (e & 3) == 2 ? e - 2 : e + 1;
 }
@@ -35,50 +28,13 @@ constexpr Index previous(Index e) {
   return (e & 3) == 0 ? e + 2 : e - 1;
 }
 
-class Builder {
- public:
-  // `points` are in the order of the curve; `names` are the numbers of these points in the result.
-  Builder(const std::vector<Vec2>& points, std::vector<Index> names)
-      : points_(points), names_(std::move(names)) {}
+}  // namespace
 
-  // Finds three points that span a triangle and starts from that triangle. Returns false if there are none.
-  bool start();
-  void insert(Index p);
-  Triangulation result() const;
-
- private:
-  bool is_ghost(Index e) const;
-  Index locate(const Vec2& p) const;
-  Index vertex_at(const Vec2& p, Index e) const;
-  bool circle_contains(Index e, const Vec2& p) const;
-  void link(Index e, Index f) { edges_[e].twin = f, edges_[f].twin = e; }
-  void add_triangle(Index a, Index b, Index c);
-  Index split(Index e, Index p);
-  void flip(Index e);
-  // Returns slot 0 of the next triangle around the newest point, given slot 0 of one. These triangles have
-  // the newest point at slot 2.
-  Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
-
-  std::vector<Index> number_triangles() const;
-  void append_triangle(Index t, const std::vector<Index>& numbers, Triangulation& to) const;
-  std::vector<Index> hull() const;
-
-  const std::vector<Vec2>& points_;
-  std::vector<Index> names_;
-  std::vector<HalfEdge> edges_;
-  Index near_ = 0;  // a half-edge of a real triangle at the last inserted point
-};
-
-bool Builder::is_ghost(Index e) const {
-  const Index t = e & ~Index{3};
-  return edges_[t].origin == infinity || edges_[t + 1].origin == infinity || edges_[t + 2].origin == infinity;
-}
-
-void Builder::add_triangle(Index a, Index b, Index c) {
+void DelaunayBuilder::add_triangle(Index a, Index b, Index c) {
   for (const Index corner : {a, b, c, infinity}) edges_.push_back({corner, no_index});
 }
 
-bool Builder::start() {
+bool DelaunayBuilder::start() {
   const Index n = static_cast<Index>(points_.size());
   Index b = 1, c = 2;
   while (b < n && points_[b] == points_[0]) ++b;
@@ -102,7 +58,7 @@ bool Builder::start() {
 // that has p strictly outside. In a Delaunay triangulation the walk never returns to a triangle: the power of
 // p with respect to the circles decreases with each step, and triangles with a common circle are linked as a
 // tree.
-Index Builder::locate(const Vec2& p) const {
+Index DelaunayBuilder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
   };
@@ -121,7 +77,7 @@ Index Builder::locate(const Vec2& p) const {
 }
 
 // Returns the corner of e's triangle that lies at p, or no_index.
-Index Builder::vertex_at(const Vec2& p, Index e) const {
+Index DelaunayBuilder::vertex_at(const Vec2& p, Index e) const {
   for (const Index corner : {edges_[e].origin, edges_[next(e)].origin, edges_[previous(e)].origin}) {
     if (corner != infinity && points_[corner] == p) return corner;
   }
@@ -130,7 +86,7 @@ Index Builder::vertex_at(const Vec2& p, Index e) const {
 
 // Returns whether p is strictly inside the circle of e's triangle. For a ghost, returns whether p is in the
 // open half-plane or on the open edge.
-bool Builder::circle_contains(Index e, const Vec2& p) const {
+bool DelaunayBuilder::circle_contains(Index e, const Vec2& p) const {
   const Index a = edges_[e].origin, b = edges_[next(e)].origin, c = edges_[previous(e)].origin;
   if (a != infinity && b != infinity && c != infinity) {
     return incircle(points_[a], points_[b], points_[c], p) > 0;
@@ -143,7 +99,7 @@ bool Builder::circle_contains(Index e, const Vec2& p) const {
 
 // Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one triangle is
 // flat. The flips remove it, because p is inside the circle beyond that side.
-Index Builder::split(Index e, Index p) {
+Index DelaunayBuilder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
   const Index bc = edges_[t + 1].twin, ca = edges_[t + 2].twin;
@@ -160,7 +116,7 @@ Index Builder::split(Index e, Index p) {
 
 // Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), where d is the corner beyond it. The new
 // triangles are (a, d, p) and (d, b, p).
-void Builder::flip(Index e) {
+void DelaunayBuilder::flip(Index e) {
   const Index t = e, f = edges_[e].twin, u = f & ~Index{3};
   const Index b = edges_[f].origin, d = edges_[previous(f)].origin, p = edges_[t + 2].origin;
   const Index ad = edges_[next(f)].twin, db = edges_[previous(f)].twin, bp = edges_[t + 1].twin;
@@ -174,12 +130,18 @@ void Builder::flip(Index e) {
   link(t + 1, u + 2);
 }
 
-void Builder::insert(Index p) {
+bool DelaunayBuilder::insert_added(Index p, Index triangle) {
+  names_.push_back(p);
+  if (!is_outside(triangle)) near_ = 4 * triangle;
+  return insert(p);
+}
+
+bool DelaunayBuilder::insert(Index p) {
   const Vec2 position = points_[p];
   Index e = locate(position);
   if (const Index same = vertex_at(position, e); same != no_index) {
     names_[same] = std::min(names_[same], names_[p]);
-    return;
+    return false;
   }
   e = split(e, p);
   const Index first = edges_[e].origin;  // stays a neighbour of p, so that the round ends
@@ -189,17 +151,18 @@ void Builder::insert(Index p) {
   } while (edges_[e].origin != first);
   while (is_ghost(e)) e = next_around(e);
   near_ = e;
+  return true;
 }
 
 // Returns each triangle's number in the result, no_index for ghosts.
-std::vector<Index> Builder::number_triangles() const {
+std::vector<Index> DelaunayBuilder::number_triangles() const {
   std::vector<Index> numbers(edges_.size() / 4);
   Index count = 0;
   for (Index t = 0; t < numbers.size(); ++t) numbers[t] = is_ghost(4 * t) ? no_index : count++;
   return numbers;
 }
 
-void Builder::append_triangle(Index t, const std::vector<Index>& numbers, Triangulation& to) const {
+void DelaunayBuilder::append_triangle(Index t, const std::vector<Index>& numbers, Triangulation& to) const {
   Triangle corners, neighbours;
   for (Index i = 0; i < 3; ++i) {
     corners[i] = names_[edges_[4 * t + i].origin];
@@ -210,7 +173,7 @@ void Builder::append_triangle(Index t, const std::vector<Index>& numbers, Triang
 }
 
 // Goes around the vertex at infinity, from ghost to ghost.
-std::vector<Index> Builder::hull() const {
+std::vector<Index> DelaunayBuilder::hull() const {
   std::vector<Index> vertices;
   Index e = 0;
   while (edges_[e].origin != infinity || (e & 3) == 3) ++e;
@@ -222,7 +185,7 @@ std::vector<Index> Builder::hull() const {
   return vertices;
 }
 
-Triangulation Builder::result() const {
+Triangulation DelaunayBuilder::result() const {
   const std::vector<Index> numbers = number_triangles();
   Triangulation triangulation;
   triangulation.hull = hull();
@@ -235,15 +198,13 @@ Triangulation Builder::result() const {
   return triangulation;
 }
 
-}  // namespace
-
 Triangulation delaunay(std::span<const Vec2> points) {
   if (points.size() > most_points || !std::all_of(points.begin(), points.end(), is_exact_point)) return {};
 
   const std::vector<Index> order = hilbert_order(points);
   std::vector<Vec2> sorted(points.size());
   std::transform(order.begin(), order.end(), sorted.begin(), [&](Index i) { return points[i]; });
-  Builder builder(sorted, order);
+  DelaunayBuilder builder(sorted, order);
   if (!builder.start()) return {};
 
   // Inserts every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even

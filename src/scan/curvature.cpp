@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/quantile.h"
+#include "geometry/near_search.h"
 #include "relievo/core/parallel.h"
 #include "scan/measure_with_tree.h"
 
@@ -54,19 +55,22 @@ double fitted_curvature(std::span<const Neighbour> neighbours, double radius) {
 class CurvatureEstimator {
  public:
   CurvatureEstimator(const SearchableCloud& searchable, const CurvatureOptions& options)
-      : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options), tree_(searchable.tree) {}
+      : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options) {}
 
-  double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<Neighbour>& neighbours) const {
-    // The spacing is at least rho: near coincident points the local spacing is almost 0, and the fit would
-    // see only noise.
-    const double h = options_.scale * std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
-    tree_.within(cloud_.points[i], support * h, matches);
+  // The ball whose points count. The spacing is at least rho: near coincident points the local spacing is almost
+  // 0, and the fit would see only noise.
+  NearSearch<Vec3>::Ball ball(Index i) const {
+    const double unit = std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
+    return {cloud_.points[i], support * options_.scale * unit};
+  }
+
+  double at(Index i, std::span<const Index> near, std::vector<Neighbour>& neighbours) const {
     neighbours.clear();
-    for (const auto& [j, distance_sq] : matches) {
+    for (const Index j : near) {
       if (cloud_.normals[j].dot(cloud_.normals[i]) <= 0) continue;
       neighbours.push_back({cloud_.points[i] - cloud_.points[j], cloud_.normals[j].cast<double>()});
     }
-    const double k = fitted_curvature(neighbours, support * h);
+    const double k = fitted_curvature(neighbours, ball(i).radius);
     // Points at a distance of rho cannot resolve a smaller radius of curvature.
     return std::clamp(k, -1 / spacing_.rho, 1 / spacing_.rho);
   }
@@ -75,7 +79,6 @@ class CurvatureEstimator {
   const Cloud& cloud_;
   const Spacing& spacing_;
   const CurvatureOptions& options_;
-  const KdTree<Vec3>& tree_;
 };
 
 }  // namespace
@@ -91,10 +94,14 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
   if (!searchable.cloud.has_normals() || !(searchable.spacing.rho > 0)) return curvature;
   const CurvatureEstimator estimator(searchable, options);
   parallel_ranges(queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    std::vector<KdTree<Vec3>::Match> matches;
-    std::vector<Neighbour> neighbours;
     if (progress && progress->is_cancelled()) return;
-    for (std::size_t q = begin; q < end; ++q) curvature[q] = estimator.at(queries[q], matches, neighbours);
+    NearSearch<Vec3> search(searchable.tree, searchable.cloud.points);
+    std::vector<Neighbour> neighbours;
+    search.each(
+        begin, end, [&](std::size_t q) { return estimator.ball(queries[q]); },
+        [&](std::size_t q, std::span<const Index> near) {
+          curvature[q] = estimator.at(queries[q], near, neighbours);
+        });
   });
   return curvature;
 }

@@ -1,7 +1,7 @@
 // Weighted least squares fits at scattered points in the plane, of values that vary linearly there.
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "relievo/core/types.h"
@@ -45,7 +45,7 @@ class LinearField {
         .5 * (spread.trace() -
               std::sqrt(std::max(0.0, spread.trace() * spread.trace() - 4 * spread.determinant())));
     if (least < .01 || centre.norm() > 3 * std::sqrt(least)) return fit;
-    const Eigen::Matrix<double, 3, Values> field = moments_.ldlt().solve(products_);
+    const Eigen::Matrix<double, 3, Values> field = moments_.inverse() * products_;
     fit.value = field.row(0).transpose();
     fit.gradient = field.template bottomRows<2>() / radius_;
     fit.is_sloped = true;

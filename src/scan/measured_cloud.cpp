@@ -147,8 +147,10 @@ void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
   removed_noise_ = view.noise_to_remove(measured_noise_);
   if (removed_noise_ == 0) return;
-  relievo::remove_noise(cloud_, spacing_, removed_noise_, progress);
+  CleanPoints clean = without_noise({cloud_, spacing_, *tree_}, removed_noise_, progress);
   if (progress && progress->is_cancelled()) return;
+  cloud_.points = std::move(clean.points);
+  cloud_.normals = std::move(clean.normals);
   tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
 }
 

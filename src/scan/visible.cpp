@@ -5,7 +5,6 @@
 
 #include "core/disjoint_sets.h"
 #include "core/lists.h"
-#include "geometry/neighbours.h"
 #include "geometry/point_set.h"
 #include "relievo/core/parallel.h"
 #include "scan/depth_buffer.h"
@@ -155,19 +154,15 @@ VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing) {
 std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
                                     std::span<const Index> visible) {
   if (!viewed.has_normals()) return {};
-  std::vector<Vec2> seen(visible.size());
-  std::transform(visible.begin(), visible.end(), seen.begin(),
-                 [&](Index i) { return viewed.points[i].head<2>(); });
-  const KdTree<Vec2> tree(seen);
+  const auto place = [&](std::size_t i) -> Vec2 { return viewed.points[i].head<2>(); };
   const double radius = ScanLimits::hole_fill_distance * spacing.rho;
+  PointSet seen(radius);
+  for (const Index i : visible) seen.add(place(i), 0);
   std::vector<std::uint8_t> is_far(viewed.size(), 0);
   parallel_for(viewed.size(), [&](std::size_t i) {
-    Index nearest;
-    double distance_sq;
-    if (viewed.normals[i].z() > 0 || !tree.nearest(viewed.points[i].head<2>(), 1, &nearest, &distance_sq))
-      return;
-    is_far[i] = distance_sq > radius * radius &&
-                static_cast<double>(spacing.local[i]) < sparsest_hole_fill * spacing.rho;
+    is_far[i] = viewed.normals[i].z() <= 0 && !visible.empty() &&
+                static_cast<double>(spacing.local[i]) < sparsest_hole_fill * spacing.rho &&
+                !seen.is_near(place(i), radius);
   });
   std::vector<Index> hole_fill;
   for (Index i = 0; i < viewed.size(); ++i)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "geometry/delaunay_builder.h"
 #include "support/delaunay_check.h"
 #include "support/planar_points.h"
 
@@ -307,6 +308,30 @@ TEST(Delaunay, ChoosesTheSameDiagonalsEverywhere) {
 \/\//
 /\/\\
 )");
+}
+
+// After each insertion the triangulation is that of the points so far, and only triangles that
+// each_around_newest() names have other corners than before.
+TEST(DelaunayBuilder, GrowsPointByPoint) {
+  const Points all = random_points(300, 17);
+  Points points(all.begin(), all.begin() + 3);
+  DelaunayBuilder builder(points, {0, 1, 2});
+  ASSERT_TRUE(builder.start());
+  std::vector<Triangle> corners;
+  for (Index i = 3; i < all.size(); ++i) {
+    points.push_back(all[i]);
+    corners.resize(builder.size());
+    for (Index t = 0; t < builder.size(); ++t) corners[t] = builder.corners(t);
+    ASSERT_TRUE(builder.insert_added(i, i * 7 % builder.size()));
+    std::set<Index> changed;
+    builder.each_around_newest([&](Index t) { changed.insert(t); });
+    for (Index t = 0; t < builder.size(); ++t)
+      ASSERT_TRUE(changed.contains(t) || (t < corners.size() && builder.corners(t) == corners[t])) << i;
+  }
+  EXPECT_EQ(delaunay_fault(all, builder.result()), "");
+  EXPECT_EQ(sorted_triangles(builder.result()), sorted_triangles(delaunay(all)));
+  points.push_back(all[5]);
+  EXPECT_FALSE(builder.insert_added(static_cast<Index>(all.size()), 0));
 }
 
 }  // namespace

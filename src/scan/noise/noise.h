@@ -4,6 +4,7 @@
 #include "relievo/core/progress.h"
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/spacing.h"
+#include "scan/measure_with_tree.h"
 
 namespace relievo {
 
@@ -22,5 +23,15 @@ double measure_noise(const Cloud& cloud, const Spacing& spacing);
 // kernel regression", 2009; there the fit is constant, which flattens curved parts). Leaves the cloud as it
 // was if the progress is cancelled.
 void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress = nullptr);
+
+// The points of a cloud, and their normals.
+struct CleanPoints {
+  std::vector<Vec3> points;
+  std::vector<Vec3f> normals;
+};
+
+// Returns what remove_noise() changes the points and normals to. The cloud must have normals, and its rho be
+// greater than 0. The result is not usable once the progress is cancelled.
+CleanPoints without_noise(const SearchableCloud& scan, double noise, const Progress* progress);
 
 }  // namespace relievo

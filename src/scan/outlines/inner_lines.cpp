@@ -1,6 +1,6 @@
 #include "scan/outlines/inner_lines.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,7 +120,7 @@ class ChangeFinder {
       const double weights = moments(0, 0);  // normals have unit length, so this is the sum of their squares
       Mat3 stiff = moments;
       stiff(1, 1) += stiffness * weights, stiff(2, 2) += stiffness * weights;
-      const Mat3 field = stiff.ldlt().solve(products);
+      const Mat3 field = stiff.inverse() * products;
       normal = field.row(0).transpose().normalized();
       of_normals =
           weights - 2 * field.cwiseProduct(products).sum() + field.cwiseProduct(moments * field).sum();

@@ -155,10 +155,8 @@ class NewSurface {
 
   void add_new(const std::vector<RowPoint>& rows) {
     const SideInterpolation interpolation({surface_, plane_, measures_, grid_, outline_distance_});
-    std::vector<SideInterpolation::Value> values(rows.size());
-    parallel_for(
-        rows.size(), [&](std::size_t r) { values[r] = interpolation.at(rows[r]); }, 256);
-    values = smoothed_along_rows(rows, std::move(values), surface_.rho);
+    const std::vector<SideInterpolation::Value> values =
+        smoothed_along_rows(rows, interpolation.at(rows), surface_.rho);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const SideInterpolation::Value& value = values[r];
       if (!value.is_known) continue;

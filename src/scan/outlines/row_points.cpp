@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/near_search.h"
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
 #include "scan/linear_field.h"
@@ -141,13 +142,31 @@ SideInterpolation::SideInterpolation(const Input& input)
       plane_(input.plane.places),
       tree_(input.plane.tree) {}
 
-SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
+std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowPoint> rows) const {
+  std::vector<Value> values(rows.size());
+  const auto ball = [&](std::size_t r) -> NearSearch<Vec2>::Ball {
+    return {rows[r].at, fit_radius * surface_.rho};
+  };
+  parallel_ranges(rows.size(), 256, [&](std::size_t begin, std::size_t end) {
+    NearSearch<Vec2> search(tree_, plane_);
+    std::vector<Match> matches;
+    search.each(begin, end, ball, [&](std::size_t r, std::span<const Index> near) {
+      matches.clear();
+      for (const Index i : near) matches.emplace_back(i, (plane_[i] - rows[r].at).squaredNorm());
+      values[r] = at(rows[r], matches);
+    });
+  });
+  return values;
+}
+
+// Returns the values at a new point from the `matches` within the radius of a fit, or from farther points where
+// these are few.
+SideInterpolation::Value SideInterpolation::at(const RowPoint& p, std::vector<Match>& matches) const {
   double radius = fit_radius * surface_.rho;
-  std::vector<Match> matches;
-  for (int attempt = 0; attempt < 3; ++attempt, radius *= 1.6) {
-    tree_.within(p.at, radius, matches);
+  leave_same_side(p, matches);
+  for (int attempt = 1; attempt < 3 && matches.size() < 6; ++attempt) {
+    tree_.within(p.at, radius *= 1.6, matches);
     leave_same_side(p, matches);
-    if (matches.size() >= 6) break;
   }
   // In a sliver between two outlines all points may lie on these outlines. The sliver's silhouette is then
   // interpolated from them: without a silhouette, long triangles would span the sliver.

@@ -69,14 +69,15 @@ class SideInterpolation {
     float spacing = 0;
   };
 
-  // Returns the values at a new point, computed from the points around it that no outline separates from it.
+  // Returns the values at new points, computed from the points around each that no outline separates from it.
   // Normal and curvature come from a linear fit to these points, the depth from the chords to the nearest of
   // them.
-  Value at(const RowPoint& p) const;
+  std::vector<Value> at(std::span<const RowPoint> rows) const;
 
  private:
   using Match = KdTree<Vec2>::Match;
 
+  Value at(const RowPoint& p, std::vector<Match>& matches) const;
   void leave_same_side(const RowPoint& p, std::vector<Match>& matches) const;
   void leave_same_face(std::vector<Match>& matches) const;
   Value interpolated(const RowPoint& p, double radius, std::span<const Match> matches) const;

@@ -1,6 +1,6 @@
 #include "scan/outlines/row_smoothing.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -91,7 +91,7 @@ class RowSmoother {
     }
     moments(1, 1) += stiffness * moments(0, 0);
     moments(2, 2) += stiffness * moments(0, 0);
-    return moments.ldlt().solve(products);
+    return moments.inverse() * products;
   }
 
   Value with_numbers(Value value, const Numbers& numbers) const {

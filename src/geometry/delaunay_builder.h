@@ -1,0 +1,92 @@
+// A Delaunay triangulation that grows by one point at a time. delaunay() makes all of one with it. Tested by
+// tests/geometry/triangulation_test.cpp and tests/plate/simplify_test.cpp.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "relievo/geometry/triangulation.h"
+
+namespace relievo {
+
+class DelaunayBuilder {
+ public:
+  // Keeps a reference to `points`, to which points may be added. `names` are the numbers of these points in the
+  // result.
+  DelaunayBuilder(const std::vector<Vec2>& points, std::vector<Index> names)
+      : points_(points), names_(std::move(names)) {}
+
+  // Finds three points that span a triangle and starts from that triangle. Returns false if there are none.
+  bool start();
+
+  // Inserts a point, looked for from the triangle of the last one. Returns false if there is one at its place.
+  bool insert(Index p);
+
+  // Inserts a point that was added to `points`, and names it by its number. It is looked for from `triangle`,
+  // unless that is outside.
+  bool insert_added(Index p, Index triangle);
+
+  Triangulation result() const;
+
+  // Triangles have the numbers below size(), which change only around inserted points. Some are outside: they
+  // lie beyond the edges of the hull, and have no area.
+  Index size() const { return static_cast<Index>(edges_.size() / 4); }
+  bool is_outside(Index triangle) const { return is_ghost(4 * triangle); }
+  Triangle corners(Index triangle) const {
+    const HalfEdge* const e = &edges_[4 * std::size_t{triangle}];
+    return {e[0].origin, e[1].origin, e[2].origin};
+  }
+  // Returns the triangle across the edge opposite to a corner; no_index on the hull.
+  Index neighbour(Index triangle, Index corner) const {
+    const Index other = edges_[4 * triangle + (corner + 1) % 3].twin;
+    return is_ghost(other) ? no_index : other / 4;
+  }
+  // Returns a triangle at the point that was inserted last.
+  Index newest() const { return near_ / 4; }
+
+  // Calls f(triangle) for the triangles around the point that was inserted last, those outside included. The
+  // insertion changed no others.
+  template <typename F>
+  void each_around_newest(F&& f) const {
+    Index e = near_;
+    do {
+      f(e / 4);
+      e = next_around(e);
+    } while (e != near_);
+  }
+
+ private:
+  // A triangle's side, from `origin` counter-clockwise to the next corner.
+  struct HalfEdge {
+    Index origin;
+    Index twin;  // the same side seen from the neighbour
+  };
+
+  bool is_ghost(Index e) const {
+    const HalfEdge* const t = &edges_[e & ~Index{3}];
+    return t[0].origin == no_index || t[1].origin == no_index || t[2].origin == no_index;
+  }
+  Index locate(const Vec2& p) const;
+  Index vertex_at(const Vec2& p, Index e) const;
+  bool circle_contains(Index e, const Vec2& p) const;
+  void link(Index e, Index f) { edges_[e].twin = f, edges_[f].twin = e; }
+  void add_triangle(Index a, Index b, Index c);
+  Index split(Index e, Index p);
+  void flip(Index e);
+  // Returns slot 0 of the next triangle around the newest point, given slot 0 of one. These triangles have
+  // the newest point at slot 2.
+  Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
+
+  std::vector<Index> number_triangles() const;
+  void append_triangle(Index t, const std::vector<Index>& numbers, Triangulation& to) const;
+  std::vector<Index> hull() const;
+
+  const std::vector<Vec2>& points_;
+  std::vector<Index> names_;
+  // Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2. The fourth slot is unused: it makes the arithmetic
+  // cheap, and no triangle straddles a cache line.
+  std::vector<HalfEdge> edges_;
+  Index near_ = 0;  // slot 0 of a real triangle at the last inserted point
+};
+
+}  // namespace relievo
