@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "common/files.h"
-#include "common/ornament_file.h"
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"

@@ -1,4 +1,4 @@
-#include "common/ornament_file.h"
+#include "common/read_inputs.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -11,7 +11,6 @@
 
 #include "common/descriptor.h"
 #include "common/files.h"
-#include "common/ornament_file.h"
 #include "common/wording.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/parallel.h"

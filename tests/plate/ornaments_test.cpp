@@ -17,6 +17,12 @@
 namespace relievo {
 namespace {
 
+Ornament ornament(OrnamentKind kind) {
+  Ornament made;
+  made.kind = kind;
+  return made;
+}
+
 using test::ellipse, test::plate_of, test::pyramid_front;
 
 constexpr double margin = 5, thickness = 3, rim_height = 1;
@@ -69,7 +75,7 @@ TEST(Ornaments, MakeAClosedSolidWithLettersOfTheirHeight) {
 
 TEST(Ornaments, AddTheVolumeOfTheirShapes) {
   // A square of 4 with walls of slope 2 and height 0.5 is a frustum.
-  Ornament square{.kind = OrnamentKind::drawing};
+  Ornament square = ornament(OrnamentKind::drawing);
   square.outlines = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   square.size_mm = 4;
   square.height_mm = .5;
@@ -99,8 +105,8 @@ TEST(Ornaments, AddTheVolumeOfTheirShapes) {
 TEST(Ornaments, LeaveTheReliefAndTheRimAsTheyWere) {
   const HeightFieldMesh front = figure();
   const Solid plain = plate_of(front, coin({})), lettered = plate_of(front, coin({legend("PAX")}));
-  for (std::size_t i = 0; i < plain.points.size() / 2; ++i)
-    if (i < front.points.size()) EXPECT_EQ(plain.points[i], lettered.points[i]);
+  const std::size_t shared = std::min(front.points.size(), plain.points.size() / 2);
+  for (std::size_t i = 0; i < shared; ++i) EXPECT_EQ(plain.points[i], lettered.points[i]);
   const auto area_of = [](const Solid& solid, Region region) {
     double twice = 0;
     for (std::size_t t = 0; t < solid.front_triangles; ++t) {
@@ -139,7 +145,8 @@ TEST(Ornaments, OfADieAreSunkByTheHeightOfTheCoins) {
 }
 
 TEST(Ornaments, AllKindsTogetherDoNotCutEachOther) {
-  Ornament beads{.kind = OrnamentKind::beads}, line{.kind = OrnamentKind::line}, text = legend("VERITAS");
+  Ornament beads = ornament(OrnamentKind::beads), line = ornament(OrnamentKind::line),
+           text = legend("VERITAS");
   line.inset_mm = .9;
   text.size_mm = 2.4;
   Ornament date = text;
@@ -171,7 +178,7 @@ TEST(Ornaments, SayWhatIsInTheirPlace) {
   low.inset_mm = 4;
   expect_error(make_plate(figure(), coin({low})), ErrorKind::option, "found the relief in its place");
   expect_error(make_plate(figure(), coin({legend("A"), legend("A")})), ErrorKind::option, "other ornaments");
-  Ornament disc{.kind = OrnamentKind::drawing};
+  Ornament disc = ornament(OrnamentKind::drawing);
   disc.outlines = {ellipse(60, 1, 1)};
   disc.size_mm = 29;
   expect_error(make_plate(figure(), coin({disc})), ErrorKind::option, "found the relief in its place");
