@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& outline : *outlines) corners += outline.size();
   constexpr std::size_t most_corners = 2000;
   if (corners > most_corners) return 0;
-  Ornament drawing{.kind = OrnamentKind::drawing};
+  Ornament drawing;
+  drawing.kind = OrnamentKind::drawing;
   drawing.outlines = *std::move(outlines);
   drawing.size_mm = 20;
   const OrnamentFrame frame{.inner = {{0, 0}, {50, 0}, {50, 50}, {0, 50}}};

@@ -160,7 +160,7 @@ TEST(Options, TextsGetAMarginThatHasRoomForThem) {
 TEST(Options, TextBecomesTheFirstOrnament) {
   if (!has_lettering()) GTEST_SKIP() << "this build sets no texts";
   ReliefOptions options = parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}}).value();
-  options.ornaments.push_back({.kind = OrnamentKind::beads});
+  options.ornaments.emplace_back().kind = OrnamentKind::beads;
   const std::vector<Ornament> all = options.all_ornaments();
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].text, "LEX");

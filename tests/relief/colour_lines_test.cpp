@@ -91,7 +91,7 @@ TEST(SinkLines, AreExactlyAsDeepInReliefsAndFrames) {
                sunk = value_of(model.make_at_height(.2, lined, 1));
   EXPECT_EQ(height_span(sunk.heights), .2);
   const std::vector<float> lines = dark_lines(model.surface());
-  EXPECT_GT(std::ranges::count_if(lines, [](float line) { return line > .99F; }), 100);
+  EXPECT_GT(std::ranges::count_if(lines, [](float line) { return line > .9F; }), 100);
   FrameMaker frames(model);
   Frame frame, level;
   FrameOptions options;
@@ -103,7 +103,8 @@ TEST(SinkLines, AreExactlyAsDeepInReliefsAndFrames) {
     const double depth = .01 * static_cast<double>(lines[i]);
     EXPECT_NEAR(sunk.heights[i], std::max(plain.heights[i] - depth, 0.0), 1e-6);
     EXPECT_NEAR(static_cast<double>(frame.heights[i]),
-                std::max(static_cast<double>(level.heights[i]) - depth, 0.0), 3e-6);
+                std::max(static_cast<double>(level.heights[i]) - depth, 0.0),
+                2e-5);  // the highest point may be on a line
   }
 }
 
