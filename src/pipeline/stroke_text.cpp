@@ -93,8 +93,9 @@ Result<Strokes> parse_strokes(std::string_view text) {
   if (text.empty()) return Strokes();
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded())
-    return option_error("strokes",
-                        cat("expected strokes in JSON, found text that is none at ", json_error_place(text)));
+    return option_error(
+        "strokes", cat("expected strokes in JSON or a file with them, found '",
+                       text.substr(0, most_of_a_value), "', which is no JSON at ", json_error_place(text)));
   if (!json.is_array() || json.size() > most_strokes)
     return option_error("strokes",
                         cat("expected a JSON array of at most ", most_strokes, " strokes", found(json)));

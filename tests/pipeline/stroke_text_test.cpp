@@ -26,7 +26,9 @@ TEST(StrokeText, MayBeEmpty) {
 }
 
 TEST(StrokeText, ErrorsNameTheStrokeAndTheKey) {
-  EXPECT_EQ(error_of("[{]"), "expected strokes in JSON, found text that is none at line 1, column 3");
+  EXPECT_EQ(
+      error_of("[{]"),
+      "expected strokes in JSON or a file with them, found '[{]', which is no JSON at line 1, column 3");
   EXPECT_EQ(error_of("{}"), "expected a JSON array of at most 10000 strokes, found {}");
   EXPECT_EQ(error_of("[3]"), "stroke 1: expected an object, found 3");
   const auto of = [](const std::string& fields) {
