@@ -301,7 +301,7 @@ std::vector<OptionRow> input_rows() {
       {.name = "doubtful", .unit = "WHAT", .stage = input, .choices = names_of(keep_choices),
        .help = "drop or keep points that the file itself marks as noise or withheld (LAS), and splats less than half "
                "opaque",
-       .initial = "drop", .access = word<&OptionTargets::keeps_doubtful, keep_choices>},
+       .initial = "drop", .is_hidden = true, .access = word<&OptionTargets::keeps_doubtful, keep_choices>},
       {.name = "depth-values", .unit = "KIND", .stage = input, .choices = names_of(depth_value_choices),
        .help = "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or luminance, "
                "also of colours, bright being near; auto: luminance of colours, height in formats of terrain, else "

@@ -5,7 +5,7 @@ import {choose, chooseView, engine, exportFiles, middleOf, numbers, openExport, 
 import {enter, eventually, readStl, untilReady} from "./support.mjs";
 
 withPage("green_man", 5000, async () => {
-  await chooseView("Back"); // seen from behind, parts of the model lie below the ground
+  await chooseView("Back");
   await enter(option("resolution"), "0.3");
   await untilReady(page);
 });
@@ -27,9 +27,9 @@ async function exported() {
   return {name, told, size: readStl(bytes).size.map((mm) => mm.toFixed(2))};
 }
 
-test("tells the thickness of a coin with parts below the ground, as its file has it", async () => {
+test("tells the thickness of a coin whose rim stands above its relief, as its file has it", async () => {
   await choose("Coin");
-  await set({width: "20"});
+  await set({width: "20", "rim-height": "2"});
   const status = sizeIn(await numbers().innerText()), {told, size} = await exported();
   assert.ok(Number(size[2]) > 3.7, `the rim stands above plate and relief: ${size}`);
   assert.deepEqual([status, told], [size, size]);
