@@ -394,17 +394,19 @@ test("says what a plate leaves to who types a longer side than that", async () =
   await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
-test("names the tone curve and the view where they limit the height, and loosens them", async () => {
+test("names the tone curve, the walls and the view where they limit the height, and loosens them", async () => {
   await preset().selectOption("Fine detail first");
   await set("Height in mm", 2000);
   await reach().getByText(/^The tone curve keeps the height at [\d.]+ mm\./).waitFor();
   await button("Drop the tone curve").click();
   await soon.equal(() => preset().inputValue(), "");
+  await reach().getByText(/^The steepest wall keeps the height at [\d.]+ mm\./).waitFor();
+  await button("Allow steeper walls").click();
   await reach().getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
   await button("Choose view", reach()).click();
   await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
   await page.keyboard.press("Escape");
-  await undo(3);
+  await undo(4);
 });
 
 test("can redo after a drag that was taken back, and ends none after another slider's pause", async () => {
