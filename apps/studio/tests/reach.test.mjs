@@ -83,7 +83,7 @@ test("leaves the picture room at a zoom of 200 %", async () => {
   }
   // The opened notes have the same offers as on a higher screen.
   await page.getByRole("button", {name: /notes? on the scan/}).click();
-  await page.locator("#notes").getByRole("button", {name: "Keep them"}).waitFor();
+  await page.locator("#notes").getByRole("button", {name: "Keep the noise"}).waitFor();
   await radio("Light").click();
   await page.setViewportSize(DESK);
   await untilReady(page);
