@@ -75,7 +75,11 @@ StepFields StepFields::find(const Surface& surface, const HeightSystem& system) 
   const std::vector<JumpEdge> edges = jump_edges(surface);
   const auto step = [&](Index a, Index b) { return step_between(surface, a, b); };
   const auto plane = [&](Index a, Index b) {
-    return boundary.is_across_wall(a, b) ? std::tanh(step(a, b) / scale) : 0;
+    // Single precision hides the last bits, in which the standard libraries differ.
+    const auto saturated = [&] {
+      return static_cast<double>(static_cast<float>(std::tanh(step(a, b) / scale)));
+    };
+    return boundary.is_across_wall(a, b) ? saturated() : 0;
   };
   StepFields found;
   parallel_both([&] { found.steps = solve_steps(boundary, edges, system, step); },

@@ -29,8 +29,8 @@ OrderPull::OrderPull(std::size_t width, const OrderedPairs& pairs) {
         const long x = n % columns + dx;
         const float share = pairs.share[n] * pairs.share[n + offset];
         if (x < 0 || x >= columns || share == 0) continue;
-        direction.wanted[n] =
-            share * std::tanh((pairs.depth[n] - pairs.depth[n + offset]) / pairs.saturation);
+        direction.wanted[n] = share * static_cast<float>(std::tanh(static_cast<double>(
+                                          (pairs.depth[n] - pairs.depth[n + offset]) / pairs.saturation)));
       }
       directions_.push_back(std::move(direction));
     }
