@@ -1,4 +1,5 @@
-// What clang calls for setjmp() and longjmp(): a jump is an exception of WebAssembly, which clang's code catches.
+// Implements the functions that clang calls for setjmp() and longjmp(). A jump throws an exception of WebAssembly,
+// which the code that clang makes catches.
 #include <cstdint>
 
 namespace {

@@ -55,7 +55,7 @@ struct ReadOptions {
   bool keeps_doubtful = false;
 };
 
-// As above.
+// Reads a point cloud or mesh with these options; otherwise like the function above.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const ReadOptions& options);
 

@@ -43,7 +43,7 @@ struct StreamedCloud {
 // vertices and the elements before them, LAS, or binary PCD.
 bool can_stream(std::span<const std::byte> head, std::string_view name);
 
-// What stream_front() reads.
+// Says how much of a file stream_front() reads.
 struct StreamOptions {
   // The number of points; see ReadOptions about those that are doubtful.
   StreamOptions(double wanted, bool keeps = false) : points(wanted), keeps_doubtful(keeps) {}
