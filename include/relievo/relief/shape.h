@@ -69,7 +69,7 @@ struct Shape {
   // Local changes of the finished heights, of any method but the paper's. The highest point keeps
   // its height: if strokes raise or sink it, all heights are scaled.
   SharedStrokes strokes = {};
-  // By how much lines that are dark in the scan's colours sink at last, in the surface's units, >= 0.
+  // The depth, in the surface's units, >= 0, by which lines that are dark in the scan's colours sink.
   double line_depth = 0;
 
   bool operator==(const Shape&) const = default;

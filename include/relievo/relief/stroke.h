@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// What a stroke does to the heights z under it. Every brush adds a field to z that is 0 outside of the stroke, so no
-// other height moves. The blurs are Gaussian, along the surface, and do not reach across depth jumps.
+// The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside of the
+// stroke, so no other height moves. The blurs are Gaussian, along the surface, and do not reach across depth jumps.
 enum class Brush {
   strengthen,  // adds amount * (z - wide blur of z), so that shapes as wide as a finger or a brow grow
   sharpen,     // adds amount * (z - narrow blur of z)
