@@ -37,7 +37,7 @@ inline constexpr double least_own_height = .01, most_own_height = .9;
 // Returns the turn of a pose: a rotation, preceded by a reflection if the pose is mirrored.
 Mat3 turn_of(const Pose& pose);
 
-// What became of the pixels of a depth image, and how their values were read.
+// The use of each pixel of a depth image, and the meaning that its values were read with.
 struct PixelUses {
   Image<PixelUse> uses;  // see DepthCloud
   int reduction = 1;

@@ -80,8 +80,8 @@ struct DepthOptions {
 // Checks that the options are in their ranges. Errors: kind option, naming the option.
 Result<void> check(const DepthOptions& options);
 
-// What becomes of a pixel of a depth image: it is a point of the surface, has no depth, or is removed with
-// background or blur.
+// Says whether a pixel of a depth image is a point of the surface, has no depth, or is removed with background
+// or blur.
 enum class PixelUse : std::uint8_t { kept, missing, background, blur };
 
 // The points of a depth image, and facts about the conversion.
