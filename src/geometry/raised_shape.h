@@ -17,7 +17,7 @@ struct WallLevel {
   double distance_mm = 0, height_mm = 0;
 };
 
-// What the outlines cover is raised, or sunk by negative heights. Between levels the height is linear; beyond the
+// Outlines and the heights of the area that they cover; negative heights sink it. Between levels the height is linear; beyond the
 // last one it stays. The first level is 0, 0; distances rise.
 struct RaisedShape {
   std::string name;  // for errors
