@@ -221,8 +221,8 @@ std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::ve
 
 bool is_path(const std::string& option, const std::string& value) {
   std::error_code ignored;
-  return (option == "base-image" || option == "camera" || option == "font" || option == "ornaments") &&
-         fs::is_regular_file(value, ignored);
+  constexpr std::array names = {"base-image", "camera", "font", "ornaments", "strokes"};
+  return std::ranges::find(names, option) != names.end() && fs::is_regular_file(value, ignored);
 }
 
 Json to_json(const Job& job) {
