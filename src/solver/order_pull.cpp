@@ -29,6 +29,7 @@ OrderPull::OrderPull(std::size_t width, const OrderedPairs& pairs) {
         const long x = n % columns + dx;
         const float share = pairs.share[n] * pairs.share[n + offset];
         if (x < 0 || x >= columns || share == 0) continue;
+        // The standard libraries differ in the last bit of tanh in single precision.
         direction.wanted[n] = share * static_cast<float>(std::tanh(static_cast<double>(
                                           (pairs.depth[n] - pairs.depth[n + offset]) / pairs.saturation)));
       }
