@@ -52,7 +52,7 @@ struct FontFile {
 // An ornament. Lengths without a value follow from the plate's margin.
 struct Ornament {
   OrnamentKind kind = OrnamentKind::text;
-  std::string text;                           // UTF-8
+  std::string text = {};                      // UTF-8
   std::shared_ptr<const FontFile> font = {};  // null: the font inside the program
   TextArc arc = TextArc::straight;
   std::optional<double> size_mm = {};  // height of capitals; diameter of beads; width of borders and drawings
