@@ -15,7 +15,7 @@ namespace relievo {
 namespace {
 
 constexpr double curve_tolerance_mm = .003;
-// Shares of the margin that sizes have if none is given: a text in the middle, and borders between it and the rim.
+// Shares that sizes have if none is given: texts of the margin within the borders, borders of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
 constexpr double usual_height = .2;  // of a text's size
 constexpr double below_rim = .8;     // usual height as a share of the rim's
@@ -106,7 +106,7 @@ class TextPlacer {
 
  private:
   // Returns the distance of the capitals from the rim at which the text, with what stands out above capitals and hangs
-  // below the line, lies in the middle of the margin.
+  // below the line, lies in the middle of the margin within the borders.
   double usual_inset() const {
     constexpr double usual_overshoot = .1;
     Box box;
@@ -115,8 +115,8 @@ class TextPlacer {
         box.extend(Box::of(outline).min), box.extend(Box::of(outline).max);
     const double above = box.max.y() > 1 + usual_overshoot ? box.max.y() - 1 : 0,
                  below = box.min.y() < -usual_overshoot ? -box.min.y() : 0;
-    const double space = (frame_.margin_mm - size_ * (1 + above + below)) / 2;
-    return space +
+    const double space = (frame_.margin_mm - frame_.border_mm - size_ * (1 + above + below)) / 2;
+    return frame_.border_mm + space +
            size_ * (ornament_.arc == TextArc::straight || ornament_.arc == TextArc::bottom ? below : above);
   }
 
@@ -162,7 +162,7 @@ class TextPlacer {
 };
 
 Result<RaisedShape> text_shape(const Ornament& ornament, const OrnamentFrame& frame) {
-  const double size = ornament.size_mm.value_or(text_share * frame.margin_mm);
+  const double size = ornament.size_mm.value_or(text_share * (frame.margin_mm - frame.border_mm));
   RELIEVO_TRY(ShapedLine line, shape_line(ornament, curve_tolerance_mm / size));
   RELIEVO_TRY(Outlines outlines, TextPlacer(ornament, frame, std::move(line), size).place());
   const double height = height_of(ornament, usual_height * size, frame);
@@ -187,10 +187,30 @@ Result<RaisedShape> drawing_shape(const Ornament& ornament, const OrnamentFrame&
                      std::min(.25, *ornament.size_mm / 20)};
 }
 
+// Distances of a border from the rim.
+struct BorderSpan {
+  double before_mm, width_mm;
+};
+
+BorderSpan span_of_border(const Ornament& ornament, double margin_mm) {
+  const double share = ornament.kind == OrnamentKind::line ? line_share : border_share;
+  return {ornament.inset_mm.value_or(border_inset * margin_mm), ornament.size_mm.value_or(share * margin_mm)};
+}
+
+// Returns how much of the margin the borders take that lie between the rim and the middle of the margin.
+double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm) {
+  double taken = 0;
+  for (const Ornament& ornament : ornaments) {
+    if (ornament.kind == OrnamentKind::text || ornament.kind == OrnamentKind::drawing) continue;
+    const auto [before, width] = span_of_border(ornament, margin_mm);
+    if (before + width <= margin_mm / 2) taken = std::max(taken, before + width);
+  }
+  return taken;
+}
+
 Result<RaisedShape> border_shape(const Ornament& ornament, const OrnamentFrame& frame) {
   const bool is_line = ornament.kind == OrnamentKind::line;
-  const double width = ornament.size_mm.value_or((is_line ? line_share : border_share) * frame.margin_mm),
-               before = ornament.inset_mm.value_or(border_inset * frame.margin_mm);
+  const auto [before, width] = span_of_border(ornament, frame.margin_mm);
   const double room = radius_within(frame);
   if (before + width >= room)
     return option_error("ornaments", cat("expected a border within ", room, " mm of the rim, found one of ",
@@ -238,8 +258,8 @@ Result<RaisedShape> shape_of_ornament(const Ornament& ornament, const OrnamentFr
 
 }  // namespace
 
-Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments,
-                                                 const OrnamentFrame& frame) {
+Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments, OrnamentFrame frame) {
+  frame.border_mm = margin_of_borders(ornaments, frame.margin_mm);
   std::vector<RaisedShape> shapes;
   const double twice_middle = 2 * middle_of(frame).x();
   for (const Ornament& ornament : ornaments) {

@@ -57,6 +57,17 @@ TEST(OrnamentShapes, LettersStandInTheMiddleOfTheMargin) {
   EXPECT_NEAR(below_high, 29, .02);
 }
 
+TEST(OrnamentShapes, LettersKeepClearOfBorders) {
+  // Beads take 1.2 of the margin of 5: capitals of 3 stand in the middle of the 3.8 that are left.
+  Ornament beads{.kind = OrnamentKind::beads};
+  beads.inset_mm = .2;
+  beads.size_mm = 1;
+  const auto shapes = ornament_shapes(std::array{text_on(TextArc::top, "I"), beads}, coin()).value();
+  const auto [low, high] = radii_of(shapes[0]);
+  EXPECT_NEAR(low, 25.4, .02);
+  EXPECT_NEAR(high, 28.4, .02);
+}
+
 TEST(OrnamentShapes, LettersThatHangBelowTheLineMakeItRise) {
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::bottom, "Ip")));
   EXPECT_NEAR(low - 25, 30 - high, .15);  // the ends of a line are farther out than its middle
