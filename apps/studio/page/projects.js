@@ -8,10 +8,10 @@ import {plainName} from "./kinds.js";
 import {sceneFile} from "./scene_panel.js";
 import {zipOf} from "./zip.js";
 
-// Returns whether one of several files is a scan or scene that names the others.
+// Returns whether one of several files is a scan or a scene that refers to the others.
 const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
 
-// Returns one file that contains a .gltf and the files that the .gltf names.
+// Returns one file that contains a .gltf and all files to which the .gltf refers.
 async function together(files) {
   const gltf = files.find(({name}) => /\.gltf$/i.test(name));
   if (!gltf) throw new Error("Several files at once: expected scans, or a .gltf with the files that it names.");
