@@ -121,8 +121,7 @@ export class CropFrame {
       act(event.clientX - left, event.clientY - top, event);
     };
     element.onpointerdown = place((x, y, event) => this.press(x, y, event));
-    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // for example of a palm beside a
-                                                                                     // pen
+    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
     element.onpointermove = place((x, y, event) =>
       (!this.drag ? this.hover(x, y) : isOther(event) || this.move(x, y)));
     element.onpointerup = place((x, y, event) => isOther(event) || this.release());

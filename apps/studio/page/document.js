@@ -190,8 +190,7 @@ export function engineOptions(step) {
     return {...options, method: "linear"};
   }
   delete options["mm-per-value"], delete options.ground; // kept in the document for forms with a scale
-  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for other
-                                                                                                    // methods
+  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept, too
   return options;
 }
 
