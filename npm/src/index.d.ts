@@ -71,10 +71,10 @@ export interface Report {
   [key: string]: unknown;
 }
 
-// How a height map is written, as by the flags of the command line.
+// How to write a height map, as by the flags of the command line.
 export interface HeightMapFileOptions {
   size?: number; // longer side in pixels
-  pixel?: number | string; // exact size of a pixel, in the place of size
+  pixel?: number | string; // exact size of a pixel; replaces `size`
   dpi?: number;
   bits?: 8 | 16 | 32;
   area?: "plate" | "relief";
