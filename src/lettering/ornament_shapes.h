@@ -10,18 +10,19 @@
 
 namespace relievo {
 
-// The place for ornaments: the ground of a plate, and the limits of their walls.
+// The area for ornaments: the ground of a plate, and the limits of the ornaments' walls.
 struct OrnamentFrame {
-  std::vector<Vec2> inner;            // convex polygon inside the rim, counter-clockwise, mm
+  std::vector<Vec2> inner;            // convex polygon inside the rim, counter-clockwise, in mm
   double margin_mm = 5;               // width of the ground around the relief
-  std::optional<double> rim_mm = {};  // height of the rim, if there is one
-  double slope = 4;                   // of walls, > 0
-  bool is_mirrored = false;           // left and right swapped
-  bool is_die = false;                // raised becomes sunk
+  std::optional<double> rim_mm = {};  // height of the rim; empty without a rim
+  double slope = 4;                   // steepest slope of walls, > 0
+  bool is_mirrored = false;           // whether left and right are exchanged
+  bool is_die = false;                // whether raised ornaments become sunk
 };
 
-// Returns the shapes of the ornaments in the order of the list. Errors: those of check_text(); kind option for lengths
-// out of their range, for texts longer than their circle, and for drawings without an area or a size.
+// Returns the shapes of the ornaments in the order of the list. Errors: those of check_text(); kind option
+// for lengths out of their range, for texts longer than their circle, and for drawings without an area or a
+// size.
 Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments,
                                                  const OrnamentFrame& frame);
 
