@@ -21,7 +21,7 @@ Image8 read_png(std::span<const std::byte> bytes);
 // render_preview()). The view is scaled down by averaging to fit, and centred.
 Image8 tile_of_preview(const Image8& preview, int side);
 
-// A relief on a sheet.
+// A relief on a contact sheet.
 struct Tile {
   Image8 picture;  // made by tile_of_preview(); empty if the relief could not be made
   std::string name;

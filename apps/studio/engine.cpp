@@ -151,8 +151,8 @@ struct Engine::State {
   }
 
   // Draws the model in a view that is not prepared yet. The turned relief is made once per view, and is then
-  // used until the view is prepared, even if options change. Pictures of other views need not wait for it,
-  // and the next view cancels it.
+  // used until the view is prepared, even if options change. While it is made, other pictures can be drawn.
+  // A request for another view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
     std::uint64_t model = 0;  // the drawn model when the turned relief was begun
     for (std::optional<TurnedRelief> relief;;) {

@@ -50,7 +50,7 @@ class Engine {
 
   void cancel();
 
-  // Returns whether no work is running. Cancelled work counts until it has ended.
+  // Returns whether no work is running, not even cancelled work.
   bool is_idle();
 
   // On a system without threads, does the work that open(), show() and choose_view() have requested.

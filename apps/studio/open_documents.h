@@ -69,7 +69,7 @@ class OpenDocuments {
   Mutex mutex_;
   std::list<Entry> entries_;
   std::list<Tab> tabs_;                           // sorted by the time of their last opening, newest first
-  std::vector<std::shared_ptr<Engine>> closing_;  // engines of closed documents that still end their work
+  std::vector<std::shared_ptr<Engine>> closing_;  // engines of closed documents, until their work ends
 };
 
 }  // namespace relievo::app::studio

@@ -39,7 +39,7 @@ TEST(HilbertOrder, KeepsEqualPointsByNumber) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-// A single distant point must not put all other points into one cell, and so must not change their order.
+// If a single distant point put all others into one cell, it would change their order.
 TEST(HilbertOrder, ResolvesClusters) {
   std::vector<Vec2> points;
   for (int i = 0; i < 1024; ++i) points.emplace_back(i * 37 % 32, i / 32);

@@ -60,7 +60,7 @@ TEST(SampleMesh, ThePointsLieOnTheMeshInAnyView) {
 }
 
 TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
-  Mesh nearer = square(1, true);  // the nearer square faces away, but hides the other one
+  Mesh nearer = square(1, true);  // the nearer square faces away, but hides the other square
   for (Vec3& p : nearer.points) p.head<2>() *= .5;
   const auto cloud = value_of(sample_mesh(test::joined(square(0), nearer), front, {10000}));
   std::size_t near = 0;

@@ -55,7 +55,7 @@ TEST(Surface, RefusesACloudThatFacesAway) {
 }
 
 // A camera at the origin, with its y axis down and its z axis away from the viewer, has scanned the near half
-// of a ball and a little of the other half. In the front view, only the latter would be left.
+// of a ball and a little of the other half. In the front view, only that little would be left.
 TEST(Surface, NamesTheSideThatWasScanned) {
   const auto is_scanned = [](const Vec3& p) { return p.z() < .2; };
   Cloud scan = test::where(test::sphere(20'000, 1), is_scanned);

@@ -231,7 +231,7 @@ std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
 }
 
-// A plate that is pushed down rests evenly on its ties, whatever their positions in the cells are.
+// A plate that is pushed down rests evenly on its ties, wherever in the cells they are.
 TEST(ObstacleSolver, RestsEvenlyOnTies) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   const auto resting = [&](std::span<const Tie> held) {

@@ -98,8 +98,8 @@ export class Comparing {
     this.layOnPlate(context, image.width / this.stage.size.width);
   }
 
-  // In the front view, replaces the model's own rectangular plate by the plate of the piece if that one is round or has
-  // a given size. `scale` is the number of the picture's pixels per pixel of the page.
+  // In the front view, replaces the model's own rectangular plate by the plate of the piece, if the plate of the piece
+  // is round or has a given size. `scale` is the number of the picture's pixels per pixel of the page.
   layOnPlate(context, scale) {
     const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
     const {outline, plate, wrap, margin} = stage.doc.now.options, isEllipse = isRound(outline);

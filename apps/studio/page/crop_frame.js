@@ -172,7 +172,7 @@ export class CropFrame {
     this.draw();
   }
 
-  // Returns the crop with two opposite corners, and with unchanged depths.
+  // Returns the crop whose opposite corners are a and b. Its depths stay unchanged.
   drawn(a, b) {
     const low = [0, 1].map((k) => Math.min(a[k], b[k], 1 - LEAST)), depths = this.drag.from.slice(4);
     return [...low, ...low.map((x, k) => Math.max(a[k], b[k], x + LEAST)), ...depths];

@@ -2,16 +2,16 @@
 // `relievo studio`; apps/web/page/transport.js, in the page that is one file, sends them to a worker.
 //
 // A transport has
-//   traits                         {takesSeveral: whether a scan and the files that it refers to are uploaded together;
-//                                  drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove: whether
-//                                  work is kept until it is removed; slowMs: frames that take longer are drawn with
-//                                  fewer pixels}. The Engine has the same traits
+//   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
+//                                  drawsMeanwhile: whether it draws pictures while a piece is made; canRemove: whether
+//                                  documents are stored until the user removes them; slowMs: if frames take longer,
+//                                  they get fewer pixels}. The Engine has the same traits
 //   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture;
-//                                  `about` has facts about the picture; the request may be left out
+//                                  `about` has facts about the picture; the request is optional
 //   addressOf(file)             -> the address of one of the page's pictures
-//   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and once with
-//                                  {run} alone when an engine is found; onLost when the engine is lost; say with a
-//                                  message for the user
+//   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
+//                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
+//                                  for the user
 // and throws EngineError with a text for the user.
 
 // `input` names the option or the file that caused the error. The text begins with that name.

@@ -35,7 +35,7 @@ import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
 const PICTURE_MS = 600; // time from the fine picture until the document's small picture is stored
-const SHOW_MS = 120; // a drag that pauses so long updates all controls
+const SHOW_MS = 120; // pause in a drag until all controls are updated
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
 const entries = new Entries({engine, doc, changed: showEntries, refused});

@@ -29,7 +29,7 @@ export class Outcome {
     return {options, note, name: fileName(now), material: now.material, step: now};
   }
 
-  // Returns the document's step with the height of its files.
+  // Returns the document's step, with the height that its exported files have.
   async step() {
     const {step, options: {height}} = await this.known();
     return {...step, options: {...step.options, height: height ?? step.options.height}};

@@ -12,7 +12,7 @@ export const spread = {
 };
 
 const STEPS = 1000, MOST_DECIMALS = 4;
-export const REST_MS = 400; // a movement by keys or the wheel ends when it pauses so long
+export const REST_MS = 400; // pause after which a movement by keys or the wheel has ended
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 

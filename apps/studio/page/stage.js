@@ -12,8 +12,8 @@ import {TOOLS, takeKey} from "./tools.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
-const REST_MS = 160; // the fine picture is requested after so long without changes
-const FINISH_MS = 500; // the finished piece is requested after so long without changes
+const REST_MS = 160; // time without changes until the fine picture is requested
+const FINISH_MS = 500; // time without changes until the finished piece is requested
 const MOST_PIXELS = 7.9e6; // just below the engine's limit; a window on a screen of 5,120 x 2,880 has more
 
 export class Stage {

@@ -1,11 +1,11 @@
 // The tools of the picture, with their functions for drags and arrow keys. A tool has
 //   does                    description of a drag, for the label of the picture
 //   isLevel                 whether the tool shows the relief from the front
-//   isStepwise              whether move() gets each step since the last event
+//   isStepwise              whether move() gets the movement since the last event
 //   press(stage, event)     called when a drag begins
-//   move(stage, to)         called during a drag; `to` is {x, y, dx, dy, event}: the pointer's place and its movement
+//   move(stage, to)         called during a drag; `to` is {x, y, dx, dy, event}: the pointer's position and movement
 //   release(stage, drag)    called when a drag has ended
-//   step(stage, x, y)       called for arrow keys, with small steps for Shift
+//   step(stage, x, y)       called for arrow keys, with smaller steps if Shift is pressed
 
 import {ARROWS, clamp} from "./controls.js";
 import {angles, degrees, direction} from "./lights.js";

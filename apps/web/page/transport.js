@@ -204,7 +204,7 @@ export class Transport {
     this.#statuses.delete(document);
     await this.#work("open", {input, ...view}, await this.#filesOf(input));
     this.#isOpen.add(document);
-    await this.#store.touch(document).catch(() => {}); // a later failure to store is reported
+    await this.#store.touch(document).catch(() => {}); // later failures to store the document are reported
     return {document};
   }
 
