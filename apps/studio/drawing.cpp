@@ -199,7 +199,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.most_width_mm = live_.most_width_mm();
   if (request.is_original) {
     options.has_shadows = false;           // at the model's full depth, shadows would cover the ground
-    options.material = Material::plaster;  // the material of the piece is only for reliefs
+    options.material = Material::plaster;  // the chosen material is only for reliefs
     live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;

@@ -30,7 +30,7 @@ struct ModelFacts {
 struct CurveSamples {
   static constexpr std::size_t size = 81;
 
-  std::vector<double> share;  // the fraction that saturation or tone curve ask for
+  std::vector<double> share;  // the fraction that the saturation or the tone curve sets
   std::vector<double> kept;   // the fraction in the relief of this height; `share` in the layered style
 };
 

@@ -64,8 +64,8 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  // Lock order: the session calls Preparation::ready while it is locked, and ready locks this. So no thread
-  // may call the session while it has locked this.
+  // Lock order: the session calls Preparation::ready while it is locked, and ready locks `shared`. So a thread
+  // that has locked `shared` must not call the session.
   Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>>
@@ -77,7 +77,7 @@ struct Engine::State {
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
   std::optional<View> turned_view;  // the view for which `turned` was made
-  std::optional<Drawing> turned;    // the coarse relief that is drawn while the user turns the model
+  std::optional<Drawing> turned;    // the turned relief that is drawn while the user turns the model
   Mutex scan_mutex;                 // guards the members up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
@@ -296,7 +296,7 @@ Result<void> Engine::finish(PictureRequest& request) {
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());
-  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // the limit may have taken long
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // the picture may be cancelled by now
   std::uint64_t model = 0;
   RELIEVO_TRY(const std::optional<ReliefOptions> missing, state_->with_drawing([&](Drawing& drawing) {
     model = state_->drawn_model;

@@ -64,9 +64,8 @@ class Engine {
 
   // Draw as the methods of Drawing do. While another view is being prepared, a picture shows the last frame
   // of the present model. A picture of a finished piece waits until that piece is made. Any other picture
-  // cancels the making of that piece instead of waiting for it. A picture that is neither fine nor of a
-  // finished piece also cancels all fine pictures and those of finished pieces. Errors: also those of
-  // piece().
+  // cancels the making of that piece instead of waiting for it. Fine pictures and pictures of finished pieces
+  // are also cancelled by any picture that is neither. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 

@@ -25,8 +25,8 @@ struct NumberedModel {
   std::uint64_t number = 0;
 };
 
-// The purpose for which a piece is made, or the largest height under its draft angle is computed: a file to
-// export, a check of the user's entry, or a picture. The next picture cancels work for a picture.
+// The purpose of PieceMaker's results: a file to export, a check of the user's entry, or a picture. The next
+// picture cancels work for a picture.
 enum class PieceUse { file, entry, picture };
 
 // Makes finished pieces, one at a time. Meanwhile other pictures can be drawn. Every method may be called

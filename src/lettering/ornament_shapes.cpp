@@ -105,8 +105,8 @@ class TextPlacer {
   }
 
  private:
-  // Returns the distance between capitals and rim with which the text is at the centre of the margin. Parts
-  // above the capitals and below the baseline count.
+  // Returns the distance between capitals and rim that centres the text in the margin. Parts of letters above
+  // the capitals and below the baseline count as text.
   double usual_inset() const {
     constexpr double usual_overshoot = .1;
     Box box;

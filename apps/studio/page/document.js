@@ -13,7 +13,7 @@ export const FIRST = Object.freeze({
     .map((option) => [option.name, firstOf(option)])), "base-image": ""}),
   isHeightLocked: true,
   u: null, // parameter of the compression; null while the height is locked
-  isDieOfPiece: false, // whether this is the die of another piece, which then determines its kind of work
+  isDieOfPiece: false, // whether the die was made from a piece of another kind, see kindOf()
   material: "plaster",
   light: [-1, 1, 1],
 });
@@ -41,7 +41,7 @@ export class Document {
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // number of old steps that were dropped from the beginning of `steps`
-    this.changedAt = 0; // of the last change, in milliseconds since 1970; the newer of two states counts
+    this.changedAt = 0; // time of the last change in ms since 1970; of two states the later one counts
   }
 
   stamp() {

@@ -53,8 +53,8 @@ export class Entries {
     });
   }
 
-  // Inserts the change at the document's position when the user made the entry. Later changes and all other entries
-  // then follow it.
+  // Inserts the change at the position that the document had when the user made the entry. Later changes and all other
+  // entries follow it.
   insert(part, entry) {
     const before = this.doc.position;
     this.doc.changeAt(entry.position, part);

@@ -180,7 +180,7 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  const isOfView = !frame.isTurned && !opened.asked && !opened.status.busy; // others have other diagonals and heights
+  const isOfView = !frame.isTurned && !opened.asked && !opened.status.busy; // other views have other heights
   if (isOfView && frame.options["height-of-diagonal"]) {
     doc.note({options: {height: frame.height_mm, "height-of-diagonal": null}});
     sliders.all.height.show(frame.height_mm);

@@ -18,8 +18,8 @@ const isPhoto = ({input, options: {form, "depth-values": values}}) => form === "
 export const viewOf = (step) => ({...Object.fromEntries(PREPARED.map((name) => [name, step.options[name]])),
   form: isPhoto(step) ? "lithophane" : "relief"});
 
-// Returns the options of a view for a document. The form is left out if it does not differ from that of the document's
-// view; it can differ only for photos.
+// Returns the options of a view for a document. The form is left out if the document's view has the same one; it can
+// differ only for photos.
 export const optionsOf = ({form, ...options}, now) => (form === viewOf(now).form ? options : {...options, form});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);

@@ -28,7 +28,7 @@ const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane dr
   "denoise 0": "Keep the noise"};
 
 // Returns whether a note also appears beside the picture: if something was removed from the picture, or if something
-// else than the figure fills it.
+// other than the figure fills it.
 const isOffered = ({option, short}) => Boolean(short) || ["crumbs", "plane"].includes(option);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
