@@ -64,7 +64,7 @@ Result<Descriptor> lock_job(const std::string& outputs, const std::string& name)
 // Returns this machine's name.
 std::string host_name();
 
-// Returns the present time in UTC, "2026-11-24T12:00:00.000Z".
+// Returns the current time in UTC, "2026-11-24T12:00:00.000Z".
 std::string time_now();
 
 }  // namespace relievo::app::batch

@@ -37,7 +37,7 @@ struct CurveSamples {
 struct PictureRequest {
   ReliefOptions options;  // the view of these options is ignored
   std::optional<double>
-      draft_limit_mm;          // largest height that the draft angle allows; empty without one, or if unknown
+      draft_limit_mm;  // largest height that the draft angle allows; empty without an angle, or if unknown
   std::optional<View> turned;  // the view while the user turns the model; empty: the prepared view
   std::optional<double> u;     // strength of the compression; empty if the height is given
   bool is_original = false;    // draw the model itself instead of its relief

@@ -63,7 +63,7 @@ class Engine {
   Result<ModelFacts> facts();
 
   // Draw as the methods of Drawing do. While another view is being prepared, a picture shows the last frame
-  // of the present model. A picture of a finished piece waits until that piece is made. Any other picture
+  // of the current model. A picture of a finished piece waits until that piece is made. Any other picture
   // cancels the making of that piece instead of waiting for it. Fine pictures and pictures of finished pieces
   // are also cancelled by any picture that is neither. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);

@@ -93,7 +93,7 @@ class Store {
 // Returns whether a text is the name of a document.
 bool is_document(std::string_view id);
 
-// Returns the scan in the present step of a document; nothing if the text is not the state of a document.
+// Returns the scan in the current step of a document; nothing if the text is not the state of a document.
 std::optional<ScanSource> input_of(const std::string& state);
 
 // Returns the last part of a path as a plain file name: without separators and control characters, not empty,

@@ -93,8 +93,7 @@ class OrderPullOfAField : public testing::TestWithParam<unsigned> {
   void SetUp() override { pull.write_bound(b, z, limits, {bound.load, bound.hold, bound.lack}); }
 };
 
-// The bound is a function that touches the energy at b, up to a constant. There its slope is that of the
-// energy.
+// The bound and the energy have the same slope at b. (Their values at b may differ by a constant.)
 TEST_P(OrderPullOfAField, HasABoundThatTouchesItsEnergy) {
   constexpr float step = 1e-2F;
   for (const std::size_t n : {5UL, 60UL, 150UL, 151UL, 200UL, 333UL, nodes - 1}) {

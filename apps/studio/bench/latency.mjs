@@ -9,7 +9,7 @@ import {pathToFileURL} from "node:url";
 import {EngineProcess, areKindsDrawn, findBrowser, openPanels, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
-// The patterns match the present and the former labels of a slider. `from` and `to` are fractions of the slider or of
+// The patterns match the current and the former labels of a slider. `from` and `to` are fractions of the slider or of
 // the picture.
 const MOVEMENTS = {
   height: {slider: /^Height$/, from: 0.45, to: 0.6},

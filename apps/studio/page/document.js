@@ -66,13 +66,13 @@ export class Document {
     if (this.append(part, stroke)) this.onChange(before);
   }
 
-  // Returns the number of steps before the present one, dropped steps included.
+  // Returns the number of steps before the current one, dropped steps included.
   get position() {
     return this.forgotten + this.at;
   }
 
   // Returns the step at a position. If that step was dropped, returns the first remaining one; if the position is after
-  // the present step, returns the present step.
+  // the current step, returns the current step.
   stepAt = (position) => this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
 
   // Inserts a change after the step at a position. Values that later steps have changed stay as they are.
@@ -109,7 +109,7 @@ export class Document {
     return true;
   }
 
-  // Writes values that the engine found into the present step. Adds no step.
+  // Writes values that the engine found into the current step. Adds no step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }

@@ -8,8 +8,8 @@ const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {
   // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers, and of kind
-  // "older" if a newer state is already stored. After that calls onKept(); after the error "older", onOlder(document);
-  // after errors other than "lost", onFailed(error). `storage` has the interface of localStorage.
+  // "older" if a newer state is already stored. Calls onKept() after success, onOlder(document) after an error of kind
+  // "older", and onFailed(error) after any other error except "lost". `storage` has the interface of localStorage.
   constructor({send, storage, prefix, onOlder, onFailed, onKept}) {
     Object.assign(this, {send, storage, prefix, onOlder, onFailed, onKept});
     this.waiting = new Map(); // the newest unsent state of each document

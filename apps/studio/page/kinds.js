@@ -64,8 +64,8 @@ export const dieOf = ({options: {form}}) =>
   ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
 
 // Returns the changes that start a kind of work. If `last`, the last step of that kind, is given, they restore its
-// values. If both kinds have a diameter, the present diameter stays. A kind with a rectangular plate starts with the
-// size of the present plate, unless that plate is an ellipse.
+// values. If both kinds have a diameter, the current diameter stays. A kind with a rectangular plate starts with the
+// size of the current plate, unless that plate is an ellipse.
 function partOf(kind, {diameter, plate, outline}, last) {
   const {part, material} = KINDS[kind];
   const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;
@@ -126,7 +126,7 @@ export class KindCards {
     takeArrowKeys($("#kinds"));
   }
 
-  // Chooses a kind of work after the waiting entries. Tells the user if its plate cannot keep the present size.
+  // Chooses a kind of work after the waiting entries. Tells the user if its plate cannot keep the current size.
   async choose(kind) {
     let lost = "";
     await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {

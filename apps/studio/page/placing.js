@@ -20,7 +20,7 @@ export class Placing {
   }
 
   // Begins a movement on a piece of the given size. If the plate's size depends on the figure, the plate keeps its
-  // present size from now on, so that the figure can move on it. Returns whether the figure can be moved.
+  // current size from now on, so that the figure can move on it. Returns whether the figure can be moved.
   begin([width, height]) {
     const {outline, diameter, plate, form, shift} = this.doc.now.options;
     if (this.entries.pending.length > 0)
@@ -42,7 +42,7 @@ export class Placing {
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
 
-  // Scales the figure to `factor` times `width`. The piece keeps its present `size`.
+  // Scales the figure to `factor` times `width`. The piece keeps its current `size`.
   scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
     if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");

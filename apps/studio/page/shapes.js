@@ -56,7 +56,7 @@ function shapeText(option, {name, values}) {
 }
 
 export class ShapeRow {
-  // Calls take(change) when the user changes the option; `change` turns the present text of the option into the new
+  // Calls take(change) when the user changes the option; `change` turns the current text of the option into the new
   // one. Calls say(text) to show a line to the user.
   constructor({option, label, title, take, say}) {
     Object.assign(this, {option, label, take, say, fields: []});

@@ -82,7 +82,7 @@ export class Stage {
     if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
   }
 
-  // Waits until the last picture of the document's present state is shown or has failed. Returns whether it is shown.
+  // Waits until the last picture of the document's current state is shown or has failed. Returns whether it is shown.
   async rest() {
     await new Promise((resolve) => {
       this.resting.push(resolve);

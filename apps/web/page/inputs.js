@@ -14,7 +14,7 @@ export function documentOf({sample, path}) {
 export const scanOf = ({path = "", hash = ""}) =>
   path.match(/^scans\/([0-9a-f]{16})\//)?.[1] ?? hash.match(/:([0-9a-f]{16})$/)?.[1] ?? "";
 
-// Returns the present input in the state of a document; null if the value is not such a state.
+// Returns the current input in the state of a document; null if the value is not such a state.
 export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 
 export const BASE_IMAGE = "base-image"; // the option with the path of a base's height map

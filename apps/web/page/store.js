@@ -48,7 +48,7 @@ export class BrowserStore {
     return inMemory ?? (this.#base && done(this.#base.transaction(name).objectStore(name).get(key)));
   }
 
-  // Changes an entry. next() takes the present value and returns the new one. An error that next() throws is thrown on.
+  // Changes an entry. next() takes the current value and returns the new one. An error that next() throws is thrown on.
   async #change(name, key, next) {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
