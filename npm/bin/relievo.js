@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Is the command line of the package: `relievo make` with the flags of the native program.
+// The command line of the package: `relievo make` with the flags of the native program.
 import fs from "node:fs";
 import path from "node:path";
 import { RelievoError } from "../src/engine.js";

@@ -32,7 +32,8 @@ TEST(Room, IsBrightestWhereTheLampIs) {
     for (float y = -1; y <= 1; y += .125F) {
       const float light = room({x, y});
       EXPECT_GT(light, 0);
-      EXPECT_LE(light, at_lamp * 1.03F) << x << " " << y;  // walls above the lamp's direction are brighter
+      EXPECT_LE(light, at_lamp * 1.03F)
+          << x << " " << y;  // the room's walls are slightly brighter above the lamp
     }
 }
 

@@ -132,7 +132,7 @@ std::vector<Tie> slanting_ties(double start, double slope) {
 }
 
 // Without limits, a linear system gives the minimal energy, which is negative. The solver must reach the
-// fraction `share` of it. With three quarters of its sweeps it would not reach `share` in any case.
+// fraction `share` of it. With three quarters of its sweeps it would miss `share` in all cases.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;
