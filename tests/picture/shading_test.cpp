@@ -32,8 +32,7 @@ TEST(Room, IsBrightestWhereTheLampIs) {
     for (float y = -1; y <= 1; y += .125F) {
       const float light = room({x, y});
       EXPECT_GT(light, 0);
-      EXPECT_LE(light, at_lamp * 1.03F)
-          << x << " " << y;  // the room's walls are slightly brighter above the lamp
+      EXPECT_LE(light, at_lamp * 1.03F) << x << " " << y;  // slightly brighter above the lamp
     }
 }
 

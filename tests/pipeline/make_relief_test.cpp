@@ -258,7 +258,7 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
   options.height_mm = 2;
   options.rim_mm = 3;
   options.draft_deg = 20;
-  for (const double share : {.9, 1.1}) {  // fractions of the bevel that has the draft angle
+  for (const double share : {.9, 1.1}) {  // relative to the bevel that has the draft angle
     options.rim_bevel_mm = share * 2 * std::tan(20 * std::numbers::pi / 180);
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
     const auto made = make_relief(*model, options);

@@ -41,8 +41,8 @@ export class CurveEditor {
     this.preset.onchange = () => this.change(this.preset.value, true);
   }
 
-  // Returns the points of the curve. If there is no curve, returns points on the paper's formula. When the user moves
-  // one, they become a curve.
+  // Returns the points of the curve. If there is no curve, returns points on the paper's formula; these become a curve
+  // when the user moves one of them.
   get points() {
     if (this.tone) return parse(this.tone);
     const {share} = this.samples;

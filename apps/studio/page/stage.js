@@ -26,7 +26,7 @@ export class Stage {
     this.overlay = $("#overlay");
     this.camera = {...FRONT};
     this.tool = "light";
-    this.share = 1; // fraction of the pixels along each side that is drawn while things move
+    this.share = 1; // fraction of the pixels along each side that is drawn while the picture keeps changing
     // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` that of the last
     // state that was drawn. The other three are numbers of the last state for which a picture was drawn or has failed:
     // `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which shows the
@@ -151,7 +151,7 @@ export class Stage {
     return {image, about: {...about, options, isTurned: Boolean(request.turned)}};
   }
 
-  // Draws the relief. While things move, requests the next picture before it shows this one.
+  // Draws the relief. While the picture keeps changing, requests the next picture before it shows this one.
   async drawRelief(isFine, {model, changedAt, number, frame}) {
     const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view was opened meanwhile

@@ -143,7 +143,7 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// A connection cannot buffer the 7 MB of an answer. So it blocks a thread until the server gives it up.
+// A connection cannot buffer the 7 MB of an answer. So a thread is blocked until the server closes the connection.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {
