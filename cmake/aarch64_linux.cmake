@@ -1,4 +1,5 @@
-# Cross-builds for 64-bit ARM under Linux, with what scripts/prepare --arm64 installs. Tests run under qemu.
+# Cross-builds for 64-bit ARM under Linux, with the packages that scripts/prepare --arm64 installs. Tests run under
+# qemu.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

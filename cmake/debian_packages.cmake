@@ -1,6 +1,6 @@
-# Makes Debian packages by CPack: relievo (the program), librelievo0.1 (the shared library), librelievo-dev (headers,
-# static library, CMake and pkg-config files) and, if Python's module is built, python3-relievo. `cpack --config
-# build/release/CPackConfig.cmake -B FOLDER` runs it.
+# Makes Debian packages with CPack: relievo (the program), librelievo0.1 (the shared library), librelievo-dev (headers,
+# static library, CMake and pkg-config files) and, if the Python module is built, python3-relievo. The command is `cpack
+# --config build/release/CPackConfig.cmake -B FOLDER`.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME relievo)
 set(CPACK_PACKAGE_VENDOR Relievo)
@@ -52,7 +52,7 @@ package C++ programs are built that call it, by CMake or pkg-config.")
 
 if(TARGET relievo_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  # The module fits only one version of Python 3.
+  # The module works only with one version of Python 3.
   get_target_property(suffix relievo_python SUFFIX)
   string(REGEX MATCH "cpython-3([0-9]+)" suffix ${suffix})
   math(EXPR next "${CMAKE_MATCH_1} + 1")

@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ source with the bytes of FILES, for apps/studio/page_files.h.
+# Writes OUTPUT, a C++ source that contains the bytes of FILES, for apps/studio/page_files.h.
 set(types_html "text/html; charset=utf-8")
 set(types_js "text/javascript; charset=utf-8")
 set(types_css "text/css; charset=utf-8")

@@ -1,10 +1,9 @@
-# Makes full builds faster: headers that most sources need are precompiled, and the sources of a folder are compiled
-# several at a time, as one (CMake's unity build). Without RELIEVO_UNITY each source is compiled by itself. That is
-# faster after a small change, and shows every warning.
+# Makes full builds faster: headers that most sources include are precompiled, and several sources of a folder are
+# compiled together as one (CMake's unity build). Without RELIEVO_UNITY each source is compiled by itself, which is
+# faster after a small change and shows all warnings.
 option(RELIEVO_UNITY "Compile the sources of a folder together" ON)
 
-# Turns off warnings of g++ 12 that are false alarms in code with a precompiled <string>. Programs and tests use these
-# flags.
+# Turns off false alarms of g++ 12 in code with a precompiled <string>. Programs and tests use these flags.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
@@ -25,7 +24,7 @@ function(relievo_unite target size)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # These two warnings confuse names in the anonymous namespaces of two sources. They are on in builds without unity.
+  # These two warnings confuse names in the unnamed namespaces of two sources. They are on in builds without unity.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(group 0)
@@ -44,7 +43,7 @@ function(relievo_unite target size)
   endforeach()
 endfunction()
 
-# Applies relievo_precompile() and relievo_unite() to a target. The arguments after the target are those of the former.
+# Applies relievo_precompile() and relievo_unite() to a target. The other arguments are those of relievo_precompile().
 function(relievo_fast_build target)
   relievo_precompile(${target} ${ARGN})
   relievo_unite(${target} 8)

@@ -1,8 +1,8 @@
 # Installs the library with its headers, and the program. All installed files find each other by relative paths, so an
-# installed tree may be moved.
+# installed tree can be moved.
 
-# As with Meson, libraries are installed into Debian's own folder for libraries. Debian's linker, CMake and pkg-config
-# search this folder under any prefix.
+# As Meson does, installs libraries into Debian's own folder for libraries. Debian's linker, CMake and pkg-config search
+# this folder under any prefix.
 if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED CMAKE_INSTALL_LIBDIR)
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE} CACHE PATH "Folder of libraries below the prefix")
 endif()
@@ -21,8 +21,8 @@ function(relievo_install_library target kind)
     COMPONENT development)
 endfunction()
 
-# relievo_refuse_component(NAME REASON) lets `cmake --install --component NAME` fail, which else installs nothing and says
-# nothing.
+# relievo_refuse_component(NAME REASON) makes `cmake --install --component NAME` fail. Otherwise it would silently
+# install nothing.
 function(relievo_refuse_component name reason)
   install(CODE "message(FATAL_ERROR \"expected a component that was built, found ${name}: ${reason}\")" COMPONENT ${name} EXCLUDE_FROM_ALL)
 endfunction()

@@ -1,4 +1,4 @@
-# Finds the libraries that the project needs: those of the system or, for WebAssembly, those of
+# Finds the libraries that the project needs: those of the system or, for WebAssembly, those built by
 # scripts/build-web-libraries. RELIEVO_LINKED lists the libraries to link.
 if(NOT RELIEVO_WEB)
   find_package(Threads REQUIRED)
@@ -10,16 +10,16 @@ if(NOT RELIEVO_WEB)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
   pkg_check_modules(LIBLZF REQUIRED IMPORTED_TARGET liblzf)
-  pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # libzip's own CMake file in Debian needs its programs, too
+  pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # Debian's CMake file of libzip also needs its programs
   pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz)
   pkg_check_modules(FRIBIDI REQUIRED IMPORTED_TARGET fribidi)
   set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF JPEG::JPEG PkgConfig::LIBLZF PkgConfig::LIBZIP Threads::Threads
-    $<LINK_ONLY:PkgConfig::HARFBUZZ> $<LINK_ONLY:PkgConfig::FRIBIDI>)  # only src/lettering/font.cpp sees their headers
+    $<LINK_ONLY:PkgConfig::HARFBUZZ> $<LINK_ONLY:PkgConfig::FRIBIDI>)  # only src/lettering/font.cpp includes them
   return()
 endif()
 
-# Header-only libraries are those of the system. Their functions for C++ streams are left out, which would be half of
-# the program's size.
+# Header-only libraries are those of the system. Their functions for C++ streams are left out: they would be half of the
+# program.
 function(relievo_headers target folder)
   add_library(${target} INTERFACE IMPORTED)
   target_include_directories(${target} SYSTEM INTERFACE ${folder})

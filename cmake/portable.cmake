@@ -1,6 +1,6 @@
-# The target relievo_portable is the program linked without any shared library, not even glibc: one file for every Linux
-# on the same kind of processor. It is linked from the objects of the program, the static libraries of Debian and the
-# libraries of scripts/build-static-libraries. If that script has not run, there is no such target.
+# The target relievo_portable is the program without any shared library, not even glibc: one file for every Linux on the
+# same kind of processor. It is linked from the objects of the program, static libraries of Debian, and the libraries
+# built by scripts/build-static-libraries. If that script has not run, the target does not exist.
 set(RELIEVO_STATIC_LIBRARIES ${PROJECT_SOURCE_DIR}/build/static CACHE PATH "Folder of scripts/build-static-libraries")
 if(NOT EXISTS ${RELIEVO_STATIC_LIBRARIES}/libharfbuzz.a)
   message(STATUS "scripts/build-static-libraries has not run: there is no target relievo_portable")

@@ -1,4 +1,4 @@
-// Nearly every source includes these headers. They are compiled once for a target instead of for each source.
+// Almost every source includes these headers. They are compiled once per target instead of once per source.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>

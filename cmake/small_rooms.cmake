@@ -1,6 +1,6 @@
-# For the web, only the rooms that take most of the computing time are compiled for speed. The other rooms (files,
-# plates and measures) are compiled for size. So are sources of the fast rooms that run only once per scan. The sources
-# compiled for size are a target of their own, whose objects are part of the library.
+# For the web, only the rooms that take most of the computing time are optimised for speed. All other rooms (files,
+# plates and measures) are optimised for size, and so are sources of the fast rooms that run only once per scan. The
+# sources optimised for size form their own target, whose objects are part of the library.
 set(RELIEVO_PRECOMPILED relievo)
 if(NOT RELIEVO_WEB)
   return()
@@ -29,7 +29,7 @@ relievo_fast_build(relievo_small)
 target_link_libraries(relievo PRIVATE relievo_small)
 set(RELIEVO_PRECOMPILED relievo_small)
 
-# This source jumps, which the other sources need no instructions for.
+# Only this source calls setjmp() and longjmp(), which need special instructions.
 set_source_files_properties(src/io/pictures/depth_jpeg.cpp PROPERTIES
   COMPILE_OPTIONS "-mllvm;-wasm-enable-sjlj" INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/apps/web/libc
   SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)

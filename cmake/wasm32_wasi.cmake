@@ -1,5 +1,5 @@
-# The toolchain of the preset `web`: Debian's clang for WebAssembly, with wasi-libc. Instructions for 128-bit vectors
-# are always on. There are no threads. There are no C++ exceptions, either: code that throws ends the program, see
+# The toolchain of the preset `web`: Debian's clang for WebAssembly, with wasi-libc. 128-bit vector instructions are
+# always on. There are no threads and no C++ exceptions: code that throws ends the program, see
 # apps/web/libc/exceptions.cpp.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
@@ -14,7 +14,7 @@ set(CMAKE_C_FLAGS_INIT "-msimd128")
 set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fignore-exceptions -fno-rtti")
 set(RELIEVO_WEB ON)
 
-# CMake must not find files of the build machine, except those of scripts/build-web-libraries.
+# CMake must not find files of the build machine, except those built by scripts/build-web-libraries.
 set(RELIEVO_WEB_LIBRARIES ${CMAKE_CURRENT_LIST_DIR}/../build/web-libraries CACHE PATH "Folder of scripts/build-web-libraries")
 set(CMAKE_FIND_ROOT_PATH ${RELIEVO_WEB_LIBRARIES})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -1,5 +1,5 @@
-// Puts the package together: build.mjs MODULE FOLDER, where MODULE is the WebAssembly module and FOLDER a new folder. The
-// options, their types and their documentation come from the module itself.
+// Builds the package: build.mjs MODULE FOLDER. MODULE is the WebAssembly module and FOLDER a new folder. The options,
+// their types and their documentation are generated from the module.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
@@ -17,8 +17,9 @@ function writeModule() {
     `// The WebAssembly module, compressed by gzip, in base64.\nexport const compressedModule = "${packed.toString("base64")}";\n`);
 }
 
-// Texts of these units may also be numbers or begin with a word; the values of the stage of the body are words with
-// settings behind a colon. All other words are the only values.
+// The type of an option follows from its unit and stage. OF_NUMBERS: units of texts that may also be numbers or that
+// start with a word. WITH_SETTINGS: units of words that may have settings after a colon. The words of all other options
+// are their only values.
 const OF_NUMBERS = /,|^(SIDE|NOISE|WHAT)$/, WITH_SETTINGS = /^(SHAPE|BODY)$/;
 
 function typeOf(option) {

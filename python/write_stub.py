@@ -6,7 +6,7 @@ import sys
 import typing
 from pathlib import Path
 
-sys.path.pop(0)  # the sources beside this file are left out, as they have no native module
+sys.path.pop(0)  # excludes the sources beside this file, which have no native module
 
 import relievo  # noqa: E402
 

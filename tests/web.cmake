@@ -1,5 +1,5 @@
-# Builds the tests of rooms in WebAssembly, which Node runs. Tests are left out if they need threads, files of their
-# own, exceptions (as RapidCheck does) or a second library.
+# Builds the tests of rooms as WebAssembly, which Node runs. Leaves out tests that need threads, files, exceptions (as
+# RapidCheck does) or a second library.
 set(RELIEVO_GTEST_SOURCE /usr/src/googletest/googletest CACHE PATH "Sources of GoogleTest, of Debian's package googletest")
 add_library(relievo_gtest STATIC ${RELIEVO_GTEST_SOURCE}/src/gtest-all.cc ${RELIEVO_GTEST_SOURCE}/src/gtest_main.cc
   ${PROJECT_SOURCE_DIR}/apps/web/libc/exceptions.cpp ${PROJECT_SOURCE_DIR}/apps/web/libc/setjmp.cpp)

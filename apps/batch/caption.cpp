@@ -8,8 +8,8 @@ namespace {
 
 constexpr int columns = 5, rows = 8;
 
-// The letters from ' ' to '~': five columns each, from the left, as two hexadecimal digits whose lowest bit is
-// the upper pixel.
+// The glyphs of the characters ' ' to '~'. Each glyph has five columns, from left to right. A column is two
+// hexadecimal digits; the lowest bit is its top pixel.
 constexpr std::string_view letters =
     "000000000000005F00000007000700147F147F14242A7F2A12231308646236495620500008070300"
     "001C2241000041221C002A1C7F1C2A08083E08080080703000080808080800006060002010080402"

@@ -11,14 +11,14 @@ namespace relievo::app::batch {
 
 inline constexpr int caption_height_px = 9, letter_width_px = 6;
 
-// A line of text in a picture: its left upper corner, and the width that it may take, in pixels.
+// The area of one line of text in a picture: its top left corner and the largest width, in pixels.
 struct CaptionPlace {
   int left = 0, top = 0, width = 0;
 };
 
-// Writes one line in that colour into a picture of 3 channels, in the middle of the place, which lies within
-// the picture. A text that is too long loses its end, which two dots replace. Bytes that are no printable
-// ASCII appear as question marks.
+// Draws one line of text into a picture of 3 channels, centred in the area, which must lie within the
+// picture. A text that is too long is cut, and ends with two dots. Bytes that are not printable ASCII are
+// drawn as question marks.
 void write_caption(Image8& image, const CaptionPlace& place, std::string_view text,
                    const std::array<std::uint8_t, 3>& colour);
 

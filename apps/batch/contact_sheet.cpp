@@ -29,7 +29,7 @@ void set(Image8& image, int x, int y, const Colour& colour) {
   std::ranges::copy(colour, image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(x, y)));
 }
 
-// Returns the mean colour of a rectangle's pixels. The rectangle must not be empty.
+// Returns the mean colour of the pixels of a rectangle, which must not be empty.
 Colour mean_colour(const Image8& image, int x0, int y0, int x1, int y1) {
   std::array<unsigned, 3> sum{};
   for (int y = y0; y < y1; ++y)

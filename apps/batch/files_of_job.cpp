@@ -1,4 +1,3 @@
-// Finds the files that a job reads.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Adds the file, and the files that it names.
+// Adds the file and the files to which it refers.
 void add_file(const std::string& path, std::vector<std::string>& files) {
   files.push_back(path);
   const std::string ending = ending_of(path);

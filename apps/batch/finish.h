@@ -1,4 +1,4 @@
-// Writes the pages and the list of records at the end of a run. Tested by tests/cli/batch_test.cpp.
+// Writes the pages and the list of records at the end of a batch. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <string>
@@ -12,15 +12,16 @@ struct Summary {
   std::size_t made = 0, failed = 0, missing = 0;
 };
 
-// Returns how many of the jobs are made, how many have failed, and how many have not been done yet.
+// Returns the numbers of jobs that succeeded, failed, and were not done yet.
 Summary summary_of(const std::vector<Job>& jobs, const Records& records);
 
-// Returns groups of at least two jobs that are made from the same content with the same options: the names of
-// the jobs in each group.
+// Returns groups of two or more jobs whose scans have the same content and whose options are the same, as
+// lists of the jobs' names.
 std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, const Records& records);
 
-// Writes into the folder of the outputs: scans.jsonl, the last record of each job in the order of the jobs;
-// contact sheets of all previews; and index.html, the page of index_page(). Errors: kind output.
+// Writes three things into the folder of the outputs: scans.jsonl, with the last record of each job in the
+// order of the jobs; contact sheets of all previews; and index.html, the page of index_page(). Errors: kind
+// output.
 Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop);
 
 }  // namespace relievo::app::batch

@@ -10,9 +10,9 @@
 namespace relievo::app::batch {
 namespace {
 
-// A card is laid out only when it comes into sight, so that a page of 20,000 cards opens at once. A card
-// shows the front view, which is the left half of the preview, or the oblique view while the pointer is on
-// the card.
+// The browser lays out a card only when it scrolls into view, so that a page of 20,000 cards opens at once. A
+// card shows the left half of the preview, the front view. While the pointer is on the card, it shows the
+// right half, the oblique view.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --paper: #ececea; --card: #fafaf8; --ink: #26262a; --soft: #6d6d72; --bad: #a3392c; }
 @media (prefers-color-scheme: dark) {
@@ -47,7 +47,8 @@ input { font: inherit; width: min(24rem, 100%); padding: .45rem .8rem; border: 1
 [hidden] { display: none; }
 )";
 
-// Hides the cards that do not match the search, and fits the front view, half of a preview, into its square.
+// Hides the cards that do not match the search. Scales the front view, the left half of a preview, to fit its
+// square.
 constexpr std::string_view script = R"(
 const cards = [...document.querySelectorAll('[data-name]')];
 document.querySelector('input').addEventListener('input', event => {
@@ -75,7 +76,7 @@ std::string options_text(const Options& options) {
   return text;
 }
 
-// Returns the options that all jobs have with the same value.
+// Returns the options that have the same value in all jobs.
 Options common_options(const std::vector<Job>& jobs) {
   Options common = jobs.empty() ? Options() : jobs.front().options;
   for (const Job& job : jobs)
@@ -119,7 +120,7 @@ std::string card(const Job& job, const Record& record, const Workshop& workshop,
              "</span></div></div>\n");
 }
 
-// Returns the error without the folders of the scan, which tell the page's readers nothing.
+// Returns the error without the folder of the scan, which readers of the page do not need.
 std::string error_text(const Job& job, const Record& record) {
   if (job.file.empty() || !record.error.starts_with(job.file)) return record.error;
   return std::filesystem::path(job.file).filename().string() + record.error.substr(job.file.size());

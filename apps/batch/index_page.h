@@ -1,4 +1,4 @@
-// Writes the page with all reliefs of a catalogue. Tested by tests/cli/batch_pages_test.cpp.
+// Writes the page that shows all reliefs of a catalogue. Tested by tests/cli/batch_pages_test.cpp.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace relievo::app::batch {
 
 // Returns the page: the failed jobs with their errors, and a picture of each relief with links to its files.
-// The page must be put into the folder of the outputs: its links and the paths of the contact sheets are
+// The page must be stored in the folder of the outputs, as its links and the paths of the contact sheets are
 // relative to that folder.
 std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
                        const std::vector<std::string>& sheets);

@@ -35,7 +35,7 @@ bool is_scan_name(const std::string& path) {
   return std::ranges::find(endings, ending) != endings.end() || ending == ".relievo";
 }
 
-// Keeps the names of jobs unique.
+// Makes the names of jobs unique.
 class Names {
  public:
   std::string unused(const std::string& name) {
@@ -51,7 +51,8 @@ class Names {
 
 // ------------------------------------------------------------------------------------------------- folders
 
-// Returns the paths of the files, in order. Hidden files and folders are left out.
+// Returns the sorted paths of the files in the folder and its subfolders. Leaves out hidden files, hidden
+// folders and the folder of the outputs.
 Result<std::vector<fs::path>> files_in(const Catalogue& catalogue) {
   std::error_code failed;
   std::vector<fs::path> paths;
@@ -114,7 +115,7 @@ class TableJobs {
       : table_(table), catalogue_(catalogue), folder_(fs::path(catalogue.path).parent_path()) {}
 
   Result<std::vector<Job>> list() {
-    // Stated names are reserved first, so that generated names cannot take them.
+    // The names that the table states are reserved first, so that no generated name can take one of them.
     for (const TableRow& row : table_.rows)
       if (const std::string& name = cell(row, "name"); !name.empty())
         if (!is_inside(name) || !names_.take(fs::path(name).lexically_normal().string()))
@@ -170,7 +171,7 @@ std::string nearest_column(const std::string& typed) {
 Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
                                        const std::function<bool(const std::string&)>& is_option) {
   const std::string ending = ending_of(catalogue.path);
-  const bool may_be_table = ending == "csv" || ending == "txt";  // scans may have these endings, too
+  const bool may_be_table = ending == "csv" || ending == "txt";  // some scans have these endings, too
   if (is_scan_name(catalogue.path) && !may_be_table)
     return input_error(catalogue.path, {},
                        "expected a folder of scans or a table of them, found a scan; see relievo make");

@@ -12,47 +12,47 @@
 
 namespace relievo::app::batch {
 
-// Maps names of flags of `make`, without their dashes, to values as typed.
+// Maps the flags of `make`, without dashes, to their values as typed.
 using Options = std::map<std::string, std::string>;
 
 struct Job {
-  std::string name;  // path of the outputs, without ending, relative to the folder of all outputs
-  std::string file;  // absolute, so that any machine that shares the file system finds it
+  std::string name;  // path of the outputs relative to their folder, without the ending
+  std::string file;  // absolute path, which is valid on all machines that share the file system
   Options options;
 };
 
 struct Catalogue {
   std::string path;     // a folder or a table
-  std::string match;    // a pattern of file names such as "*.ply", for folders; empty: all readable scans
-  std::string outputs;  // the folder of the outputs, which is not searched for scans
-  Options common;       // options for scans without values of their own
+  std::string match;    // for a folder: a pattern of file names, such as "*.ply"; empty: all readable scans
+  std::string outputs;  // the folder of the outputs, in which no scans are searched
+  Options common;       // options of all scans; the table may override them for one scan
 };
 
-// Returns the jobs of a folder and of the folders in it, in the order of their paths, or the jobs of a table
-// (see table.h), row by row. Pictures beside clouds or meshes are taken for textures and left out. A table
-// has the columns `file`, relative to the table; optionally `name`, the name of the outputs; and the options
-// for which is_option() is true. An empty cell stands for the common value. A job without a name is called
-// like its file; the second job of that name gets -2. Errors: kind input if the path cannot be read or there
-// are no scans, if a row has no file, and for names that are not unique or lead out of the folder; kind
-// option for other columns.
+// Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table (see table.h), row
+// by row. In a folder that contains clouds or meshes, pictures count as textures and are left out. A table
+// has the columns `file`, relative to the table; optionally `name`, the name of the outputs; and any options
+// for which is_option() returns true. An empty cell means the common value. A job without a name gets that of
+// its file; the second job with the same name gets the suffix -2. Errors: kind input if the path cannot be
+// read, if there are no scans, if a row has no file, and for a name that is not unique or leads out of the
+// folder; kind option for other columns.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
-// If the catalogue is a folder, returns the files in it that no job reads as its scan, in order and relative
-// to the folder. Hidden files and files in the folder of the outputs are left out. If the catalogue is a
-// table, returns nothing.
+// Returns the files of a folder that are the scan of no job, sorted and relative to the folder. Leaves out
+// hidden files and the folder of the outputs. Returns nothing if the catalogue is a table.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
-// Returns the files that the job reads: its scan, the files that a scene, a project or a glTF file names, and
-// the files that options name. A file that is missing or cannot be parsed adds no others.
+// Returns the files that the job reads: its scan, the files to which a scene, a project or a glTF file
+// refers, and the files that options name. For a file that is missing or cannot be parsed, only its own path
+// is returned.
 std::vector<std::string> files_of(const Job& job);
 
-// Returns whether the value of the option is the path of a file.
+// Returns whether this value of the option is the path of a file.
 bool is_path(const std::string& option, const std::string& value);
 
 nlohmann::json to_json(const Job& job);
 
-// Returns the job from an object that to_json() made. Errors: kind input.
+// Returns the job that to_json() wrote. Errors: kind input.
 Result<Job> job_from_json(const nlohmann::json& json);
 
 }  // namespace relievo::app::batch

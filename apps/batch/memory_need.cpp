@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr double mb = 1 << 20;
 
-// The figures are upper bounds of measurements (docs/batch.md). Even for a small scan, the blur of normals
-// may have 2^24 cells of 12 bytes, and the solid about half a million samples. The bytes per point of a cloud
-// cover reading, preparing and sampling.
+// These figures are upper bounds of measured values (docs/batch.md). Even for a small scan, the blur of the
+// normals may need 2^24 cells of 12 bytes, and the solid about half a million samples. The bytes per point of
+// a cloud include reading, preparing and sampling.
 constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
                  bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
 
@@ -32,7 +32,7 @@ double number_or(const Options& options, const std::string& name, double otherwi
   return value;
 }
 
-// Returns the memory, in MB, that is needed to read one file and to use its points.
+// Returns the memory, in MB, for reading one file and using its points.
 double need_of_file_mb(const std::string& path, double wanted_points, double stream_above_mb) {
   std::error_code failed;
   const std::uintmax_t bytes = fs::file_size(path, failed);
@@ -57,13 +57,14 @@ double number_in(const std::string& path) {
   return file >> number ? number : -1;
 }
 
-// Returns the memory, in MB, that the control group of this process may still take; infinite without a limit.
+// Returns the memory, in MB, that this process may still allocate before its control group reaches its limit;
+// infinite without a limit.
 double left_in_control_group_mb() {
   std::ifstream groups("/proc/self/cgroup");
   double left = std::numeric_limits<double>::infinity();
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with("0::")) continue;
-    // The limit of a group applies to the groups within it, too.
+    // A group is also subject to the limits of the groups that contain it.
     for (fs::path group = line.substr(3);; group = group.parent_path()) {
       const std::string folder = "/sys/fs/cgroup" + group.string();
       const double most = number_in(folder + "/memory.max"), taken = number_in(folder + "/memory.current");

@@ -5,12 +5,12 @@
 
 namespace relievo::app::batch {
 
-// Estimates the most memory that the job takes, in megabytes, from its options and the headers of its files.
-// The estimate uses the figures of docs/batch.md. Opens each file and reads its first 64 kB.
+// Estimates the job's peak memory, in megabytes, from its options and the headers of its files, with the
+// figures of docs/batch.md. Opens each file and reads its first 64 kB.
 double memory_need_mb(const Job& job);
 
-// Returns the memory that this process may still take, in megabytes: the machine's available memory or, if
-// that is less, the rest of the limit of a control group, such as that of a container or of Slurm.
+// Returns the memory that this process may still allocate, in megabytes: the available memory of the machine
+// or, if that is less, the rest of its control group's limit, as in a container or under Slurm.
 double available_memory_mb();
 
 }  // namespace relievo::app::batch

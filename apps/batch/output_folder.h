@@ -1,4 +1,4 @@
-// Checks and creates the folder that a batch fills. Tested by tests/cli/foreign_files and
+// Checks and creates the folder of a batch's outputs. Tested by tests/cli/foreign_files and
 // scripts/fault-campaign.
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace relievo::app::batch {
 
-// Checks that a batch may fill the folder, and changes nothing. Errors: kind option if the folder has files
-// of others; kind output if it cannot be read.
+// Checks that a batch may write into the folder, and changes nothing. Errors: kind option if the folder has
+// files that no batch made; kind output if it cannot be read.
 Result<void> check_output_folder(const std::string& outputs);
 
-// Creates the folder, marks it as that of a batch, and creates the folder `inner` inside it. This is done
-// again during a run, as users may remove the folders. Errors: those of check_output_folder().
+// Creates the folder, marks it as the folder of a batch, and creates the folder `inner` inside it. Each job
+// calls this again, as the user may remove the folders during a run. Errors: those of check_output_folder().
 Result<void> make_output_folder(const std::string& outputs, const std::filesystem::path& inner = {});
 
 }  // namespace relievo::app::batch

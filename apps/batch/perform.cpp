@@ -30,8 +30,8 @@ std::vector<OutputKind> all_kinds() {
   return kinds;
 }
 
-// Returns a hash of all on which the outputs depend: the contents of the files, the options and the version.
-// Errors: those of read_file() for the job's own file.
+// Returns a hash of everything that determines the outputs: the contents of the files, the options and the
+// version. Errors: those of read_file() for the job's scan.
 Result<std::string> hash_of_work(const Job& job, const std::vector<OutputKind>& kinds) {
   std::string text = cat("relievo ", version);
   for (const std::string& file : files_of(job)) {
@@ -90,7 +90,7 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list) {
   if (count("--heightmap") > 1) return option_error("files", "expected one kind of height map, found 2");
   if (count("--output") + count("--heightmap") == 0)
     return option_error("files", "expected a kind of solid or of height map, found neither");
-  // Without a solid, the height map is what is made.
+  // A call of `make` needs --output. Without a solid, the height map is its output.
   if (count("--output") == 0) std::ranges::find(kinds, "--heightmap", &OutputKind::flag)->flag = "--output";
   return kinds;
 }
@@ -100,7 +100,7 @@ std::string output_name(const Job& job, const OutputKind& kind) {
 }
 
 std::vector<std::string> make_arguments(const Job& job, const Workshop& workshop, int threads) {
-  // The pages show previews small. An option may ask for larger ones.
+  // The pages show small previews. A job may ask for larger ones by its options.
   constexpr std::string_view usual_preview_px = "400";
   std::vector<std::string> arguments{"make", job.file, "--quiet", cat("--threads=", threads)};
   for (const OutputKind& kind : workshop.kinds)
@@ -122,7 +122,7 @@ Performed perform(const Work& work, const Workshop& workshop, int threads) {
   if (work.before && is_still_true(*work.before, *hash, workshop)) return {true, *work.before};
   record.hash = *hash;
   if (const std::optional<MakeError> error = make_outputs(work.job, workshop, threads)) {
-    constexpr std::size_t longest = 4000;  // a record must fit into a pipe
+    constexpr std::size_t longest = 4000;  // a longer record might not fit into the buffer of a pipe
     record.error = error->line.substr(0, longest);
     record.may_succeed = error->may_succeed;
     return end;

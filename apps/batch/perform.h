@@ -1,4 +1,4 @@
-// Performs one job, from its inputs to its outputs. Tested by tests/cli/batch_test.cpp.
+// Does one job: reads its inputs and writes its outputs. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <functional>
@@ -12,51 +12,51 @@
 
 namespace relievo::app::batch {
 
-// A kind of file that is made of each scan.
+// A kind of file to make from each scan.
 struct OutputKind {
-  std::string name;    // the name of a format of export_file.h, or "report"
-  std::string ending;  // appended to the name of the job: ".stl", "-heights.png"
-  std::string flag;    // the flag of `make` that asks for such a file
+  std::string name;    // name of a format of export_file.h, or "report"
+  std::string ending;  // appended to the job's name: ".stl", "-heights.png"
+  std::string flag;    // the flag of `make` that takes the path of such a file
 };
 
-// Returns the kinds of a list such as "stl,preview,report". The preview is always among them, because the
-// pages need it. Errors: kind option for other words, for two solids or two height maps, and for neither.
+// Returns the kinds in a list such as "stl,preview,report". Adds the preview, which the pages need. Errors:
+// kind option for other words, for two solids, for two height maps, and if there is neither a solid nor a
+// height map.
 Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 
 // Returns the path of an output, relative to the folder of the outputs.
 std::string output_name(const Job& job, const OutputKind& kind);
 
-// The error of a call. If `may_succeed` is true, the same call may succeed another time.
+// The error of a call. `may_succeed`: the same call may succeed later.
 struct MakeError {
   std::string line;
   bool may_succeed = false;
 };
-// Runs `relievo ARGUMENTS` in this process.
+// Runs `relievo ARGUMENTS` in this process. Returns the error, or nothing after a success.
 using MakeCall = std::function<std::optional<MakeError>(const std::vector<std::string>& arguments)>;
 
 struct Workshop {
-  std::string outputs;  // the folder
+  std::string outputs;  // path of their folder
   std::vector<OutputKind> kinds;
   MakeCall make;
 };
 
 struct Work {
   Job job;
-  std::optional<Record> before;  // the job's record of the last run
+  std::optional<Record> before;  // the job's record from the last run
   double need_mb = 0;
 };
 
 struct Performed {
-  bool is_kept = false;  // whether nothing was done, as the record of the last run is still true
+  bool is_kept = false;  // nothing was done, since the record of the last run is still valid
   Record record;
 };
 
 // Makes the outputs of a job unless they are up to date: this version made them from the same file contents
-// and options, and they still have the recorded sizes. A failed job is not repeated if its error would occur
-// again.
+// and options, and their sizes have not changed since. A failed job is repeated only if it may succeed now.
 Performed perform(const Work& work, const Workshop& workshop, int threads);
 
-// Returns the arguments of `make` for the job.
+// Returns the arguments with which `make` does the job.
 std::vector<std::string> make_arguments(const Job& job, const Workshop& workshop, int threads);
 
 }  // namespace relievo::app::batch

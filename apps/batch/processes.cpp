@@ -31,18 +31,18 @@ std::string read_all(int descriptor) {
   }
 }
 
-// Runs in the process of a job: does the job and sends its record to the parent.
+// Does the job in its own process, and sends the record to the parent.
 [[noreturn]] void live(const Work& work, const Workshop& workshop, int threads, int result, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // then it removes its temporary files and ends
-  if (::getppid() != parent) ::_exit(0);  // the parent ended before prctl()
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // the signal to this process when the parent ends
+  if (::getppid() != parent) ::_exit(0);  // the parent ended before prctl() was called
   const Performed end = perform(work, workshop, threads);
   nlohmann::json json = to_json(end.record);
   json["is_kept"] = end.is_kept;
   const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  // If this fails, the parent finds no record, and then reports how the process ended.
+  // If the writing fails, the parent gets no record, and reports how the process ended.
   (void)write_all(result, std::as_bytes(std::span(text)));
   std::fflush(stderr);
-  ::_exit(0);  // without destructors of static objects, which belong to the parent
+  ::_exit(0);  // does not run the destructors of static objects, which belong to the parent
 }
 
 double seconds_of(const timeval& time) {
@@ -50,7 +50,7 @@ double seconds_of(const timeval& time) {
 }
 
 std::string reason_of(int status) {
-  // If an allocation failed, the process has printed a line and exited with 1.
+  // A process whose allocation fails prints a line and exits with code 1.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "expected more free memory, found none left";
   if (!WIFSIGNALED(status))
     return cat("expected a result, found the end of its process with ", WEXITSTATUS(status));

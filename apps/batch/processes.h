@@ -1,5 +1,5 @@
-// Runs each job in a process of its own, so that a crash, or a kill by the system for lack of memory, ends
-// only that job. Tested by tests/cli/batch_test.cpp.
+// Runs each job in its own process. If that process crashes, or if the system kills it for lack of memory,
+// only that job fails. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <sys/types.h>
@@ -11,27 +11,27 @@
 
 namespace relievo::app::batch {
 
-// The processes of the running jobs. They are forks of this process and load no program, so a job costs less
-// than a shell command. They end when this process ends, also if it crashes. This process must not have
-// started a thread, and must have no other children.
+// The processes of the running jobs. They are forks of this process that load no program, so a job starts
+// faster than a shell command. They end when this process ends or crashes. This process must not have started
+// a thread, and must have no other child processes.
 class Processes {
  public:
   explicit Processes(const Workshop& workshop) : workshop_(workshop) {}
 
-  // Starts the job; `threads` is the number of threads that it may use. Errors: kind output if there can be
-  // no more processes.
+  // Starts the job, which may use `threads` threads. Errors: kind output if the system allows no more
+  // processes.
   Result<void> start(const Work& work, int threads);
 
-  // Waits until a job ends, in whatever way, and returns its outcome. At least one job must be running.
+  // Waits until a job ends for any reason, and returns its outcome. At least one job must be running.
   Performed wait();
 
   std::size_t running() const { return running_.size(); }
-  double running_mb() const;  // the sum of the running jobs' needs
+  double running_mb() const;  // sum of the estimated memory of the running jobs
 
  private:
   struct Running {
     const Work* work;
-    Descriptor result;  // the pipe from which the record of the process is read
+    Descriptor result;  // the pipe through which the process sends its record
     std::chrono::steady_clock::time_point started;
   };
 

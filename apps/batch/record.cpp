@@ -113,8 +113,8 @@ Result<Journal> Journal::open(const std::string& outputs) {
 }
 
 Result<void> Journal::append(const Record& record) const {
-  // One call writes the whole line, so that lines of several programs never mix. If the last line of the
-  // journal is unfinished, as after a power failure, a line break ends it first.
+  // One call writes the whole line, so that the lines of several programs never mix. After a power failure
+  // the last line of the journal may be unfinished; a line break then ends it first.
   const std::string line = cat(ends_in_a_line(file_) ? "" : "\n",
                                to_json(record).dump(-1, ' ', false, Json::error_handler_t::replace), "\n");
   if (::write(file_.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size())) return {};
@@ -129,7 +129,7 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return std::unexpected(
         Error{ErrorKind::output, outputs, {}, "expected a folder that no other run is at work in"});
-  return file;  // without a lock if the file system has none
+  return file;  // if the file system does not support locks, the file is not locked
 }
 
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name) {
@@ -137,8 +137,8 @@ Result<Descriptor> lock_job(const std::string& outputs, const std::string& name)
   const std::string path = (journals_in(outputs) / "jobs.lock").string();
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
-  // One file has the locks of all jobs: a job locks the byte whose position is the hash of its name. Network
-  // file systems support such locks, too.
+  // One file contains the locks of all jobs: a job locks the byte at the position that is the hash of its
+  // name. Network file systems support locks of single bytes, too.
   struct flock byte {};
   byte.l_type = F_WRLCK;
   byte.l_whence = SEEK_SET;
@@ -146,7 +146,7 @@ Result<Descriptor> lock_job(const std::string& outputs, const std::string& name)
   byte.l_len = 1;
   while (::fcntl(file.number(), F_OFD_SETLKW, &byte) != 0 && errno == EINTR) {
   }
-  return file;  // without a lock if the file system has none
+  return file;  // if the file system does not support locks, the file is not locked
 }
 
 std::string host_name() {

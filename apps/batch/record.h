@@ -1,5 +1,5 @@
-// The record of a job's outcome, and the journal of all records, from which an interrupted run continues.
-// Tested by tests/cli/batch_test.cpp.
+// Defines the record of a job's outcome, and the journal of all records. An interrupted run continues from
+// the journal. Tested by tests/cli/batch_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,31 @@ namespace relievo::app::batch {
 struct Record {
   std::string name = {}, file = {};
   bool is_made = false;
-  std::string error = {};    // one line, if the relief is not made
-  bool may_succeed = false;  // whether a failed job may succeed another time, as memory and disks change
-  std::string hash = {};     // hash of files, options and version; empty if the scan cannot be read
+  std::string error = {};    // one line; empty if the relief was made
+  bool may_succeed = false;  // whether a failed job may succeed later, because memory or a disk was full
+  std::string hash = {};     // hash of files, options and version; empty if the scan could not be read
   double seconds = 0, cpu_seconds = 0, peak_mb = 0;
-  std::map<std::string, std::uintmax_t> outputs = {};  // maps file names, relative to the folder, to bytes
-  std::string host = {}, finished = {};                // finished: the time in UTC
+  std::map<std::string, std::uintmax_t> outputs = {};  // maps paths in the folder to sizes in bytes
+  std::string host = {}, finished = {};                // finished: time in UTC
 };
 
-// Returns the record as the JSON object of a line of the journal.
+// Returns the record as the JSON object that a line of the journal contains.
 nlohmann::json to_json(const Record& record);
 
-// Returns the record of a line; nothing for other text, such as a line that was written only in part.
+// Returns the record in a line; nothing for other text, such as an incomplete line.
 std::optional<Record> record_from_line(std::string_view line);
 
-using Records = std::map<std::string, Record>;  // maps names of jobs to their last records
+using Records = std::map<std::string, Record>;  // maps the name of a job to its last record
 
-// Returns the records of all journals in the folder of the outputs.
+// Returns the records from all journals in the folder of the outputs.
 Records read_journals(const std::string& outputs);
 
-// The journal of one machine, a file in the folder of the outputs. Programs of that machine append to it at
-// the same time. Other machines have their own journals, as not all shared file systems let several machines
-// append to one file.
+// The journal of one machine: a file in the folder of the outputs. Several programs of that machine may
+// append to it at the same time. Each machine has its own journal, since on some network file systems several
+// machines cannot append to the same file.
 class Journal {
  public:
-  // Creates the folder and the file if they are not there. Errors: kind output.
+  // Creates the folder and the file if they are missing. Errors: kind output.
   static Result<Journal> open(const std::string& outputs);
 
   // Errors: kind output.
@@ -53,18 +53,18 @@ class Journal {
   Descriptor file_;
 };
 
-// Locks that shard of the folder for this run until the returned object is destroyed. Errors: kind output if
-// another run has locked it.
+// Locks a shard of the folder until the returned object is destroyed, so that no other run does its jobs.
+// Errors: kind output if another run has locked it.
 Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard);
 
-// Waits until no other process does the job of that name, and locks the job until the returned object is
+// Waits until no other process does the job of that name, then locks the job until the returned object is
 // destroyed. Errors: kind output.
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name);
 
 // Returns this machine's name.
 std::string host_name();
 
-// Returns the present time in UTC, "2026-11-24T12:00:00.000Z".
+// Returns the current time in UTC, "2026-11-24T12:00:00.000Z".
 std::string time_now();
 
 }  // namespace relievo::app::batch

@@ -11,16 +11,16 @@
 namespace relievo::app::batch {
 namespace {
 
-// The rest stays free, as estimates may be wrong and the system needs memory to cache files.
+// Estimates may be wrong, and the system needs memory to cache files. So a fifth of the memory stays free.
 constexpr double share_of_available = .8;
 
-// Returns the number of processors that this process may use, which a workload manager may have limited.
+// Returns the number of processors that this process may use. A workload manager may limit it.
 int usable_processors() {
   cpu_set_t set;
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
-// Starts jobs as soon as processors and memory suffice for them.
+// Starts jobs as soon as there are enough processors and memory for them.
 class Run {
  public:
   Run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits)
@@ -50,8 +50,8 @@ class Run {
     return {};
   }
 
-  // One process per processor is fastest. If the memory or the number of jobs left allows only fewer
-  // processes, each gets several threads.
+  // One process per processor is fastest. If the memory or the number of remaining jobs allows fewer
+  // processes than processors, each process gets several threads.
   int threads_for(const Work& work) const {
     const double side_by_side =
         std::min({static_cast<double>(most_processes_), static_cast<double>(works_.size() - next_),

@@ -9,15 +9,15 @@
 namespace relievo::app::batch {
 
 struct RunLimits {
-  int processes = 0;     // the most processes at a time; 0: as many as there are processors
-  double memory_mb = 0;  // memory of all processes together; 0: most of the available memory
+  int processes = 0;     // most processes at the same time; 0: the number of processors
+  double memory_mb = 0;  // memory of all processes together; 0: 80 % of the available memory
 };
 
-// Called after each job, with the number of jobs that are done.
+// Called after each job. `done` is the number of jobs that have ended.
 using RunWatcher = std::function<void(const Performed& end, std::size_t done)>;
 
-// Does all jobs, as many at the same time as the limits allow, in any order. Appends a line to the journal
-// for each job that was not done before. A job that needs more memory than there is runs alone. A failed job
+// Does all jobs in any order, as many at the same time as the limits allow. Appends a line to the journal for
+// each job that was not done before. A job that needs more memory than the limit runs alone. A failed job
 // does not end the run. Errors: kind output if the journal cannot be written or processes cannot be started.
 Result<void> run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits,
                  const Journal& journal, const RunWatcher& watcher);

@@ -11,7 +11,7 @@ class TableReader {
  public:
   TableReader(std::string_view text, const std::string& name) : text_(text), name_(name) {
     if (text_.starts_with("\xEF\xBB\xBF"))
-      text_.remove_prefix(3);  // the byte order mark of some spreadsheets
+      text_.remove_prefix(3);  // skips the byte order mark, which some spreadsheets write
     separator_ = find_separator();
   }
 
@@ -52,7 +52,7 @@ class TableReader {
     return {};
   }
 
-  // Reads the cells up to the end of the line, and skips the end of the line.
+  // Reads the cells of one line, and skips the line break.
   Result<TableRow> read_row() {
     TableRow row{line_, {}};
     for (;;) {
@@ -67,7 +67,7 @@ class TableReader {
     }
   }
 
-  // Reads the text up to the next separator or end of line. Blanks around the text are left out.
+  // Reads the text up to the next separator or line break, without the blanks around it.
   Result<std::string> read_cell() {
     const std::string ends = cat(separator_, "\r\n");
     const std::size_t start = text_.find_first_not_of(' ');
@@ -103,7 +103,7 @@ class TableReader {
     return cell;
   }
 
-  std::string_view text_;  // the part that is not read yet
+  std::string_view text_;  // the text that is not read yet
   const std::string& name_;
   char separator_ = ',';
   std::size_t line_ = 1;

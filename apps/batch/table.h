@@ -10,21 +10,21 @@
 namespace relievo::app::batch {
 
 struct TableRow {
-  std::size_t line = 0;  // the line of the file in which the row begins
+  std::size_t line = 0;  // number of the line in the file at which the row begins
   std::vector<std::string> cells;
 };
 
 struct Table {
-  std::vector<std::string> columns;  // the first row
-  std::vector<TableRow> rows;        // each with a cell for every column
+  std::vector<std::string> columns;  // the cells of the first row
+  std::vector<TableRow> rows;        // each row has a cell for every column
 };
 
-// Returns the table in the text of the file called `name`. Cells are separated by commas, semicolons or tabs:
-// by the one of these that comes first in the first row. A cell in quotation marks may contain separators,
-// line breaks, and quotation marks, which are doubled. Missing cells at the end of a row are empty; rows of
-// empty cells are left out. Errors: kind input, naming the line, for a table without columns, a column
-// without a name or with the name of another, more cells than columns, and a quotation mark that is never
-// closed.
+// Returns the table in the text of a file. Errors call the file `name`. The separator is a comma, a semicolon
+// or a tab: the first of these in the first row. A cell in quotation marks may contain separators and line
+// breaks; a quotation mark in it is doubled. Missing cells at the end of a row are empty. Rows in which all
+// cells are empty are left out. Errors: kind input, with the line's number, for a table without columns, a
+// column without a name, two columns with the same name, more cells than columns, and an unclosed quotation
+// mark.
 Result<Table> read_table(std::string_view text, const std::string& name);
 
 }  // namespace relievo::app::batch

@@ -31,16 +31,16 @@ struct BatchArguments : MakeOptions {
   batch::RunLimits limits;
 };
 
-// The jobs of a run, and the folder and the kinds of their outputs.
+// The jobs of a run, the folder of their outputs, and the kinds of files to make.
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::Workshop workshop;
-  std::vector<std::string> skipped = {};  // files of the folder that no job reads as its scan
+  std::vector<std::string> skipped = {};  // files of the folder that are the scan of no job
 };
 
 // ------------------------------------------------------------------------------------------------- options
 
-// The names of the options that `make` and `batch` share, without dashes.
+// Returns the names, without dashes, of the options that `make` and `batch` have in common.
 const std::set<std::string>& shared_options() {
   static const std::set<std::string> names = [] {
     MakeOptions unused;
@@ -49,7 +49,7 @@ const std::set<std::string>& shared_options() {
     add_make_options(command, unused);
     std::set<std::string> found;
     for (const CLI::Option* option : command.get_options())
-      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // old names are hidden
+      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // an alias has none
     return found;
   }();
   return names;
@@ -65,7 +65,7 @@ batch::Options given_options(const CLI::App& command) {
   return options;
 }
 
-// The jobs are divided into `count` parts; this is part `index`, counted from 1.
+// One part of the jobs, which are divided into `count` parts. `index` counts from 1.
 struct Shard {
   std::size_t index = 1, count = 1;
 };
@@ -82,8 +82,8 @@ Result<Shard> parse_shard(const std::string& text) {
   return shard;
 }
 
-// Neighbours in a catalogue are often alike, so jobs go to the shards in turn: shards then take about equally
-// long.
+// Returns every count-th job. Neighbours in a catalogue are often alike, so all shards then take about
+// equally long.
 std::vector<batch::Job> jobs_of_shard(const std::vector<batch::Job>& jobs, const Shard& shard) {
   std::vector<batch::Job> part;
   for (std::size_t i = shard.index - 1; i < jobs.size(); i += shard.count) part.push_back(jobs[i]);
@@ -105,8 +105,8 @@ Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
 
 Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& command) {
   if (arguments.input.empty()) return option_error("input", "expected a folder or a table, found none");
-  // The options for all scans are checked here, before the first job. A wrong option in a row of the table
-  // makes only that row's job fail.
+  // The options that apply to all scans are checked here, before the first job. A wrong option in a row of
+  // the table only makes the job of that row fail.
   RELIEVO_CHECK(parse_options(arguments.order.values));
   RELIEVO_CHECK(parse_unit(arguments.units));
   BatchOrder order;
@@ -167,7 +167,7 @@ Result<void> finish_run(const BatchOrder& order, bool is_quiet) {
                    (fs::path(order.workshop.outputs) / "index.html").string());
 }
 
-// Prints one line per job. With such a line, `--job` does the job on another machine.
+// Prints one line per job. The flag `--job` takes such a line and does that job, on any machine.
 Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   for (const batch::Work& work : works_of(order.jobs, arguments, order.workshop)) {
     nlohmann::json json = to_json(work.job);
@@ -178,9 +178,9 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// Returns the job's record if the job was done after list() printed its line; nothing if its first output is
-// missing or it has no record. This happens when a Dask worker (python/relievo/batch.py) dies while its
-// program goes on, or before it reports the finished job: another worker then gets the same job.
+// Returns the job's record if the job was done after list() printed its line; nothing if its first output or
+// its record is missing. A Dask worker (python/relievo/batch.py) may die after its program has done the job,
+// or while that program goes on. Another worker then gets the same job.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::Workshop& workshop) {
   const std::string output = batch::output_name(job, workshop.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(workshop.outputs) / output, ignored)) return std::nullopt;
@@ -189,7 +189,7 @@ std::optional<batch::Record> made_since_listed(const batch::Job& job, const batc
   return found == records.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Does the job that a line of list() describes, and prints the job's record.
+// Does the job that a line from list() describes, and prints the job's record.
 Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& workshop,
                              const batch::Journal& journal) {
   const auto json = nlohmann::json::parse(listed, nullptr, false);
@@ -205,13 +205,13 @@ Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& w
   nlohmann::json line = to_json(end.record);
   line["is_kept"] = end.is_kept;
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  // Each line is flushed. If nobody reads the records any more, the program notices it here and ends.
+  // If nobody reads the records any more, the flush fails and the program ends.
   if (std::fflush(stdout) != 0)
     return system_error(ErrorKind::output, work.job.name, "expected a reader of records");
   return end.record;
 }
 
-// Does the jobs in turn. A failed job does not stop the others.
+// Does the jobs one after the other. A failed job does not stop the others.
 Result<void> do_jobs(const BatchArguments& arguments) {
   RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
   RELIEVO_CHECK(batch::make_output_folder(arguments.outputs));

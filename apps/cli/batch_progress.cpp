@@ -47,7 +47,7 @@ std::string BatchProgress::line(std::size_t done) const {
   return cat("[", bar, "] ", text);
 }
 
-// Jobs that an earlier run has done take no time, so the estimate leaves them out.
+// Jobs that an earlier run completed take no time now, so the estimate does not count them.
 std::string BatchProgress::time_left(std::size_t done) const {
   const std::size_t made = done - std::min(done, kept_);
   if (made == 0 || done == jobs_) return {};

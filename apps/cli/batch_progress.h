@@ -1,4 +1,4 @@
-// Shows on standard error how many jobs of a run over many scans are done.
+// Shows on standard error how many jobs of a batch are done.
 #pragma once
 
 #include <chrono>
@@ -9,8 +9,8 @@
 
 namespace relievo::app::cli {
 
-// Shows a bar with the remaining time if standard error is a terminal. Otherwise prints a line after each
-// twentieth of the jobs. In both cases prints a line for each failure.
+// Shows a bar with the remaining time if standard error is a terminal. Otherwise prints a line after every
+// twentieth of the jobs. In both cases prints a line for each failed job.
 class BatchProgress {
  public:
   BatchProgress(std::size_t jobs, bool is_quiet);

@@ -45,7 +45,7 @@ struct BenchResult {
   std::optional<ViewFigures> views;
 };
 
-// Prepares a model by `make_model` and measures its frames, first with one thread, then with all.
+// Prepares a model with `make_model` and measures its frames: first with one thread, then with all threads.
 template <typename F>
 Result<void> measure_model(const std::string& name, int frames, F&& make_model, BenchResult& result) {
   Progress progress;

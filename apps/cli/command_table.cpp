@@ -17,7 +17,7 @@ std::vector<std::string> all_names(const auto& infos) {
   return names;
 }
 
-// Returns the possible values of a flag, given without its dashes, from the tables of options.
+// Returns the possible values of a flag. `name` is the flag without its dashes.
 std::vector<std::string> words_of(const std::string& command, const std::string& name) {
   if (command == "sample" && name == "name") return all_names(samples());
   if (name == "units") return {"mm", "in"};
@@ -32,8 +32,8 @@ std::vector<std::string> words_of(const std::string& command, const std::string&
   return {option->choices.begin(), option->choices.end()};
 }
 
-// Returns whether the word that stands for a flag's value in the help means a path. Such a word has an ending
-// ("P.png") or is one of those for files and folders.
+// Returns whether a flag takes a path. `value` is the placeholder in the flag's help: for a path it has an
+// ending ("P.png") or is one of the words listed here.
 bool is_path(const std::string& value) {
   const std::size_t dot = value.find('.');
   return value == "INPUT" || value == "OUT" || value == "DIR" || value == "FX,FY,CX,CY" ||

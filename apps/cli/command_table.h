@@ -1,4 +1,4 @@
-// The commands of the program with their flags, for man pages and the completion of shells.
+// Lists the commands of the program with their flags, for the man pages and the completion scripts of shells.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,9 +7,9 @@
 
 namespace relievo::app::cli {
 
-// A flag, or an argument that stands by itself.
+// A flag or a positional argument.
 struct FlagInfo {
-  std::string name;                // "--height"; "input" for an argument that stands by itself
+  std::string name;                // "--height"; "input" for a positional argument
   std::string short_name;          // "-o"; may be empty
   std::string value;               // "MM"; empty if the flag takes no value
   std::string help;                // includes range and default
@@ -22,7 +22,7 @@ struct CommandInfo {
   std::vector<FlagInfo> flags;  // in the order of the help
 };
 
-// Returns the commands that the help names, in the order of the help.
+// Returns the commands that appear in the help, in the same order.
 std::vector<CommandInfo> command_table(const CLI::App& program);
 
 // Return the man pages of the program and of one of its commands, in roff.

@@ -1,4 +1,4 @@
-// Each function adds one subcommand to the program. The subcommand that the user chooses leaves its outcome
+// Each function adds one subcommand to the program. When the user runs that subcommand, its outcome is stored
 // in `result`.
 #pragma once
 

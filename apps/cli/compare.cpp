@@ -31,8 +31,8 @@ struct CompareArguments {
   bool is_json = false, is_quiet = false;
 };
 
-// Pictures and messages show reliefs of this width. The longer side of a picture has twice as many pixels as
-// on the page, so that the picture stays sharp when it is enlarged.
+// Width of the reliefs in pictures and messages. Each picture has twice as many pixels as the page shows, so
+// that it stays sharp when the page is enlarged.
 constexpr double width_mm = 100;
 constexpr int longer_side_px = 512;
 
@@ -48,7 +48,7 @@ Result<std::vector<std::string_view>> parse_methods(const std::vector<std::strin
   return chosen;
 }
 
-// Draws the model and its reliefs as the preview and the studio do.
+// Draws the model and its reliefs with the renderer of the preview and the studio.
 class PlatePictures {
  public:
   explicit PlatePictures(std::shared_ptr<const ReliefModel> model)
@@ -62,7 +62,8 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Draws the model without shadows and dark hollows: at the model's full depth they would cover the ground.
+  // Draws the model without shadows and without darkened hollows: they would darken the whole ground, as the
+  // model has its full depth.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {
@@ -84,14 +85,14 @@ class PlatePictures {
   RenderOptions options_;
 };
 
-// Makes reliefs of one scan, measures them on one surface, and draws them if a page is wanted.
+// Makes reliefs of one scan, measures all of them on the same surface, and draws them if a page is wanted.
 struct Comparer {
   std::shared_ptr<const ReliefModel> model;
-  std::optional<ReliefModel> paper;  // the model of Method::paper, if that is compared
+  std::optional<ReliefModel> paper;  // the model for Method::paper, if that method is compared
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
 
-  // Returns the relief by a method with a shape, or by a baseline with its best parameters.
+  // Returns the relief by the method of that name; by a baseline with its best parameters.
   Result<TunedRelief> relief_by(std::string_view name, double height, double unit_mm) const {
     if (std::ranges::find(baseline_names, name) != baseline_names.end())
       return best_baseline(name, {model->surface(), *model->system(), metrics}, height, unit_mm);
@@ -102,7 +103,7 @@ struct Comparer {
     return TunedRelief{std::move(relief), ""};
   }
 
-  // Appends one relief of that height per method, or no relief if a method fails.
+  // Appends one relief per method, each of the height `share`. Appends none if a method fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;
@@ -116,7 +117,8 @@ struct Comparer {
   }
 };
 
-// CLI11's own message would not say that heights are fractions here. In the other commands they are lengths.
+// Heights are fractions of the width here, but lengths in the other commands. The message of CLI11 would not
+// say so.
 std::string height_error(const std::string& text) {
   if (CLI::Range(1e-4, 1.0)(text).empty()) return {};
   return cat("expected fractions of the width, 0.0001 to 1, found ", text);

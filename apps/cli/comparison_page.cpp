@@ -7,8 +7,8 @@
 namespace relievo::app::cli {
 namespace {
 
-// The background is a neutral grey, as the ground of the pictures is transparent. Negative margins cancel the
-// pictures' own padding, so that plates and text align. The model stays visible while the user scrolls.
+// The ground of the pictures is transparent, so the background is a neutral grey. Negative margins cancel the
+// padding inside the pictures, so that plates and text align. The model stays visible while the user scrolls.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; }
 body { margin: 2rem; font: 15px/1.45 system-ui, sans-serif; background: #e4e4e4; color: #222; }

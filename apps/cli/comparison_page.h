@@ -15,19 +15,20 @@ struct ComparedRelief {
   double height = 0;       // as a fraction of the width
   std::string parameters;  // of a baseline, see TunedRelief
   Measures measures;
-  Image8 picture;  // empty if no page is wanted, as is Comparison::model
+  Image8 picture;  // empty if no page is wanted; so is Comparison::model
 };
 
 struct Comparison {
-  std::string scan;  // as the user named it
+  std::string scan;  // name of the scan as the user typed it
   std::vector<std::string_view> methods;
   std::size_t visible_points = 0, measured_pixels = 0;
   Image8 model;
-  std::vector<ComparedRelief> reliefs = {};  // by height, then in the order of the methods
+  std::vector<ComparedRelief> reliefs = {};  // sorted by height, then in the order of `methods`
   std::vector<std::string> remarks = {};
 };
 
-// Returns one HTML file with a row for each height and a column for each method. It refers to no other file.
+// Returns a page in one HTML file, with a row for each height and a column for each method. The page needs no
+// other file.
 std::string comparison_page(const Comparison& comparison);
 
 }  // namespace relievo::app::cli

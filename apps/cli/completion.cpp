@@ -52,7 +52,7 @@ std::string bash_names(const CommandInfo& command, const FlagInfo& flag) {
   return flag.short_name.empty() ? name : cat(name, "|", command.name, ":", flag.short_name);
 }
 
-// Returns the branches of the script's first `case`, which complete the value after a flag.
+// Returns the branches of the script's first `case`, which complete the value of a flag.
 std::string bash_values(const CommandInfo& command) {
   std::string text, numbers;
   for (const FlagInfo& flag : command.flags) {
@@ -68,7 +68,7 @@ std::string bash_values(const CommandInfo& command) {
   return numbers.empty() ? text : cat(text, "    ", numbers, ") return ;;\n");
 }
 
-// Returns the branch of a command, which completes a flag or an argument.
+// Returns the script's branch for one command, which completes its flags and arguments.
 std::string bash_flags(const CommandInfo& command) {
   std::string flags, argument = "paths=1";
   for (const FlagInfo& flag : command.flags) {

@@ -31,15 +31,15 @@ Result<std::string> tool_in_mm(std::string_view text, LengthUnit bare) {
   return text_of(tool);
 }
 
-// Returns the unit of --units; millimetres where it is not given or the command has no such flag.
+// Returns the unit that --units sets; millimetres if the user or the command does not have that flag.
 LengthUnit unit_of(const CLI::App& command) {
   const CLI::Option* const units = command.get_option_no_throw("--units");
   if (units == nullptr || units->count() == 0) return LengthUnit::mm;
   return parse_unit(units->results().back()).value_or(LengthUnit::mm);
 }
 
-// Converts a length to millimetres. The text may name a unit; otherwise --units applies, wherever that flag
-// stands.
+// Converts a length to millimetres. If the text names no unit, the unit is that of --units, which may stand
+// before or after this flag.
 CLI::Validator in_mm(const CLI::App& command, Result<std::string> (*convert)(std::string_view, LengthUnit)) {
   const auto transform = [&command, convert](std::string& text) {
     const Result<std::string> mm = convert(text, unit_of(command));

@@ -1,5 +1,5 @@
-// Measures the times and the memory of frames, and of views that a user waits for while turning a scan.
-// Prints them beside the times in the paper.
+// Measures the time and the memory of frames, and how long a user waits for a view while turning a scan.
+// Prints the results beside the times in the paper.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace relievo::app::cli {
 
-// The times of one part of a frame, over many frames.
+// The durations of one part of a frame, one for each measured frame.
 struct Series {
   std::vector<double> ms = {};
 
@@ -23,28 +23,27 @@ struct Series {
 struct FrameFigures {
   std::string mode;
   std::size_t visible_points = 0;
-  std::size_t control_points = 0;  // 0: all visible points
+  std::size_t control_points = 0;  // 0: heights are solved for all visible points
   int threads = 1;
-  Series heights = {}, detail = {}, normals = {}, whole = {};  // t1, t2, t3 and the whole frame
-  double solves = 0;                                           // solves per frame
+  Series heights = {}, detail = {}, normals = {}, whole = {};  // t1, t2 and t3 of the paper, and all of it
+  double solves = 0;                                           // linear systems solved per frame
 };
 
 struct FrameRun {
   int threads = 1;
   int frames = 60;
-  bool is_locked = false;  // height locked
-  bool is_ahead = false;   // by FrameMaker::make_ahead()
+  bool is_locked = false;  // whether the height is locked
+  bool is_ahead = false;   // whether FrameMaker::make_ahead() is used
 };
 
-// Makes frames as if a user dragged a slider: the slider of the detail or, with a locked height, the slider
-// of the saturation.
+// Makes frames as if a user dragged a slider: the saturation if the height is locked, otherwise the detail.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
 // Returns the memory of a model and its frame maker, in bytes per visible point.
 double bytes_per_point(const ReliefModel& model);
 
-// A line of the paper's Table 1: times in milliseconds on six cores. In the paper, t1, t2 and t3 of three
-// frames run at the same time.
+// A row of the paper's Table 1: times in milliseconds on six cores. t1, t2 and t3 overlap: the paper computes
+// three frames at the same time.
 struct PaperRow {
   const char* model;
   int visible_points, control_points, t1, t2, t3;
@@ -68,7 +67,7 @@ inline constexpr std::array<PaperRow, 15> paper_table_1{{
     {"buddha", 173336, 7314, 17, 26, 11, 38.35},
 }};
 
-// Print a table like the paper's: its head, a line of measured times, and the lines that the paper printed.
+// Print a table like the paper's: its heading, a row of measured times, and the rows from the paper.
 void print_frame_head();
 void print_frames(const FrameFigures& figures);
 void print_paper_rows();
@@ -80,20 +79,20 @@ struct ViewRun {
   int views = 5;
 };
 
-// Views of one kind, one after the other.
+// The times of successive views of one kind.
 struct ViewSeries {
   Series time;
-  double early_mib = 0, late_mib = 0;  // memory of the process after a tenth of the views, and after all
+  double early_mib = 0, late_mib = 0;  // after a tenth of the views, and after all views
 };
 
 struct ViewFigures {
-  double first_ms = 0;         // from points in memory to the first frame of the first view
-  double first_turned_ms = 0;  // from the first view to the first frame of a coarse relief
-  ViewSeries turned;           // coarse reliefs of turned views, with a frame of each
-  ViewSeries prepared;         // other views, each prepared in full, with a frame of each
+  double first_ms = 0;         // from the points in memory to the first frame of the first view
+  double first_turned_ms = 0;  // from the first view to the first frame of a turned relief
+  ViewSeries turned;           // turned reliefs (see the glossary), with one frame each
+  ViewSeries prepared;         // fully prepared views, with one frame each
 };
 
-// Opens the cloud in a session and turns it about the upright axis. Errors: those of Session::turn() and of
+// Opens the cloud in a session and turns it about the vertical axis. Errors: those of Session::turn() and of
 // the session's preparations.
 Result<ViewFigures> measure_views(const ViewRun& run);
 

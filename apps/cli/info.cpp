@@ -19,7 +19,7 @@
 namespace relievo::app::cli {
 namespace {
 
-// Prints ten digits, as geo-referenced coordinates need them.
+// Geo-referenced coordinates need ten digits.
 std::string vector_text(const Vec3& v) {
   char text[96];
   std::snprintf(text, sizeof text, "%.10g, %.10g, %.10g", v.x(), v.y(), v.z());
@@ -59,8 +59,8 @@ Result<void> depth_info(std::span<const std::byte> bytes, const std::string& inp
   return {};
 }
 
-// Returns the bounds of the triangles, or of the points if there are none: a mesh may have points that no
-// triangle uses.
+// Returns the bounds of the triangles, or of the points if there are no triangles. Points of a mesh that no
+// triangle uses do not count.
 Box box_of(const CloudFile& file, const PlacedModel& place) {
   Box box;
   const bool is_mesh = !file.mesh.empty();
@@ -82,7 +82,7 @@ std::string points_text(const CloudFile& file) {
   return text;
 }
 
-// Prints where each model of a scene is, as seen from the front.
+// Prints the position of each model of a scene in the front view.
 Result<void> scene_info(const std::vector<std::string>& inputs) {
   RELIEVO_TRY(const Scene scene, read_scene(inputs, {}, {}, nullptr));
   RELIEVO_TRY(const std::vector<PlacedModel> places, place_models(scene, View{}));

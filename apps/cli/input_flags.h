@@ -1,4 +1,4 @@
-// The flags of the commands that read a scan, and their values.
+// Adds the flags of the commands that read a scan.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 
 namespace relievo::app::cli {
 
-// The texts of InputArguments, as typed.
+// The values of InputArguments as the user types them.
 struct InputTexts {
   OptionValues depth;
   std::string camera;
@@ -23,14 +23,14 @@ void add_input_flags(CLI::App& command, InputTexts& texts);
 // Parses the texts. Errors: those of parse_depth().
 Result<InputArguments> parse_input_texts(const InputTexts& texts);
 
-// The inputs of a command and the view of them.
+// The inputs of a command, and the view in which they are seen.
 struct SceneArguments {
   std::vector<std::string> paths;
   OptionValues view;
   InputTexts in;
 };
 
-// Adds INPUT, the flags of the view and the flags of InputTexts.
+// Adds the argument INPUT, the flags of the view and the flags of InputTexts.
 void add_scene_flags(CLI::App& command, SceneArguments& arguments);
 
 struct SampledView {
@@ -38,7 +38,7 @@ struct SampledView {
   View view;
 };
 
-// Reads the inputs and takes the points seen in their view, as `make` does. Errors: those of
+// Reads the inputs and returns the points that their view shows, as `make` does. Errors: those of
 // parse_input_texts(), parse_options(), read_scene() and sample_for_view().
 Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress);
 

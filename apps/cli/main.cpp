@@ -10,7 +10,7 @@
 
 namespace {
 
-// Returns whether all printed text has been written. On a full disk it cannot be.
+// Returns whether all printed text has been written. Writing fails on a full disk, for example.
 bool is_printed() {
   return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
@@ -19,7 +19,7 @@ bool is_printed() {
 
 int main(int argc, char** argv) {
   relievo::app::cli::restart_with_huge_pages(argv);
-  // The studio refuses work that needs too much memory, and goes on.
+  // Without memory for a request, the studio refuses that request and goes on.
   if (argc > 1 && argv[1] == std::string_view("studio"))
     relievo::app::keep_memory_in_reserve();
   else

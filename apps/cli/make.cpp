@@ -27,14 +27,15 @@ struct MakeArguments : MakeOptions {
 
 constexpr std::array<std::string_view, 3> map_endings{".png", ".tif", ".tiff"};
 
-// Returns the endings of files that the flag --output can name.
+// Returns the endings that the flag --output accepts.
 std::vector<std::string_view> output_endings() {
   std::vector<std::string_view> endings = solid_endings();
   endings.insert(endings.end(), map_endings.begin(), map_endings.end());
   return endings;
 }
 
-// Sets the path of the solid or, if the output is a picture, of the height map, which needs no solid then.
+// Stores the path of --output: as that of the height map if it ends like a picture, which then needs no
+// solid, otherwise as that of the solid.
 Result<void> take_output(MakeArguments& arguments) {
   const std::string& path = arguments.output;
   ReliefFiles& files = arguments.files;
@@ -72,7 +73,7 @@ std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
              in_units(size.x()), " x ", in_units(size.y()), " x ", in_units(size.z()), " ", unit);
 }
 
-// All finished files in memory, and the lines to print about them.
+// The finished files, still in memory, and the lines to print about them.
 struct Finished {
   std::vector<OutputFile> files;
   std::vector<std::string> lines;
@@ -99,7 +100,7 @@ Result<void> make(MakeArguments& arguments) {
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
   const Result<Finished> finished = run(std::move(order), arguments.files, progress);
-  progress.finish();  // erases the bar, also before an error
+  progress.finish();  // erases the progress bar; an error is printed after that
   if (!finished) return std::unexpected(finished.error());
   RELIEVO_CHECK(write_files(finished->files));
   for (const std::string& line : finished->lines)

@@ -1,4 +1,5 @@
-// The options of `make`. `batch` has them, too: as flags for all scans, and as columns of its table.
+// Defines the options of `make`. `batch` has the same ones: as flags for all scans, and as columns of its
+// table.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -14,8 +14,8 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-// Escapes a text for roff. Otherwise roff would print a plain dash as a hyphen, and would take a line that
-// begins with a dot or a quote for a command.
+// Escapes a text for roff. Otherwise roff would print a dash as a hyphen, and treat a line that begins with a
+// dot or a quote as a command.
 std::string roff(std::string_view text) {
   const std::string escaped = replaced(replaced(std::string(text), "\\", "\\e"), "-", "\\-");
   return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;

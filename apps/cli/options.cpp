@@ -27,7 +27,8 @@ Result<std::string> man_page(const std::vector<CommandInfo>& commands, const std
   return command_man_page(*command);
 }
 
-// Writes the man pages and the completion scripts to their places below an installation's share/.
+// Writes the man pages and the completion scripts to their standard places below `folder`, the share/ of an
+// installation.
 Result<void> write_share(const std::vector<CommandInfo>& commands, const std::string& folder) {
   std::vector<std::pair<std::string, std::string>> files{
       {"man/man1/relievo.1", program_man_page(commands)},
@@ -65,7 +66,7 @@ Result<void> print(const OptionsArguments& arguments, const CLI::App& program) {
 
 }  // namespace
 
-// The command is not in the help: it is for making documents, pages and packages.
+// Adds the command `options`, which the help does not show: it makes documents, pages and packages.
 void add_options(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<OptionsArguments>();
   CLI::App& command = *program.add_subcommand("options", "Print the table of make's options")->group("");

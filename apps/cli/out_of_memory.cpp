@@ -21,7 +21,7 @@ iovec part(const char* text) {
   return {const_cast<char*>(text), std::strlen(text)};
 }
 
-// This function must not allocate. If several threads fail at once, only the first one prints the line.
+// Must not allocate. If several threads fail at the same time, only the first one prints the line.
 void end_process() {
   static std::atomic_flag is_ending;
   while (is_ending.test_and_set()) ::pause();
@@ -33,13 +33,13 @@ void end_process() {
   std::to_chars(megabytes, megabytes + sizeof megabytes - 1, kilobytes / 1000 + 1);
   const std::array line = {part("relievo: expected more free memory than the "), part(megabytes),
                            part(" MB that are in use; fewer points and a coarser resolution need less\n")};
-  // One call writes the whole line, as other processes of a batch may print at the same time.
+  // One call writes the whole line: other processes of a batch may print at the same time.
   (void)!::writev(STDERR_FILENO, line.data(), line.size());
   ::_exit(1);
 }
 
-// Some allocations do not call the handler of operator new but throw std::bad_alloc. If that exception leaves
-// a thread, std::terminate() calls this function.
+// Handles std::bad_alloc from allocations that do not call the handler of operator new. If the exception
+// leaves a thread, std::terminate() calls this function.
 void end_process_or_abort() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);

@@ -16,7 +16,8 @@
 namespace relievo::app::cli {
 namespace {
 
-// Returns the line to print; an option is named by its flag: "--height: expected ...".
+// Returns the line to print for an error. If the error is about an option, its flag comes first: "--height:
+// expected ...".
 std::string line_of(Error error, const CLI::App& program) {
   const std::string flag = "--" + error.input;
   for (const CLI::App* command : program.get_subcommands())
@@ -24,7 +25,7 @@ std::string line_of(Error error, const CLI::App& program) {
   return error.message();
 }
 
-// Returns the option or command that a user may have meant, or an empty text.
+// Returns the option or the command that the user may have meant; an empty text if none is similar.
 std::string nearest_in(const CLI::App& app, const std::string& typed) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
@@ -33,21 +34,21 @@ std::string nearest_in(const CLI::App& app, const std::string& typed) {
   return nearest_name(typed, names);
 }
 
-// Returns the part of a message with the name that the user typed and the nearest known name.
+// Returns the end of a message: the name that the user typed, and the most similar known name.
 std::string found_name(const CLI::App& app, const std::string& typed) {
   const std::string nearest = nearest_in(app, typed);
   return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));
 }
 
-// Returns the first option that CLI11 does not know. If only words without dashes are unknown, returns the
-// first of these.
+// Returns the first option that CLI11 does not know. If there is none, returns the first unexpected word
+// without dashes.
 std::string first_unknown(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
   return words.empty() ? std::string() : option != words.end() ? *option : words.front();
 }
 
-// Returns the message for an error of CLI11, in the wording of all other messages.
+// Returns the message for an error of CLI11, in the style of the program's other messages.
 std::string words_of(const CLI::Error& error, const CLI::App& app) {
   const std::string text = error.what();
   const auto between = [&](std::string_view before, std::string_view after) {
@@ -71,7 +72,7 @@ void add_commands(CLI::App& program, Result<void>& result) {
   program.set_version_flag("--version", std::string("relievo ") + version);
   program.require_subcommand(1);
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
-    const auto commands = app->get_subcommands();  // the commands that the user named
+    const auto commands = app->get_subcommands();  // the subcommands that the user typed
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
     return words_of(error, commands.empty() ? *app : *commands.front()) + "; see relievo " + command +
            "--help";
@@ -93,7 +94,7 @@ void add_commands(CLI::App& program, Result<void>& result) {
       "  relievo batch scans -o reliefs --width 80 --height 4");
 }
 
-// Parsing runs the command, too.
+// Parses the arguments. CLI11 also runs the chosen command while it parses.
 ProgramEnd parse(CLI::App& program, std::vector<std::string> arguments) {
   try {
     std::ranges::reverse(arguments);  // CLI11 expects the last argument first

@@ -23,7 +23,7 @@ struct StudioArguments {
   bool has_no_browser = false;
 };
 
-// Asks the desktop to show the page; without a desktop the printed address must do.
+// Asks the desktop to open the page in a browser. Without a desktop the user has to open the printed address.
 void show(const std::string& address) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
   std::thread([command = "xdg-open '" + address + "' >/dev/null 2>&1"] {
@@ -31,9 +31,9 @@ void show(const std::string& address) {
   }).detach();
 }
 
-// Returns the ssh command that the user can run on their own machine to reach the address here; "" if the
-// user is not logged in by ssh. SSH_CONNECTION has the address and the port of the user's machine, then those
-// of this machine.
+// Returns the ssh command that makes the address reachable from the user's own machine; "" if the user is not
+// logged in by ssh. SSH_CONNECTION has the address and the port of the user's machine, followed by those of
+// this machine.
 std::string tunnel_command(const std::string& address) {
   std::istringstream connection(environment_variable("SSH_CONNECTION"));
   std::string word, host, host_port;

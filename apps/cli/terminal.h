@@ -1,4 +1,4 @@
-// Prints progress, warnings and errors as the command line shows them.
+// Prints progress, warnings and errors of the command line.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace relievo::app::cli {
 
-// Returns a watcher that draws a progress bar with stage names on standard error, and erases it at the end.
-// Returns nothing if `is_quiet` or if standard error is not a terminal.
+// Returns a watcher that draws a progress bar with the names of stages on standard error, and erases it at
+// the end. Returns an empty watcher if `is_quiet` or if standard error is not a terminal.
 Progress::Watcher progress_bar(bool is_quiet);
 
-// Returns the text with '?' in place of control characters, which names and words from files may contain. So
-// the text stays on one line and cannot command the terminal. Letters in UTF-8 are kept.
+// Returns the text with '?' in place of control characters, which words from files may contain. They could
+// break the line or send commands to the terminal. Letters in UTF-8 stay as they are.
 std::string on_one_line(std::string_view text);
 
 }  // namespace relievo::app::cli

@@ -14,8 +14,8 @@ struct ThumbnailArguments {
   int size_px = 256;
 };
 
-// Returns an order that is quick to make: few points, and large clouds piece by piece. A scan is shown from
-// the side that suits a relief best; a project has a side of its own.
+// Returns an order that is quick to make: it uses few points, and reads large clouds in blocks. A scan is
+// seen from the side that suits a relief best; a project has its own view.
 MakeOrder quick_order(const std::string& input) {
   MakeOrder order;
   order.inputs = {input};

@@ -1,4 +1,4 @@
-// Measures the times of views as if a user turned a scan.
+// Measures how long views take while a user turns a scan.
 #include <unistd.h>
 
 #include <Eigen/Geometry>
@@ -15,9 +15,9 @@
 namespace relievo::app::cli {
 namespace {
 
-constexpr double step_deg = 4;  // the turn from one view to the next
+constexpr double step_deg = 4;  // angle between successive views
 
-// Returns the milliseconds that `work` takes. Errors: those of `work`.
+// Returns the duration of `work` in milliseconds. Errors: those of `work`.
 template <typename F>
 Result<double> milliseconds(F&& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -58,14 +58,14 @@ Result<void> turn(Session& session, const View& view) {
   return {};
 }
 
-// Returns the memory that the process uses now, in MiB; 0 where the system does not state it.
+// Returns the memory that the process uses now, in MiB; 0 if the system does not report it.
 double resident_mib() {
   long pages = 0;
   std::ifstream("/proc/self/statm").ignore(std::numeric_limits<std::streamsize>::max(), ' ') >> pages;
   return static_cast<double>(pages) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// Times a call of show() for each view of the run.
+// Measures one call of show() for each view of the run.
 template <typename F>
 Result<ViewSeries> measure_series(const ViewRun& run, F&& show) {
   ViewSeries series;

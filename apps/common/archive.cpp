@@ -81,7 +81,7 @@ Result<Archive> Archive::open(std::span<const std::byte> bytes, std::string_view
   ArchiveSource source(zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr));
   made.zip_.reset(source ? zip_open_from_source(source.get(), ZIP_RDONLY, nullptr) : nullptr);
   if (!made.zip_) return broken(name, "expected a whole archive, found a damaged one; get it anew");
-  (void)source.release();  // the archive owns the source now
+  (void)source.release();  // the archive owns the source now, and frees it
   return made;
 }
 
@@ -106,8 +106,8 @@ Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
   const ArchiveEntry entry(stat.size > most_unpacked ? nullptr : zip_fopen_index(zip_.get(), index, 0));
   if (!entry) return fail(zip_get_error(zip_.get()));
   std::vector<std::byte> bytes;
-  // Reads in blocks, as a damaged archive may state any size. The last read gets no bytes: there libzip
-  // compares the checksum.
+  // A damaged archive may state any size, so the file is read in blocks. The last call of zip_fread() returns
+  // no bytes; in that call libzip compares the checksum.
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t filled = 0; bytes.size() <= stat.size;) {
     bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));
@@ -129,7 +129,7 @@ bool is_archive(std::span<const std::byte> bytes) {
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive) {
   std::vector<std::string> models;
   std::ranges::copy_if(names, std::back_inserter(models), is_model);
-  // A text is a model if it is the only file.
+  // A text file counts as a model only if the archive has no other file.
   std::vector<std::string> files;
   std::ranges::copy_if(names, std::back_inserter(files), [](const auto& name) { return !is_hidden(name); });
   if (files.size() == 1 && is_text(ending_of(files[0]))) models = files;

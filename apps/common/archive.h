@@ -16,10 +16,12 @@ namespace relievo::app {
 
 class Archive {
  public:
-  // Opens the archive in `bytes`, which must outlive the object. Errors call it `name`. Errors: kind input.
+  // Opens the archive in `bytes`, which must outlive the object. Error messages call the archive `name`.
+  // Errors: kind input.
   static Result<Archive> open(std::span<const std::byte> bytes, std::string_view name);
 
-  // Returns the names of all files, with their folders and slashes, in the order of the archive.
+  // Returns the names of all files in the order of the archive. A name contains its folders, separated by
+  // slashes.
   std::vector<std::string> names() const;
 
   // Returns a file's content. Errors: kind input for a file that is missing, longer than 4 GiB, or damaged.
@@ -34,12 +36,12 @@ class Archive {
   std::unique_ptr<zip, Discard> zip_;
 };
 
-// Returns whether the bytes begin like a ZIP archive with at least one file.
+// Returns whether the bytes begin like a ZIP archive that contains at least one file.
 bool is_archive(std::span<const std::byte> bytes);
 
-// Returns the name of the only model among the files of an archive. A model is a file whose ending some
-// reader supports; pictures do not count, and a text only if it is the only file. Errors call the archive `archive`: kind input if it has
-// no model or several.
+// Returns the name of the only model among the files of an archive. A model is a file with an ending that a
+// reader supports. Pictures are not models, and a text file is one only if it is the only file. Error
+// messages call the archive `archive`. Errors: kind input if the archive has no model or several.
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive);
 
 }  // namespace relievo::app

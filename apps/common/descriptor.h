@@ -1,5 +1,5 @@
-// Has a file descriptor that closes itself, and turns errors of the system into words. Tested by
-// tests/cli/files_test.cpp.
+// Wraps a file descriptor so that it is closed automatically, and turns errors of the system into messages.
+// Tested by tests/cli/files_test.cpp.
 #pragma once
 
 #include <unistd.h>
@@ -13,11 +13,11 @@
 
 namespace relievo::app {
 
-// Returns an error with the text `expected` and the system's message for errno.
+// Returns an error whose message is `expected` and the system's text for errno.
 std::unexpected<Error> system_error(ErrorKind kind, const std::string& path, const std::string& expected);
 
-// Writes all bytes, also if signals interrupt the writing. Returns whether it succeeded; otherwise errno has
-// the reason.
+// Writes all bytes, even if signals interrupt the writing. Returns whether it succeeded; after a failure
+// errno has the reason.
 bool write_all(int descriptor, std::span<const std::byte> bytes);
 
 // Closes a file descriptor at the end of its scope.

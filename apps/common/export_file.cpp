@@ -80,7 +80,7 @@ Image8 preview_of(const MadeRelief& made, PreviewOptions options) {
     const double across = wrap->across.dot(p.head<2>());
     low = std::min(low, across), high = std::max(high, across);
   }
-  options.nearest_mm = (high - low) / 2;  // cuts at the axis, so that the farther half is whole
+  options.nearest_mm = (high - low) / 2;  // cuts at the wrap's axis: the farther half stays
   return render_preview(made.solid, options);
 }
 

@@ -1,4 +1,4 @@
-// Lists the kinds of files that can be made of a finished relief, and makes them.
+// Lists the file formats in which a finished relief can be exported, and makes the files.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,7 +15,7 @@
 namespace relievo::app {
 
 struct FileFormat {
-  std::string_view name;        // the studio's name of the format
+  std::string_view name;        // name of the format in the studio's requests
   std::string_view ending;      // appended to a file's name: ".stl", "-heights.png"
   std::string_view type;        // the MIME type
   std::string_view label, use;  // texts for users
@@ -46,13 +46,13 @@ struct ExportOrder {
   Material material = Material::plaster;  // material of the picture
 };
 
-// Returns the relief as a file of that format. With plaster these are the bytes that `relievo make` writes.
-// Errors: those of height_map_file().
+// Returns the relief as a file of that format. With the material plaster, the bytes are those that `relievo
+// make` writes. Errors: those of height_map_file().
 Result<ExportedFile> export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order);
 
-// Returns the picture of a relief. A lithophane is lit by a lamp behind it unless a material other than
-// plaster is given. If the relief is on the inside of a wrap, the front view shows it unrolled; the oblique
-// view cuts open a wrap of more than half a turn.
+// Returns the picture of a relief. A lithophane is drawn with a lamp behind it if the material is plaster,
+// and in the given material otherwise. If the relief is on the inside of a wrap, the front view shows the
+// relief unrolled. The oblique view cuts open a wrap of more than half a turn.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
 }  // namespace relievo::app

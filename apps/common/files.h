@@ -1,4 +1,4 @@
-// Reads files, and parses their names.
+// Reads files, and takes endings from paths.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +20,10 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
 // Returns whether a file, a folder or a device has that path.
 bool is_there(const std::string& path);
 
-// Checks that no folder, device or pipe has that path. A file may be missing. Errors: kind input.
+// Checks that no folder, device or pipe has that path. The path may also be missing. Errors: kind input.
 Result<void> check_file(const std::string& path);
 
-// Returns the size of a file; nothing if the path is missing, or is that of a folder or a device.
+// Returns the size of a file in bytes. Returns nothing if the path is missing, or is a folder or a device.
 std::optional<std::uint64_t> file_size(const std::string& path);
 
 // Returns the bytes of the text, as the content of a file.
@@ -34,7 +34,7 @@ inline std::string_view text_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the text of a file; an empty one if the file cannot be read.
+// Returns the text of a file; an empty text if the file cannot be read.
 inline std::string text_of_file(const std::string& path) {
   const auto bytes = read_file(path);
   return std::string(bytes ? text_in(*bytes) : std::string_view());

@@ -9,7 +9,7 @@
 namespace relievo::app {
 namespace {
 
-constexpr int most_px = 16384;  // of a side, as for heightmap-size
+constexpr int most_px = 16384;  // largest width and height of a map, as for the option heightmap-size
 constexpr std::array<Choice<bool>, 2> high_choices{{{"white", false}, {"black", true}}};
 constexpr std::array<Choice<int>, 3> bits_choices{{{"8", 8}, {"16", 16}, {"32", 32}}};
 
@@ -41,7 +41,7 @@ Result<void> take_choice(const char* flag, const std::string& text, const std::a
   return {};
 }
 
-// Returns facts that the files state under their names, too.
+// Returns the scale of the map under the keys that the files use, too.
 Scale scale_of(const HeightMap& map, const MadeRelief& made, LengthUnit unit) {
   Scale scale{{"mm_per_pixel", cat(map.mm_per_pixel)}, {"mm_per_grey", cat(map.mm_per_grey)}};
   if (unit == LengthUnit::inch) {

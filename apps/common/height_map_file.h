@@ -25,7 +25,7 @@ struct HeightMapFlag {
   std::string HeightMapTexts::*text;
 };
 
-// The flags of `make` and `batch`, which are also the names in requests.
+// The flags of `make` and `batch`. The same names are used in the studio's requests.
 inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
     {{"pixel", "MM", "exact size of the height map's pixels, in the place of heightmap-size",
       &HeightMapTexts::pixel},
@@ -39,18 +39,19 @@ inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
       &HeightMapTexts::high}}};
 
 struct HeightMapOrder : HeightMapOptions {
-  int bits = 0;          // of a grey level; 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
-  bool is_tiff = false;  // else PNG
+  int bits = 0;          // per pixel: 8, 16, or 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
+  bool is_tiff = false;  // false: PNG
   LengthUnit unit = LengthUnit::mm;
 
   int effective_bits() const { return bits != 0 ? bits : is_tiff ? 32 : 16; }
 };
 
-// Sets the options that the texts give; lengths without a unit are in that of the order. Errors: kind option,
-// naming the flag.
+// Sets the options that the texts give. A length without a unit is in the unit of the order. Errors: kind
+// option; they name the flag.
 Result<void> take_texts(const HeightMapTexts& texts, HeightMapOrder& order);
 
-// Takes the texts of a JSON object under the names of the flags. Errors: kind option if one is no text.
+// Returns the texts that a JSON object has under the names of the flags. Errors: kind option if a value is
+// not a text.
 Result<HeightMapTexts> height_map_texts(const nlohmann::json& json);
 
 struct HeightMapFile {
@@ -58,12 +59,12 @@ struct HeightMapFile {
   nlohmann::json facts;  // size and meaning of the pixels, for the report
 };
 
-// Returns the height map as a file that also states its scale. A plate that was bent around a wrap is shown
-// flat, for machines that turn the stock. Errors: kind option if the pixels are too small for the piece, or if
-// nothing of it lies above the zero.
+// Returns the height map as a file that also contains its scale. The relief of a wrap is written unrolled,
+// for machines that rotate the workpiece. Errors: kind option if the pixels are too small for the size of the
+// solid, or if no part of it lies above the zero level.
 Result<HeightMapFile> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
-// Returns the facts as a line for users.
+// Returns the facts of a HeightMapFile as a line for users.
 std::string line_of(const nlohmann::json& height_map);
 
 }  // namespace relievo::app

@@ -13,7 +13,7 @@ namespace relievo::app {
 
 namespace {
 
-// Replaces the name of a file of strokes by its text.
+// Replaces the path of a file of strokes by the text of that file.
 Result<void> read_strokes(OptionValues& values) {
   const auto strokes = values.find("strokes");
   if (strokes == values.end() || !std::holds_alternative<std::string>(strokes->second)) return {};
@@ -24,7 +24,7 @@ Result<void> read_strokes(OptionValues& values) {
   return {};
 }
 
-// Returns the values of an order, and those of its project that the order does not give.
+// Returns the options of an order, and those options of its project that the order does not set.
 OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   return stored ? with_given(stored->project.options, order.values) : order.values;
 }
@@ -101,7 +101,7 @@ void FinishedRelief::end(Progress& progress) {
 
 std::vector<std::string> FinishedRelief::remarks() const {
   std::vector<std::string> lines = inputs.remarks;
-  if (!kept_report.is_null()) return lines;  // all remarks were stored
+  if (!kept_report.is_null()) return lines;  // a stored relief has all its remarks in `inputs`
   for (std::string& line : remarks_on(made.report)) lines.push_back(std::move(line));
   return lines;
 }

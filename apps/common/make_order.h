@@ -20,19 +20,20 @@ namespace relievo::app {
 
 // Describes a relief to make.
 struct MakeOrder {
-  OptionValues values;                   // those of depth images, too
-  InputArguments in;                     // check_order() sets what the values say
+  OptionValues values;                   // includes the options of depth images
+  InputArguments in;                     // check_order() sets the fields that `values` has
   std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};
   std::string scan_path = {};  // path of a project's scan
   std::shared_ptr<const Image<float>> base_image = nullptr;
-  // Reads the inputs if not all of them are files; `name` is then the name of all inputs.
+  // If set, this function reads the inputs instead of read_scene(): some inputs are not files. `name` is then
+  // the name of all inputs together.
   std::function<Result<Scene>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
   std::string name = {};
 };
 
-// Parses the options of an order and, if there is one, of its project. Errors: those of parse_options() and
-// take_base_image().
+// Parses the options of an order and those of its project, if it has one. Errors: those of parse_options()
+// and take_base_image().
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& project);
 
 // An order whose options are parsed, with its project if the input is one.
@@ -40,7 +41,7 @@ struct CheckedOrder : MakeOrder {
   std::optional<StoredProject> project;
   ReliefOptions options;
 
-  // Returns the paths of all files that are read, which must not be overwritten.
+  // Returns the paths of all files that the order reads. No output may overwrite them.
   std::vector<std::string> paths() const;
 };
 
@@ -51,26 +52,27 @@ Result<CheckedOrder> check_order(MakeOrder order);
 // An order with its inputs read and its view chosen.
 struct LoadedOrder : CheckedOrder {
   Scene scene;
-  std::optional<ViewGuess> side;  // the chosen side, if the order left the choice
+  std::optional<ViewGuess> side;  // the chosen side, if the view was to be chosen automatically
 };
 
 // Reads the inputs and chooses the view. Errors: kind option if there is no input; those of
 // load_project_scan(), read_scene() and `read`.
 Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 
-// The facts that a relief's report states about its inputs, without the scans themselves.
+// The facts about its inputs that the report of a relief states. The scans themselves are not needed any
+// more.
 struct InputFacts {
   std::string name;
   std::vector<std::string> paths, remarks;  // paths: files that must not be overwritten
   nlohmann::json models;
   std::vector<std::string> left_out =
-      {};  // those of the remarks that say what of a cloud or mesh is left out
+      {};  // the remarks on parts of a cloud or mesh that were left out; also in `remarks`
 };
 
 InputFacts facts_of(const LoadedOrder& loaded);
 
-// Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in
-// the scene.
+// Returns the models of the scene and their positions: a point p of a file is at scale * rotation * p +
+// offset in the scene.
 nlohmann::json models_report(const Scene& scene, const View& view);
 
 // A finished relief, with all that its files and its report need.
@@ -78,23 +80,24 @@ struct FinishedRelief {
   MadeRelief made;
   InputFacts inputs;
   std::optional<double> draft_deg;
-  std::vector<StageTime> times = {};  // empty before end()
-  nlohmann::json kept_report = {};    // the report of a relief that was stored and read again; else null
+  std::vector<StageTime> times = {};  // durations of the stages; empty before end()
+  nlohmann::json kept_report = {};    // the report of a relief that was read from a file; else null
 
-  // Ends the progress, and keeps the times of its stages.
+  // Ends the progress, and stores the durations of its stages in `times`.
   void end(Progress& progress);
 
   // Returns the remarks on the inputs and on the relief.
   std::vector<std::string> remarks() const;
 
-  // Returns the report, in millimetres. `unit` is the unit of the relief's files.
+  // Returns the report. Its lengths are in millimetres; `unit`, the unit of the relief's files, is only
+  // stated in it.
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 
 // Makes the relief; the caller must call end(). Errors: those of make_relief(), which name the inputs.
 Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress);
 
-// Calls check_order(), load() and make() in turn. Errors: those of all.
+// Calls check_order(), load() and make() in turn. Errors: those of the three functions.
 Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress);
 
 // Returns options for drawing a relief. Errors: kind option for a size not in [1, 5461] and for unknown

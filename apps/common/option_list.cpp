@@ -10,8 +10,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Returns the default of a number: one value if all methods except baselines have the same, otherwise a value
-// for each of these methods.
+// Returns the default of a number: one value if it is the same for all methods but the baselines, otherwise
+// an object with one value per method.
 Json number_by_method(const OptionRow& option) {
   Json by_method = Json::object();
   bool is_same = true;
@@ -33,8 +33,8 @@ Json default_of(const OptionRow& option) {
   return std::visit([](const auto& value) { return Json(value); }, option.initial);
 }
 
-// Returns the defaults of a number that replace its usual one: with a form, under the form's name, and with a
-// diameter, under "diameter".
+// Returns the defaults of a number that replace its usual default: the default for a form, under the form's
+// name, and the default for a given diameter, under "diameter".
 Json other_defaults(const OptionRow& option) {
   Json others = Json::object();
   const ReliefOptions plain;

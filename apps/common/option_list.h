@@ -11,19 +11,20 @@ namespace relievo::app {
 // Returns the default as a text for users: "5", "0.04 with method layered, 0.02 with method paper".
 std::string default_text(const OptionRow& option);
 
-// Returns the help, with the range of a number or the words that the option takes.
+// Returns the help text, followed by the range of a number or by the words that the option accepts.
 std::string help_text(const OptionRow& option);
 
-// Returns a list of objects with name, unit, help and stage; numbers also have min and max, and enumerations
-// choices. `default` is there if the option has a default: its value or, where methods differ, an object of
-// method names and values. `default_with` has the defaults that replace it: with a form, under the form's
-// name, and with a diameter, under "diameter". `in_studio` and `is_stated` are those of OptionRow.
+// Returns a list of objects with name, unit, help and stage. Numbers also have min and max, and enumerations
+// have choices. If the option has a default, `default` is that value or, where it depends on the method, an
+// object from method names to values. `default_with` has the defaults that replace it: under a form's name
+// for that form, and under "diameter" for a given diameter. `in_studio` and `is_stated` are those of
+// OptionRow.
 nlohmann::json option_list();
 
-// Returns the name of an option as an argument of a function, with its unit: "height_mm".
+// Returns the name of an option as a parameter of a function, with its unit: "height_mm".
 std::string keyword_of(const OptionRow& option);
 
-// Returns the rows of option_list(), with its keyword and default_text for each.
+// Returns the rows of option_list(), each with its keyword_of() and default_text().
 nlohmann::json keyword_list();
 
 // Returns the rows of the table in docs/options.md.

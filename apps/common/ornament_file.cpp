@@ -34,7 +34,7 @@ Result<std::shared_ptr<const FontFile>> read_font(const std::string& path) {
   return std::make_shared<const FontFile>(path, std::move(bytes));
 }
 
-// Reads one list. The error of a method names the key at which the text is wrong.
+// Reads one list of ornaments. Errors name the key whose value is wrong.
 class OrnamentReader {
  public:
   OrnamentReader(const std::string& name, const std::string& folder) : name_(name), folder_(folder) {}

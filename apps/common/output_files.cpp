@@ -15,7 +15,7 @@
 namespace relievo::app {
 namespace {
 
-// Returns the file to which a symbolic link leads, so that the link itself is not replaced. Returns other
+// Returns the target of a symbolic link, so that writing does not replace the link itself. Returns other
 // paths unchanged.
 std::string without_link(const std::string& path) {
   std::error_code failed;
@@ -29,7 +29,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// Returns whether both paths lead to the same file, which need not exist.
+// Returns whether both paths name the same file. The file may be missing.
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   if (std::filesystem::equivalent(a, b, ignored)) return true;

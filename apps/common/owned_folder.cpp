@@ -27,7 +27,8 @@ fs::path mark_in(const std::string& folder) {
   return fs::path(folder) / mark_name;
 }
 
-// Returns owned, of_others, or unusable if there is a mark that cannot be read.
+// Reads the mark of a folder. Returns owned if it names that owner, of_others if it does not or if there is
+// no mark, and unusable if it cannot be read.
 Ownership read_mark(const std::string& folder, std::string_view owner) {
   std::error_code ignored;
   const fs::path mark = mark_in(folder);
@@ -40,7 +41,7 @@ Ownership read_mark(const std::string& folder, std::string_view owner) {
   return bytes && text_in(*bytes) == mark_of(owner) ? Ownership::owned : Ownership::of_others;
 }
 
-// Returns whether the folder is empty, except for an unfinished mark of another process.
+// Returns whether the folder is empty. A mark that another process has not finished writing does not count.
 bool is_empty(const std::string& folder, std::error_code& failed) {
   const std::string unfinished = cat(mark_name, ".");
   fs::directory_iterator entry(folder, failed);
@@ -49,7 +50,7 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
   });
 }
 
-// Marks a folder, whatever files it has. Returns owned or unusable.
+// Writes the mark into a folder, even if the folder has other files. Returns owned or unusable.
 Ownership mark_folder(const std::string& folder, std::string_view owner) {
   const std::string path = mark_in(folder).string(), text = mark_of(owner);
   TemporaryFile mark(path);
@@ -69,7 +70,7 @@ Ownership ownership_of(const std::string& folder, std::string_view owner) {
     return Ownership::unusable;
   }
   if (is_free) return Ownership::free;
-  return read_mark(folder, owner);  // another process may have marked it meanwhile
+  return read_mark(folder, owner);  // reads it again, as another process may have marked the folder meanwhile
 }
 
 Ownership own_folder(const std::string& folder, std::string_view owner, unsigned mode) {

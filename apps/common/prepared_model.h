@@ -1,4 +1,4 @@
-// Prepares a model once and makes many frames and reliefs of it, for Python and WebAssembly.
+// Prepares a model once and makes many frames and reliefs from it, for Python and WebAssembly.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct FrameInMm {
 // Every method may be called from any thread.
 class PreparedModel {
  public:
-  // Reads the inputs of an order and prepares their model. Errors: those of check_order(), load() and
+  // Reads the inputs of an order and prepares a model from them. Errors: those of check_order(), load() and
   // prepare(), which name the inputs.
   static Result<std::shared_ptr<PreparedModel>> prepare(MakeOrder order, Progress& progress);
 

@@ -37,7 +37,8 @@ constexpr const char* base_image_name = "base-image";
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
-  // The names of the options that give a height in different ways begin alike.
+  // A project and an order may give the height by different options. Their names all begin with "height", and
+  // only the order's one stays.
   const auto is_height = [](const auto& value) { return value.first.starts_with("height"); };
   if (given.contains("alpha")) own.erase("method");  // alpha implies the paper's method
   if (given.contains("alpha") || std::ranges::any_of(given, is_height)) std::erase_if(own, is_height);
@@ -83,14 +84,14 @@ std::string base_image_path_in(const Json& options) {
 
 namespace {
 
-// Returns the options of the object. The height map of a base is left out, as the table of options does not
-// have it.
+// Returns the options in the JSON object except for the height map of a base, which is not in the table of
+// options.
 Result<OptionValues> values_without_image(Json json, std::string_view name) {
   if (!base_image_path_in(json).empty()) json.erase(base_image_name);
   return values_from_json(json, name);
 }
 
-// Caches the height map that was read last, for successive pictures.
+// Caches the last height map that was read, since successive pictures need the same one.
 struct LastImage {
   std::string path;
   timespec changed;
@@ -102,7 +103,7 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
   static Guarded<LastImage> guarded;
   return guarded.with([&](LastImage& last) -> Result<std::shared_ptr<const Image<float>>> {
     struct stat now = {};
-    if (::stat(path.c_str(), &now) != 0) now = {};  // the reading below reports the error
+    if (::stat(path.c_str(), &now) != 0) now = {};  // the call of read_base_image() below reports the error
     const auto [seconds, nanoseconds] = now.st_mtim;
     if (last.image && last.path == path && last.changed.tv_sec == seconds &&
         last.changed.tv_nsec == nanoseconds)

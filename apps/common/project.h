@@ -1,5 +1,5 @@
-// Project files: a relief as work in progress, in JSON. The studio saves and opens them; `make` makes their
-// reliefs.
+// Reads and writes project files. A project is an unfinished relief in JSON: the studio saves and opens
+// projects, and `make` makes reliefs from them.
 #pragma once
 
 #include <cstdint>
@@ -22,51 +22,51 @@ struct ScanSource {
   std::string sample;
   std::string path;
   std::string name;  // shown to users
-  std::string hash;  // hash of the file's bytes, see hash_of(); empty if not known yet
+  std::string hash;  // hash of the file's bytes, see hash_of(); empty if not computed yet
 };
 
 struct Project {
   ScanSource input;
   OptionValues options;
   std::string base_image_path;  // path of the height map of a base; empty if there is none
-  // The height map, or the error of reading it. Null unless find_project() has read it.
+  // The height map, or the error from reading it. Null until find_project() reads it.
   Result<std::shared_ptr<const Image<float>>> base_image = nullptr;
 };
 
-// Returns a project from the bytes of its file, called `name` in errors. An unknown option is an error, so
-// that it is not ignored silently; parse_options() checks the values. Other entries of the file belong to the
-// studio. Errors: kind input.
+// Returns the project in the bytes of its file. Error messages call it `name`. An unknown option is an error
+// and not ignored; parse_options() checks the values. Other entries of the file belong to the studio. Errors:
+// kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns a project's own options, with the given ones in place of those of the same name. A given alpha also
-// removes the project's height and method.
+// Returns the options of a project, `own`, replaced where the user has given others. If `given` has alpha,
+// the project's height and method are removed.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
-// Returns the values of all options that have one, given or by default.
+// Returns the values of all options that have one: the given value, or else the default.
 nlohmann::json to_json(const OptionValues& options);
 
 // Returns the value of a JSON number or text; nothing for other types.
 std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 
-// Returns the values of an object that to_json() made, without the defaults. Errors: kind input for names
-// that are not in the table and values of another type; messages call the object `name`.
+// Returns the options in an object that to_json() made, except those that have their default. Errors: kind
+// input for a name that is not in the table and for a value of another type; messages call the object `name`.
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
-// Returns the parsed options of an object that to_json() made, with the height map at the path "base-image".
-// Errors: those of values_from_json(), parse_options(), parse_depth(), read_base_image() and
+// Returns the parsed options of an object that to_json() made. Also reads the height map at its path
+// "base-image". Errors: those of values_from_json(), parse_options(), parse_depth(), read_base_image() and
 // take_base_image().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
 // Returns the path "base-image" of an object with options; empty if it has none.
 std::string base_image_path_in(const nlohmann::json& options);
 
-// Returns whether both name the same sample or the same file, even if the file's content has changed.
+// Returns whether both name the same sample or the same file. Hashes are not compared.
 bool is_same(const ScanSource& a, const ScanSource& b);
 
 nlohmann::json to_json(const ScanSource& input);
 Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
-// Detects changed files by 64 bits of FNV-1a. A file can be changed on purpose without changing its hash.
+// Computes a 64-bit FNV-1a hash, by which changed files are detected. It is no protection against forgery.
 class FileHash {
  public:
   void append(std::string_view bytes);
@@ -77,7 +77,7 @@ class FileHash {
 };
 std::string hash_of(std::string_view bytes);
 
-// Returns the hash of a file's bytes, which are read in blocks. Errors: kind input.
+// Returns the hash of a file's bytes. Reads the file in blocks. Errors: kind input.
 Result<std::string> hash_of_file(const std::string& path);
 
 struct LoadOptions {
@@ -85,14 +85,15 @@ struct LoadOptions {
   std::function<bool()> is_unwanted = {};  // may be empty
 };
 
-// Returns the model in a scan's bytes, or the models of a scene file. The ending of `path` determines the
-// format. Files that the scan names are looked for in the folder of `path`. Otherwise like load_input().
+// Returns the model in the bytes of a scan, or the models of a scene file. The ending of `path` determines
+// the format. Files that the scan refers to are read from the folder of `path`. Sets the input's hash and
+// reports errors as load_input() does.
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
                         const LoadOptions& options);
 
 // Returns the model of the input, or the models of a scene file. Sets the input's hash if it has none. A
-// relative path starts at `folder`. Errors: kind input, also if the file does not have the input's hash;
-// kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
+// relative path starts at `folder`. Errors: kind input, also if the file's hash is not the input's; kind
+// option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
 Result<Scene> load_input(ScanSource& input, const std::string& folder, const LoadOptions& options);
 
 }  // namespace relievo::app

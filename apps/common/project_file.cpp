@@ -15,7 +15,7 @@ namespace {
 constexpr const char* project_name = "project.json";
 constexpr const char *scan_folder = "scan/", *base_folder = "base/";
 
-// Returns the only file of a folder of the archive; null if there is none.
+// Returns the file of the archive that is in that folder; null if there is none. The folder has at most one.
 Result<std::shared_ptr<const PackedFile>> file_in(const Archive& archive, std::string_view folder) {
   for (const std::string& entry : archive.names()) {
     if (!entry.starts_with(folder)) continue;
@@ -26,7 +26,8 @@ Result<std::shared_ptr<const PackedFile>> file_in(const Archive& archive, std::s
   return nullptr;
 }
 
-// Reads the height map of a project's base from the project's file, or from the path that the project names.
+// Reads the height map of a project's base: from the project's own file if it is packed there, otherwise from
+// the path that the project names.
 Result<std::shared_ptr<const Image<float>>> read_base_image_of(const Project& project,
                                                                const PackedFile* packed,
                                                                const std::string& folder) {

@@ -1,5 +1,5 @@
-// Reads and writes project files: only JSON, or a ZIP archive of the JSON and the scan. Tested by
-// apps/studio/tests/documents.test.mjs and python/tests/test_make.py.
+// Reads and writes project files. Such a file is either JSON alone or a ZIP archive of the JSON and the scan.
+// Tested by apps/studio/tests/documents.test.mjs and python/tests/test_make.py.
 #pragma once
 
 #include <cstddef>
@@ -23,24 +23,24 @@ struct PackedFile {
 
 struct ProjectFile {
   std::string text;                                    // see read_project()
-  std::shared_ptr<const PackedFile> scan, base_image;  // null if the project only names the file, or has none
+  std::shared_ptr<const PackedFile> scan, base_image;  // each is null if the project file does not contain it
 };
 
-// Unpacks a project file, called `name` in errors. Errors: kind input, also for an archive without a project,
-// or of more than 4 GiB.
+// Unpacks the bytes of a project file. Error messages call it `name`. Errors: kind input, also for an archive
+// that has no project or is larger than 4 GiB.
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name);
 
-// Returns the bytes of a compressed project file with the scan and, unless it is null, the height map of the
-// base. Errors: kind output if the memory is not enough.
+// Returns the bytes of a compressed project file that contains the scan and, unless it is null, the height
+// map of the base. Errors: kind output if there is not enough memory.
 Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedFile& scan,
                                             const PackedFile* base_image);
 
-// A project that was read, and where its scan is.
+// A project that was read, and the location of its scan.
 struct StoredProject {
   Project project;
   std::string folder;                        // folder of the project's file
   std::shared_ptr<const PackedFile> packed;  // null unless the file contains the scan
-  std::string located;                       // path of the scan that the user gives instead; may be empty
+  std::string located;                       // path of the scan if the user gives another one; may be empty
 };
 
 // Returns the project if the inputs are a single project file; nothing otherwise. `located` becomes
@@ -55,8 +55,8 @@ Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& ba
                                                            const std::string& given_path,
                                                            const std::optional<Project>& project);
 
-// Reads the project's scan: from the path that the user gives, from the project's file, or from the path that
-// the project names. Errors: those of load_scan() and load_input().
+// Reads the project's scan from the first of these that is set: the path that the user gives, the project's
+// own file, the path that the project names. Errors: those of load_scan() and load_input().
 Result<Scene> load_project_scan(const StoredProject& stored, const LoadOptions& options);
 
 }  // namespace relievo::app

@@ -45,13 +45,14 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
-// Returns what the values mean if nobody says so: formats of terrain have heights.
+// Returns the default meaning of the values: heights in formats of terrain, depths in all others.
 DepthValues usual_values(const DepthImage& image) {
   const bool has_heights = image.pixel_size.x() > 0 || image.format == "table of heights";
   return has_heights ? DepthValues::height : DepthValues::depth;
 }
 
-// Reads a picture, and sets the meaning of its values if that is to be found out: colours have luminance.
+// Reads a picture. If the option leaves the meaning of the values open, sets it to luminance for a picture in
+// colours and to usual_values() for all others.
 Result<DepthImage> read_values(std::span<const std::byte> bytes, const std::string& path,
                                DepthOptions& options) {
   const auto read = [&](bool is_luminance_wanted) {
@@ -96,8 +97,8 @@ class FileSource : public ByteSource {
   Descriptor file_;
 };
 
-// Returns the size of a file that may have to be read in blocks, where its format allows; nothing for small
-// files. A point has at least one byte.
+// Returns the size of the file in bytes if it is so large that it may have to be read in blocks; nothing for
+// smaller files. The bound of points is compared with bytes, as a point has at least one byte.
 std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
   const std::optional<std::uint64_t> size = file_size(path);
   const double most = std::min(1e6 * arguments.stream_above_mb, arguments.most_points);
@@ -105,7 +106,7 @@ std::optional<std::uint64_t> large_size(const std::string& path, const InputArgu
   return size;
 }
 
-// Returns whether a file that begins with `head` has too many points to be read at once.
+// Returns whether the file that begins with `head` is a cloud of too many points to be read at once.
 bool has_too_many_points(std::span<const std::byte> head, const std::string& path, std::uint64_t bytes,
                          double most_points) {
   const ScanSize size = scan_size(head, path, bytes);
@@ -160,20 +161,20 @@ Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths
   return entries;
 }
 
-// Returns the view of the scene in the frame of a model's file. For a mirrored pose the view's x axis is
-// reversed, which does not change the set of points that the view shows.
+// Transforms the view of the scene into the coordinates of a model's file. If the pose mirrors the model, the
+// x axis of the view is reversed; the view still shows the same points.
 View seen_by_model(const View& view, const Pose& pose) {
   View own{view.R_view_model * turn_of(pose)};
   if (pose.is_mirrored) own.R_view_model.row(0) = -own.R_view_model.row(0);
   return own;
 }
 
-// Reads the only model of an archive, with the files of the archive that the model names.
+// Reads the only model of an archive, together with the files of the archive to which the model refers.
 Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const std::string& path,
                                       bool keeps_doubtful) {
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
   const Result<std::string> found = find_model(archive.names(), path);
-  // Files of some formats, such as USDZ, are archives: the reader knows their names.
+  // Formats such as USDZ are archives themselves. The reader knows which of their files to read.
   if (!found && ending_of(path) != "zip") return read_cloud(bytes, path, ReadOptions{{}, keeps_doubtful});
   RELIEVO_TRY(const std::string model, found);
   RELIEVO_TRY(const std::vector<std::byte> content, archive.content(model));
@@ -200,7 +201,7 @@ SceneModel model_of(const std::string& name, const DepthImage& image, const std:
           std::move(pixels)};
 }
 
-// Returns the model of a picture whose brightness becomes the thickness of a lithophane.
+// Returns the model of a picture whose brightness determines the thickness of a lithophane.
 Result<SceneModel> take_picture(const DepthImage& image, const std::string& name,
                                 const DepthOptions& options) {
   RELIEVO_TRY(DepthCloud made, naming(name, picture_cloud(image, options)));

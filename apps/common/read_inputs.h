@@ -15,36 +15,36 @@
 
 namespace relievo::app {
 
-// The 4 GiB of memory that a program in WebAssembly has at most are filled by about three million points
-// that the view shows.
+// A program in WebAssembly has at most 4 GiB of memory. About three million visible points fill it.
 constexpr double most_points_at_once = sizeof(void*) == 4 ? 3e6 : std::numeric_limits<double>::infinity();
 
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;            // camera of a depth image: numbers, or a file with them
+  std::string camera;            // camera of a depth image: its numbers, or the path of a file that has them
   double stream_above_mb = 512;  // larger files are read in blocks where that is possible
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
-  bool keeps_doubtful = false;   // as in ReadOptions
-  bool is_lithophane = false;    // whether the brightness of a picture becomes thickness, not height
-  // Clouds of more points, without triangles, are read in blocks, too.
+  bool keeps_doubtful = false;   // see ReadOptions
+  bool is_lithophane = false;    // the brightness of a picture then becomes thickness instead of height
+  // A cloud without triangles that has more points than this is read in blocks, too.
   double most_points = most_points_at_once;
 
   bool operator==(const InputArguments&) const = default;
 };
 
-// The view and the number of points to take from a file with more points than are needed.
+// The view of the scene, and the number of points to keep of a file that has more than are needed.
 struct PointsWanted {
-  View view;  // the view of the scene
+  View view;
   double points = MeshSampling{}.points;
 };
 
-// Reads the bytes of a cloud or mesh as read_cloud() does, and the files beside `path` that it names. The
-// bytes may also be a ZIP archive with one cloud or mesh and the files that it names.
+// Reads the bytes of a cloud or mesh as read_cloud() does. Also reads the files in the folder of `path` to
+// which the model refers. The bytes may also be a ZIP archive with one model and the files to which it
+// refers.
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
                                 bool keeps_doubtful = false);
 
-// Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera()
-// and depth_cloud().
+// Returns the points of a depth image. Errors and remarks call it `name`. Errors: those of parse_camera() and
+// depth_cloud().
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
@@ -55,24 +55,24 @@ Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::stri
 // Returns the remarks of all models.
 std::vector<std::string> remarks_of(const Scene& scene);
 
-// Returns whether the path is that of a scene file, which ends in .json.
+// Returns whether the path ends in .json, as those of scene files do.
 bool is_scene_file(const std::string& path);
 
-// Reads the files of those paths: one or several models, or one scene file (.json). Depth images and very
-// large files are reduced to the points that are `wanted`. Errors: those of read_file(), read_cloud(),
+// Reads the files at the paths: one or several models, or one scene file (.json). From depth images and very
+// large files keeps only the points that are `wanted`. Errors: those of read_file(), read_cloud(),
 // stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file together
 // with other files.
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
 
-// Sets the height map of a base of kind image; for other kinds `image` must be null. Errors: kind option if
-// base and image do not fit together.
+// Sets the height map of a base of kind image. For other kinds `image` must be null. Errors: kind option if
+// only one of the kind and `image` is given.
 Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base);
 
 // Returns the height map in the file of that path; null for an empty path. Errors: kind input.
 Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& path);
 
-// Returns the texts as one text, with `between` between them.
+// Returns the texts joined to one text, with `between` as the separator.
 std::string joined(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 // Returns the result. If it is an error that names no input, the error gets this name.
@@ -82,19 +82,19 @@ Result<T> naming(const std::string& name, Result<T> result) {
   return result;
 }
 
-// Returns the ornaments of a JSON text, called `name` in errors. Relative paths start at the folder:
+// Returns the ornaments in a JSON text. Error messages call it `name`. Relative paths start at `folder`:
 //   {"ornaments": [{"kind": "text", "text": "LIBERTAS", "arc": "top", "size": 3}, {"kind": "beads"},
 //                  {"kind": "drawing", "file": "crest.svg", "size": 20, "at": [0, 30]}]}
-// docs/lettering.md has all keys. Errors: kind input for a text that is not JSON, unknown keys, values of another
-// type, and files that cannot be read.
+// docs/lettering.md lists all keys. Errors: kind input for a text that is not JSON, unknown keys, values of
+// another type, and files that cannot be read.
 Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::string& name,
                                               const std::string& folder);
 
-// Makes relative paths of the options `font` and `ornaments` of a project start at the project's folder.
+// Makes the relative paths in a project's options `font` and `ornaments` relative to the project's folder.
 void find_ornament_files(OptionValues& own, const std::string& folder);
 
-// Reads the files that the options `font` and `ornaments` name. The text of `ornaments` is JSON itself if it begins
-// with a brace. Errors: those of read_file() and parse_ornaments().
+// Reads the files that the options `font` and `ornaments` name. If the text of `ornaments` begins with a
+// brace, it is JSON itself and not a path. Errors: those of read_file() and parse_ornaments().
 Result<void> read_ornaments(ReliefOptions& options);
 
 }  // namespace relievo::app

@@ -18,27 +18,27 @@ namespace relievo::app {
 struct ReliefFiles {
   std::string solid, preview, heightmap, tool_picture, report;
   HeightMapTexts map = {};
-  int heightmap_px = 1024;  // its longer side, unless the texts give the size of a pixel
-  int preview_px = 1200;    // the longer side of each of its two views
+  int heightmap_px = 1024;  // longer side of the height map, unless `map` gives the size of a pixel
+  int preview_px = 1200;    // longer side of each of the two views of the preview
   LengthUnit unit = LengthUnit::mm;
 };
 
-// Checks, before the work begins, that the outputs have different paths and that each path can be written to.
-// Errors: those of check_output() and take_texts(); kind option for a picture of the tool if there is no tool,
-// and for options of a height map if there is none.
+// Checks, before the work begins, that the outputs have different paths and that each can be written. Errors:
+// those of check_output() and take_texts(); kind option for a picture of the tool without a tool, and for
+// options of a height map without a height map.
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
 
 struct MadeFiles {
   std::vector<OutputFile> files;
-  nlohmann::json height_map;  // the facts of HeightMapFile; null without such a file
+  nlohmann::json height_map;  // the facts of HeightMapFile; null if no height map is made
 };
 
-// Returns all files but the report, not yet written. `draft_deg` is the draft angle with which the relief was
-// made. Errors: those of enforce_draft_in_float() and height_map_file().
+// Returns the contents of all files except the report; writes nothing. `draft_deg` is the draft angle of the
+// relief. Errors: those of enforce_draft_in_float() and height_map_file().
 Result<MadeFiles> relief_files(const ReliefFiles& files, const MadeRelief& made,
                                std::optional<double> draft_deg);
 
-// Returns the file of the report.
+// Returns the report as a file; writes nothing.
 OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief,
                        const nlohmann::json& height_map);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Reads one file. The error of a method names the key at which the file is wrong.
+// Reads one scene file. Errors name the key whose value is wrong.
 class SceneReader {
  public:
   explicit SceneReader(const std::string& name) : name_(name) {}

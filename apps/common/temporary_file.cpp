@@ -20,7 +20,8 @@ namespace relievo::app {
 
 // The name of a temporary file, which a signal handler may read at any time.
 struct TemporaryName {
-  // Makes a name of `stem` that no other file of this process has. Returns whether it is short enough.
+  // Makes a name from `stem` that this process has not used before. Returns whether the name fits into
+  // `text`.
   bool renew(const std::string& stem) {
     static std::atomic<unsigned> count = 0;
     const int length =
@@ -37,18 +38,18 @@ struct TemporaryName {
 
 namespace {
 
-// All names ever made. None is freed, since a signal handler may read it.
+// All names ever made, as a linked list. None is freed, since a signal handler may read it at any time.
 std::atomic<TemporaryName*> temporary_names = nullptr;
 
 constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> is_ending = false;       // the process removes its temporary files and ends
-std::atomic<int> threads_with_change = 0;  // threads that make or rename a temporary file now
+std::atomic<bool> is_ending = false;       // the process is removing its temporary files and will end
+std::atomic<int> threads_with_change = 0;  // threads that are making or renaming a temporary file
 static_assert(decltype(is_ending)::is_always_lock_free && decltype(threads_with_change)::is_always_lock_free);
 
-// A thread makes or renames a temporary file only while it has a FileChange. Otherwise it could make a file
-// after a signal handler in another thread had removed all of them. If the process is already ending, the
-// thread stops here.
+// A thread must have a FileChange while it makes or renames a temporary file. Otherwise it could make a file
+// after a signal handler in another thread has removed all of them. If the process is already ending, the
+// constructor never returns.
 class FileChange {
  public:
   FileChange() {
@@ -56,7 +57,7 @@ class FileChange {
     ::sigemptyset(&signals);
     for (const int signal : ending_signals) ::sigaddset(&signals, signal);
     ::pthread_sigmask(SIG_BLOCK, &signals,
-                      &former_);  // a handler in this thread would wait for ever
+                      &former_);  // else a handler would wait for its own thread for ever
     ++threads_with_change;
     if (!is_ending) return;
     --threads_with_change;
@@ -75,10 +76,10 @@ class FileChange {
 
 extern "C" void remove_temporaries(int signal) {
   remove_temporary_files();
-  ::raise(signal);  // ends the process
+  ::raise(signal);  // the default action of the signal now ends the process
 }
 
-// Reserves a name that is free, or a new one.
+// Reserves an unused name of the list, or adds a new one.
 TemporaryName* take_name() {
   for (TemporaryName* name = temporary_names; name != nullptr; name = name->next)
     if (bool is_used = false; name->is_used.compare_exchange_strong(is_used, true)) return name;
@@ -95,11 +96,11 @@ std::string folder_for(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// Returns the beginning of the names of temporary files for that path; a number follows it. The names are no
-// longer than file systems allow.
+// Returns the beginning of the names of temporary files for that path; numbers follow it. It is cut to the
+// length that file systems allow.
 std::string stem_for(const std::string& path) {
   constexpr std::size_t most =
-      NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // two numbers of ten digits
+      NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // two numbers of ten digits each follow
   const std::filesystem::path whole = path;
   return (whole.parent_path() / (whole.filename().string().substr(0, most) + ".relievo-")).string();
 }
@@ -108,24 +109,24 @@ std::string own_path(const Descriptor& file) {
   return "/proc/self/fd/" + std::to_string(file.number());
 }
 
-// Makes a file without a name, if it can be given a name later.
+// Makes a file without a name, or none if the file system cannot give it a name later.
 Descriptor make_nameless(const std::string& folder, unsigned mode) {
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
   return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
 }
 
-// The attribute that marks files with temporary names: a name alone does not prove that this program made the
-// file.
+// The attribute that marks files with temporary names. A file's name alone would not prove that this program
+// made the file.
 constexpr const char* mark = "user.relievo.unfinished";
 
-// Marks a file, and locks it for as long as this process has it open. File systems that do not support this
-// leave the file unmarked or unlocked.
+// Marks a file, and locks it until this process closes it. On a file system without attributes or locks the
+// file stays unmarked or unlocked.
 void mark_unfinished(const Descriptor& file) {
   ::flock(file.number(), LOCK_EX | LOCK_NB);
   ::fsetxattr(file.number(), mark, "", 0, 0);
 }
 
-// Removes the unfinished files in `folder` that no process has open and whose names begin like that.
+// Removes the unfinished files in `folder` whose names start with `begin` and which no process has open.
 void remove_abandoned(const std::string& folder, const std::string& begin) {
   std::error_code failed;
   for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
@@ -159,14 +160,15 @@ bool link_to(const std::string& own, const char* path) {
   return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Replaces the file at `path`. For that the new file first gets a temporary name.
+// Replaces the file at `path`. The new file gets a temporary name first, because only a file with a name can
+// be renamed.
 bool name_in_place(const Descriptor& file, const std::string& own, const std::string& path) {
   const std::string stem = stem_for(path);
   remove_abandoned_for(stem);
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
-    const FileChange change;  // nothing is allocated here: a failed allocation would wait for this FileChange
+    const FileChange change;  // allocates nothing: a failed allocation would wait for FileChange
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;
@@ -177,7 +179,8 @@ bool name_in_place(const Descriptor& file, const std::string& own, const std::st
   return false;
 }
 
-// Gives a file that has no name the name `path`, and replaces an existing file. Returns whether it succeeded.
+// Gives the name `path` to a file without a name, and replaces an existing file. Returns whether it
+// succeeded.
 bool name_file(const Descriptor& file, const std::string& path) {
   const std::string own = own_path(file);
   const auto link = [&] {
@@ -240,7 +243,7 @@ void remove_temporary_files() {
 }
 
 void remove_temporary_files_on_signals() {
-  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the limit of file sizes is an error like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a file above the size limit then gives an error, as on a full disk
   for (const int signal : ending_signals) {
     struct sigaction action {};
     ::sigaction(signal, nullptr, &action);

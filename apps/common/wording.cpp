@@ -63,7 +63,7 @@ Remark remark_on(const ScanReport::FoundPlane& plane) {
                            : Remark{cat("found ", what), "plane", "drop", "leaves it out"};
 }
 
-// Returns how many letters must be inserted, removed or changed to turn one text into the other.
+// Returns the number of letters that must be inserted, removed or changed to turn one text into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
@@ -110,7 +110,7 @@ std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
 
 namespace {
 
-// Adds what a user should know about texts, borders and drawings.
+// Adds remarks on texts, borders and drawings, such as lines that are too thin to be printed.
 void add_ornament_remarks(const ReliefReport& report, std::vector<std::string>& lines) {
   const auto& [highest_mm, thinnest_mm] = report.ornaments;
   constexpr double usual_nozzle_mm = .4;

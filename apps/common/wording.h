@@ -11,8 +11,8 @@
 
 namespace relievo::app {
 
-// A fact that a user should know, without capital and full stop. If `option` is not empty, setting it to
-// `value` would change the fact; `effect` says how.
+// A fact that a user should know, without a capital and a full stop. If `option` is not empty, setting that
+// option to `value` would change the fact, and `effect` describes the change.
 struct Remark {
   std::string text;
   std::string_view option = {}, value = {}, effect = {};
@@ -23,17 +23,17 @@ struct Remark {
 std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers = 0);
 std::vector<std::string> remarks_on(const ReliefReport& report);
 
-// Returns the line with a capital and a full stop.
+// Returns the line with a capital at its beginning and a full stop at its end.
 std::string as_sentence(std::string line);
 
-// Returns ", found " and the value that a JSON file has instead of the expected one, in JSON, cut after 32
-// bytes; ", found none" for null.
+// Returns ", found " and the wrong value of a JSON file, written as JSON and cut after 32 bytes; ", found
+// none" for null.
 std::string found(const nlohmann::json& value);
 
-// Returns the name that a user may have meant who typed an unknown one: the first of those with the fewest
-// letters that differ. Returns an empty text if more than a third of the letters, and more than two, differ.
-// The beginning of a name, of at least four letters, counts as one that differs: "--out" means --output,
-// although --up has fewer.
+// Returns the known name that a user most likely meant by `typed`: the first name with the smallest edit
+// distance. Returns an empty text if the distance is more than two and more than a third of the letters. If
+// at least four typed letters are the beginning of a name, its distance counts as one: "--out" means
+// --output, although --up is nearer.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
 }  // namespace relievo::app

@@ -25,7 +25,7 @@ bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
 
-// Fails if a scan's path is that of a device or a folder. A missing file is not an error.
+// Fails if a scan's path is that of a device or a folder. Accepts a missing file.
 Result<void> check_place(const ScanSource& input) {
   return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
 }
@@ -72,14 +72,14 @@ Answer Actions::run(std::string_view name, const Json& json) {
   return made ? *std::move(made) : answer_of(made.error());
 }
 
-// Returns the state of a document that the page kept; null if it kept none.
+// Returns the stored state of a document; null if none is stored.
 Result<Json> Actions::kept_state(const std::string& id) const {
   RELIEVO_TRY(const std::string text, store_.document(id));
   const Json state = Json::parse(text, nullptr, false);
   return state.is_object() ? state : Json();
 }
 
-// With `storing_` locked: returns when the kept state of a document was changed.
+// Returns the time of the last change in the stored state of a document. The caller has locked `storing_`.
 Result<double> Actions::time_of_newest(const std::string& id) {
   const std::optional<double> known = opened_.with([&](const std::map<std::string, Opened>& opened) {
     const auto found = opened.find(id);
@@ -104,8 +104,8 @@ Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, 
   return engine;
 }
 
-// Answers with the document of a scan and its kept state. If the scan's file is missing, a dropped scan with
-// the same bytes replaces it.
+// Answers with the document of a scan and its stored state. If the scan's file is missing, but the user has
+// dropped a file with the same bytes on the page, the document uses that file instead.
 Result<Answer> Actions::document(const Json& json) {
   RELIEVO_TRY(ScanSource input, input_in(json));
   const Lock lock(storing_);
@@ -132,13 +132,12 @@ Result<Answer> Actions::leave(const Json& json) {
   return done();
 }
 
-// With `storing_` locked: returns whether a document was opened, or is kept.
+// Returns whether a document was opened or is stored. The caller has locked `storing_`.
 bool Actions::is_known(const std::string& id) {
   return opened_.with([&](const auto& opened) { return opened.contains(id); }) || store_.document(id) != "";
 }
 
-// Keeps the state of a document unless a newer one is kept: then answers with status 409. The start page counts
-// documents, and lists those with a scan.
+// Stores the state of a document, or answers with status 409 if a newer state is already stored.
 Result<Answer> Actions::keep(const Json& json) {
   const std::string id = json.value("document", "");
   const Json state = json.value("state", Json());
@@ -176,8 +175,8 @@ Result<Answer> Actions::recent(const Json& json) {
   return answer_of(Json{{"recent", recent_list(after)}});
 }
 
-// With `storing_` locked: returns the list of Store::recent(). The documents that are being opened come
-// first, as they are not kept before their scan was read.
+// Returns the list of Store::recent(), preceded by the documents that are being opened: those are stored only
+// after their scan was read. The caller has locked `storing_`.
 Json Actions::recent_list(const std::string& after) {
   Json list = Json::array();
   const auto opened = opened_.with([](const auto& all) { return all; });
@@ -205,7 +204,7 @@ Result<Answer> Actions::kept_amount(const Json&) {
   return answer_of(Json{{"documents", kept.documents}, {"bytes", kept.bytes}});
 }
 
-// Removes a document for good, unless another tab shows it.
+// Deletes a document for ever, unless another tab shows it.
 Result<Answer> Actions::remove(const Json& json) {
   const std::string id = json.value("document", "");
   if (!documents_.close(id, json.value("tab", "")))
@@ -216,7 +215,7 @@ Result<Answer> Actions::remove(const Json& json) {
   return done();
 }
 
-// Makes a project file that contains its scan.
+// Makes a project file with the scan packed in it.
 Result<Answer> Actions::save(const Json& json) {
   const Json project = json.value("project", Json());
   RELIEVO_TRY(const ScanSource input, input_in(project));
@@ -255,7 +254,7 @@ Answer Actions::take_project(const std::string& name, const BodyReader& read) {
   return project ? answer_of(*project) : answer_of(project.error());
 }
 
-// Stores a file that was part of a project.
+// Stores a file that was packed in a project.
 Result<ScanSource> Actions::kept(const PackedFile& file) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.name);
   RELIEVO_CHECK(scan->append(text_in(file.bytes)));
@@ -263,7 +262,7 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
   return store_.keep(*scan);
 }
 
-// Returns the contents of a project file as the page needs them. A relative path starts at `folder`.
+// Returns the content of a project file as JSON for the page. A relative path starts at `folder`.
 Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::string& name,
                                  const std::string& folder) {
   RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, name));
@@ -306,7 +305,7 @@ Result<void> Actions::begin_with(const std::string& path, const std::string& ful
   }
   const ScanSource input{{}, place.lexically_normal().string(), place.filename().string(), {}};
   first_ = {{"input", to_json(input)}, {"is_there", true}};
-  // If the document is kept, the page opens it, with its own view.
+  // The page opens a stored document itself, with the view in its state.
   if (store_.document(document_of(input)) == "") {
     RELIEVO_TRY(const auto engine, open_document(input, {}));
     engine->open(input, first_view());

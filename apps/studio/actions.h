@@ -1,4 +1,4 @@
-// Does the actions that the page requests. Takes and returns JSON. Tested by
+// Performs the actions that the page requests. Takes and returns JSON. Tested by
 // apps/studio/tests/server.test.mjs.
 #pragma once
 
@@ -17,13 +17,13 @@
 
 namespace relievo::app::studio {
 
-constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // bytes of a dropped file
+constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // largest file that a user can drop, in bytes
 
-// Reads the body of a request and passes its blocks to `take`. Returns whether the whole body arrived and was
-// taken.
+// Reads the body of a request in blocks and passes each to `take`. Returns whether the whole body arrived and
+// `take` accepted all of it.
 using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;
 
-// Does an action on the engine of the document that the request names.
+// Performs an action on the engine of the document that the request names.
 using EngineAction = Result<Answer> (*)(Engine&, const nlohmann::json&);
 
 // Returns the action of that name; null if there is none.
@@ -36,23 +36,23 @@ class Actions {
 
   bool has(std::string_view name) const;
 
-  // Does the action of that name, for which has() must be true.
+  // Performs the action of that name, for which has() must return true.
   Answer run(std::string_view name, const nlohmann::json& json);
 
-  // Takes a file that the browser sends block by block: a scan, or a project file with or without its scan.
-  // If the body does not arrive completely, the answer is empty.
+  // Takes a file that the browser sends in blocks: a scan, or a project file with or without its scan. If the
+  // body does not arrive completely, the answer is empty.
   Answer take_scan(const std::string& name, const BodyReader& read);
   Answer take_project(const std::string& name, const BodyReader& read);
 
-  // Makes the first page begin with a scan or a project; `full` is the absolute path of the file. Errors:
-  // kind input if the file cannot be read.
+  // Makes the first page open a scan or a project. `full` is the absolute path of the file. Errors: kind
+  // input if the file cannot be read.
   Result<void> begin_with(const std::string& path, const std::string& full);
 
-  // Returns the facts that the page needs before it can show anything.
+  // Returns the facts that the page needs at its start.
   nlohmann::json about();
 
-  // Returns for each open document the status of its engine, the time of its last kept change, and the tab
-  // that made this change.
+  // Returns the following for each open document: the status of its engine, the time of its last stored
+  // change, and the tab that made this change.
   std::vector<nlohmann::json> statuses();
 
  private:
@@ -93,8 +93,9 @@ class Actions {
   OpenDocuments& documents_;
   Store& store_;
   Mutex storing_;         // guards store_ and first_; disk operations may lock it for long
-  nlohmann::json first_;  // the input with which the first page begins, or null
-  // The open documents, by their ids. They are locked only briefly, also while storing_ is locked.
+  nlohmann::json first_;  // the input that the first page opens, or null
+  // The open documents by their ids. A thread locks them only briefly, and may do so while it has locked
+  // storing_.
   Guarded<std::map<std::string, Opened>> opened_;
 };
 

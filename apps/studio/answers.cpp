@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::json;
 
 int status_of(ErrorKind kind) {
-  constexpr int statuses[] = {400, 422, 409, 202, 500, 507};  // in the order of ErrorKind
+  constexpr int statuses[] = {400, 422, 409, 202, 500, 507};  // ordered as ErrorKind
   return statuses[static_cast<int>(kind)];
 }
 

@@ -1,4 +1,4 @@
-// Makes the answers to the page's requests: JSON, pictures and errors. Tested by
+// Makes the answers to the page's requests from JSON, pictures and errors. Tested by
 // apps/studio/tests/server.test.mjs.
 #pragma once
 
@@ -22,14 +22,14 @@ struct Answer {
 Answer answer_of(const nlohmann::json& json, int status = 200);
 
 // Returns the error with its HTTP status: 400 and 422 for a wrong request, 409 if no relief can be made or
-// none is ready, 500 if the disk failed, 507 if the memory ran out. Cancelled work has 202, which browsers do
-// not report as an error.
+// none is ready, 500 if the disk failed, 507 if the memory ran out. A cancelled request gets 202, as browsers
+// would report other statuses in their console as errors.
 Answer answer_of(const Error& error);
 
 // Returns the pixels as the body, and the facts about them in the header X-Relievo.
 Answer answer_of(const Picture& picture, const nlohmann::json& about);
 
-// Returns an error that the page can show.
+// Returns an answer with an error message that the page can show.
 Answer refusal(int status, const std::string& text);
 
 }  // namespace relievo::app::studio

@@ -9,9 +9,9 @@
 namespace relievo::app::studio {
 namespace {
 
-constexpr int most_wait_ms = 10000;  // a page on this machine needs milliseconds
+constexpr int most_wait_ms = 10000;  // most pages need only milliseconds
 constexpr std::size_t piece =
-    1U << 16;  // httplib asks for 4 KiB at a time: large uploads would need many calls
+    1U << 16;  // httplib asks for 4 KiB at a time, so large uploads would need many calls
 
 bool wait_for(int socket, short event) {
   pollfd waited{socket, event, 0};
@@ -54,7 +54,7 @@ ssize_t BufferedStream::write(const char* from, std::size_t size) {
   return wait_for(socket_, POLLOUT) ? ::send(socket_, from, size, MSG_NOSIGNAL) : -1;
 }
 
-// The server never uses addresses, as it answers only requests of this machine.
+// The server does not use addresses, since only this machine can connect to it.
 void BufferedStream::get_remote_ip_and_port(std::string& ip, int& port) const {
   ip = "127.0.0.1";
   port = 0;

@@ -1,7 +1,7 @@
 // Reads and writes one connection, with time limits. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
-// This header comes first, because the server's header defines a macro _res that breaks Eigen.
+// This header must be included first, because the server's header defines a macro _res that breaks Eigen.
 #include "relievo/core/types.h"
 
 #include <httplib.h>
@@ -10,8 +10,8 @@
 
 namespace relievo::app::studio {
 
-// Reads from a socket, which it does not own, after the bytes that were received from it before. Reading
-// returns 0 at the end of the connection, and -1 for errors and after waiting too long.
+// Returns the bytes that were received earlier, and then reads from a socket, which it does not own. A read
+// returns 0 at the end of the connection, and -1 after an error or after the time limit.
 class BufferedStream : public httplib::Stream {
  public:
   BufferedStream(int socket, std::string received) : socket_(socket), received_(std::move(received)) {}
@@ -19,7 +19,7 @@ class BufferedStream : public httplib::Stream {
   // Returns the number of bytes that were read from this stream.
   std::uint64_t bytes_read() const { return bytes_read_; }
 
-  // Returns the bytes that were received but not read.
+  // Returns the received bytes that no reader has taken yet.
   std::string unread() const { return received_.substr(position_); }
 
   bool is_readable() const override;

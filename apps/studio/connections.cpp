@@ -25,24 +25,23 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// This is half of 1024, the usual limit of open files of a program.
+// Half of 1024, the usual limit of open files of a program.
 constexpr std::size_t most_connections = 512;
-// The least and the largest number of requests that are answered at the same time. They allow for a few
-// pages, and for uploads that arrive slowly. Each page keeps one request for events open, which would block a
-// single thread.
+// The number of threads that answer requests at the same time. Each page keeps one request for events open
+// all the time, and slow uploads take long, so a few threads are not enough for several pages.
 constexpr std::size_t fewest_answering = 4, most_answering = 96;
 constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
-constexpr auto longest_head = 5s;             // from the first byte of a head to its last
-constexpr auto longest_rest = 30s;            // from one request of a connection to the next
-constexpr auto longest_farewell = 2s;         // time for a refused sender to read the answer
-constexpr auto shortest_wait = 1s;            // after which a connection may be closed to make room
+constexpr auto longest_head = 5s;             // time from the first byte of a head to its last
+constexpr auto longest_rest = 30s;            // time between two requests on a connection
+constexpr auto longest_farewell = 2s;         // time in which a refused sender can read the answer
+constexpr auto shortest_wait = 1s;            // a connection that waits longer may be closed for another
 
-// A connection that no thread works on.
+// A connection that no thread is answering.
 struct Connection {
   int socket;
-  std::string received;    // bytes of the next request
-  Clock::time_point last;  // when to close the connection
-  bool is_ending = false;  // an answer was sent; bytes that still arrive are discarded
+  std::string received;    // bytes of the next request, as far as they have arrived
+  Clock::time_point last;  // time at which to close the connection
+  bool is_ending = false;  // the answer was sent, and further bytes are discarded
   Clock::time_point since = Clock::now();
 };
 
@@ -50,7 +49,8 @@ bool has_whole_head(const Connection& connection) {
   return connection.received.find("\r\n\r\n") != std::string::npos;
 }
 
-// Closing the socket at once would destroy the answer if the other side is still sending and has not read it.
+// Stops sending on a socket, but does not close it yet: if the other side is still sending, closing would
+// discard the answer before it is read.
 Connection ending(int socket) {
   ::shutdown(socket, SHUT_WR);
   return {socket, {}, Clock::now() + longest_farewell, true};
@@ -83,12 +83,12 @@ struct Connections::State {
   int wake = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   std::mutex mutex;  // guards the members below
   std::condition_variable has_request, has_room;
-  std::list<Connection> waiting;  // the longest waiting one first
+  std::list<Connection> waiting;  // in the order of their waiting time, longest first
   std::deque<Connection> ready;
-  std::size_t open = 0;  // waiting, ready, and being answered
-  std::size_t idle = 0;  // threads that wait for a request
+  std::size_t open = 0;  // number of connections that are waiting, ready or being answered
+  std::size_t idle = 0;  // number of threads that wait for a request
   bool is_stopping = false;
-  std::vector<std::thread> threads;  // the last member: threads use those above
+  std::vector<std::thread> threads;  // declared last, as the threads use the members above
 
   explicit State(Answer how) : answer(std::move(how)) {
     threads.reserve(1 + most_answering);
@@ -103,8 +103,8 @@ struct Connections::State {
 
   ~State() { ::close(wake); }
 
-  // Starts another thread if all are busy. If the system gives no thread, the existing ones go on. The caller
-  // holds `mutex`.
+  // Starts another thread if all are busy. If the system refuses a thread, the existing ones continue. The
+  // caller has locked `mutex`.
   void add_thread_if_needed() {
     if (is_stopping || ready.size() <= idle || threads.size() > most_answering) return;
     try {
@@ -116,14 +116,14 @@ struct Connections::State {
 
   void interrupt_waiting() const { (void)!::eventfd_write(wake, 1); }
 
-  // The caller holds `mutex`.
+  // The caller has locked `mutex`.
   void close(int socket) {
     ::close(socket);
     --open;
     has_room.notify_one();
   }
 
-  // The caller holds `mutex`.
+  // The caller has locked `mutex`.
   void drop(std::list<Connection>::iterator at) {
     close(at->socket);
     waiting.erase(at);
@@ -142,7 +142,8 @@ struct Connections::State {
     if (!wait_for_head({socket, {}, Clock::now() + longest_head})) close(socket);
   }
 
-  // Adds the connection to `waiting`. Returns false if there is no memory for it. The caller holds `mutex`.
+  // Adds the connection to `waiting`. Returns false if there is no memory for it. The caller has locked
+  // `mutex`.
   bool wait_for_head(Connection connection) {
     try {
       waiting.push_back(std::move(connection));
@@ -153,11 +154,11 @@ struct Connections::State {
     return true;
   }
 
-  // ------------------------------------------------------------------------------------- the thread that waits
+  // ---------------------------------------------------------------------------------- the thread that waits
 
   void wait_for_heads() {
     std::vector<pollfd> watched;
-    watched.reserve(1 + most_connections);  // from here on this thread allocates nothing itself
+    watched.reserve(1 + most_connections);  // after this line the thread itself allocates nothing
     for (std::unique_lock lock(mutex); !is_stopping; lock.lock()) {
       watched.assign(1, {wake, POLLIN, 0});
       for (const Connection& connection : waiting) watched.push_back({connection.socket, POLLIN, 0});
@@ -171,9 +172,10 @@ struct Connections::State {
     }
   }
 
-  // Receives the bytes that have arrived, and closes connections that are over or too late. The caller holds
-  // `mutex`. `watched` and `waiting` have the same order, but meanwhile connections may have been removed
-  // from the front of `waiting` and added to its end.
+  // Receives the bytes that have arrived on the watched connections, and closes connections that have ended
+  // or waited too long. `watched` and `waiting` are in the same order, but since `watched` was filled,
+  // connections may have been removed from the front of `waiting` and added to its end. The caller has locked
+  // `mutex`.
   void look_at(const std::vector<pollfd>& watched) {
     const Clock::time_point now = Clock::now();
     auto found = watched.begin();
@@ -186,9 +188,9 @@ struct Connections::State {
     }
   }
 
-  // Receives the bytes that have arrived, and makes the connection ready for a thread once its head is
-  // complete. Returns false if the connection is over or too late, or if there is no memory for it. The
-  // caller holds `mutex`.
+  // Receives the bytes that have arrived. Once the head of the request is complete, moves the connection to
+  // `ready`. Returns false if the connection has ended or waited too long, or if there is no memory for it.
+  // The caller has locked `mutex`.
   bool take_in(std::list<Connection>::iterator at, Clock::time_point now) {
     try {
       const Arrival arrival = receive(*at);
@@ -225,9 +227,9 @@ struct Connections::State {
     }
   }
 
-  // Answers the request that has arrived on a connection, and returns the connection for its next request.
-  // The connection ends if something fails too late for an answer to report it, such as memory while the
-  // answer is sent.
+  // Answers the request that has arrived on a connection, and returns the connection for its next request. If
+  // an error occurs after a part of the answer was sent, it can no longer be reported, and the connection
+  // ends.
   Connection answer_on(Connection connection) {
     refill_memory_reserve();
     try {
@@ -238,7 +240,7 @@ struct Connections::State {
     return ending(connection.socket);
   }
 
-  // The caller holds `mutex`.
+  // The caller has locked `mutex`.
   void put_back(Connection connection) {
     const int socket = connection.socket;
     if (is_stopping || !try_put_back(std::move(connection))) close(socket);

@@ -1,5 +1,5 @@
-// Manages the connections of the studio's server. A thread is given to a request only when its head has
-// arrived, so that slow or silent connections occupy no thread. Tested by apps/studio/tests/server.test.mjs.
+// Manages the connections of the studio's server. A request gets a thread only when its head has arrived, so
+// that slow or silent connections block no thread. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <functional>
@@ -9,22 +9,23 @@
 
 namespace relievo::app::studio {
 
-// Takes sockets, waits for the heads of their requests, and has each request answered in one of its threads.
-// A head has limits of size and time; if there are too many sockets, the longest waiting one is closed.
+// Takes sockets, waits for the heads of their requests, and answers each request in one of its threads. Heads
+// have limits of size and time. If there are too many sockets, the one that has waited longest is closed.
 class Connections {
  public:
-  // Answers one request. Returns whether the connection may send another.
+  // Answers one request. Returns whether the connection may send another request.
   using Answer = std::function<bool(BufferedStream&)>;
 
-  // Starts a few threads, and more when they are needed. Throws std::system_error if the system does not even
-  // allow these few.
+  // Starts a few threads; later starts more when all are busy. Throws std::system_error if the system refuses
+  // the first few.
   explicit Connections(Answer answer);
-  ~Connections();  // see stop()
+  ~Connections();  // calls stop()
 
-  // Owns the socket from now on. Waits while all connections are busy with requests.
+  // Takes ownership of the socket. If there are too many connections, waits until one ends, or closes one
+  // that has waited too long.
   void take(int socket);
 
-  // Closes the waiting connections, and returns when all running requests have been answered.
+  // Closes the waiting connections, and returns after all running requests were answered.
   void stop();
 
  private:

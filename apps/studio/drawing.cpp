@@ -42,8 +42,8 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<st
 CurveSamples sample_curve(const Shape& shape, double delta) {
   const bool is_layered = shape.style == Style::layered;
   const Compression saturation = saturation_alone(shape.compression);
-  // With layers, the weight for `saturation` times this scale is the share of a slope that saturation or tone
-  // curve leave.
+  // In the layered style, this factor times the weight for `saturation` is the share of a slope that the
+  // saturation or the tone curve keeps.
   const double scale = is_layered ? saturation_scale(shape.compression) : 1;
   CurveSamples samples;
   for (std::size_t i = 0; i < CurveSamples::size; ++i) {
@@ -54,13 +54,14 @@ CurveSamples sample_curve(const Shape& shape, double delta) {
   return samples;
 }
 
-// Rounds a height down to the decimals that the page uses for files. Then the largest height can still be
-// reached.
+// Rounds a height down to the decimals that the page shows for files. Rounding up could exceed the largest
+// height.
 double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
-// Returns whether the options ask only for the relief on a rectangular plate, which FrameRenderer can draw.
+// Returns whether the options ask only for a relief on a rectangular plate. FrameRenderer can draw such a
+// plate without making a piece.
 bool is_plain(const ReliefOptions& options) {
   return options.outline == Outline::rectangle && !options.rim_mm && options.base.kind == BaseKind::plane &&
          options.wrap.kind == WrapKind::none && options.form == Form::relief && !options.draft_deg &&
@@ -69,7 +70,7 @@ bool is_plain(const ReliefOptions& options) {
 }
 
 ReliefOptions coarse(ReliefOptions options) {
-  constexpr double samples = 180;  // along the longer side: enough to follow a hand
+  constexpr double samples = 180;  // along the longer side: smooth enough while a slider moves
   options.resolution_mm = std::max(options.effective_width_mm() / samples, options.resolution_mm.value_or(0));
   options.tolerance_mm = options.draft_deg = options.triangles = std::nullopt;
   options.finish = Finish::full;
@@ -77,8 +78,8 @@ ReliefOptions coarse(ReliefOptions options) {
   return options;
 }
 
-// Returns whether the thickness of the piece is that of plate and relief together, even if the piece is
-// coarse.
+// Returns whether the thickness of a coarse piece is exact: the thickness of the plate plus the height of the
+// relief.
 bool is_level(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
          options.form != Form::die && !options.rim_mm && options.outline != Outline::none &&
@@ -97,7 +98,7 @@ LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
   return live_.make_frame(request.options, {request.u, !is_exact});
 }
 
-// Returns the corners of the relief's box, relative to the middle of the piece.
+// Returns two corners of the relief's bounding box, relative to the centre of the piece.
 std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
                                                       const ReliefOptions& options) const {
   if (options.wrap.kind != WrapKind::none) return std::nullopt;
@@ -110,9 +111,9 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
   return {{low, low + size}};
 }
 
-// Returns the height of the relief in files: the requested height if the frame's relief and a draft angle
-// allow it, otherwise the largest height that they allow. A lithophane can have any height; with one vertical
-// scale the height is not known before the piece.
+// Returns the height of the relief in exported files: the requested height if the frame's relief and the
+// draft angle allow it, otherwise the largest height that they allow. A lithophane can have any height. With
+// the option mm-per-value the height is known only after the piece is made.
 PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& made) const {
   const Frame& frame = *made.frame;
   const double height = frame.height * made.stretch * live_.mm_per_unit(request.options);
@@ -124,8 +125,7 @@ PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& m
   return {request.u ? rounded_down(height, 1e4) : asked, true};
 }
 
-// Returns the options for the piece. Its height is the requested one or, if that cannot be reached, the
-// largest.
+// Returns the options for making the piece: those of the request, with the height of height_of().
 ReliefOptions Drawing::piece_options(const PictureRequest& request, const LiveFrame& made) const {
   ReliefOptions options = request.options;
   if (options.mm_per_value) return options;
@@ -198,14 +198,14 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.width_mm = request.options.effective_width_mm();
   answer.most_width_mm = live_.most_width_mm();
   if (request.is_original) {
-    options.has_shadows = false;           // at the model's full depth they would cover the ground
-    options.material = Material::plaster;  // not the material of the piece
+    options.has_shadows = false;           // at the model's full depth, shadows would cover the ground
+    options.material = Material::plaster;  // the chosen material is only for reliefs
     live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;
     return answer;
   }
-  // A piece is made for the height of the frame, so that height must be exact.
+  // The height of a piece is taken from the frame, so the frame's height must then be exact.
   const LiveFrame made = this->frame(request, options.is_fine || !is_plain(request.options));
   const Frame& frame = *made.frame;
   answer.compression = frame.options.shape.compression;
@@ -234,7 +234,7 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   if (is_plain(request.options)) return along(live_.shown(made));
   const ReliefOptions wanted = piece_options(request, made);
   RELIEVO_TRY(const DrawnPiece* const shown, piece(wanted));
-  // Making a coarse piece does not check this.
+  // Making a coarse piece does not check the rim.
   RELIEVO_CHECK(check_rim(wanted, shown->height_mm.value_or(height_of(request, made).mm)));
   return section_of(*shown->solid, line);
 }

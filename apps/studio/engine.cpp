@@ -19,12 +19,13 @@ std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
 }
 
-// Ignores the error of a cancelled piece: the picture is then drawn without that piece.
+// Ignores the error of a cancelled piece, so that the picture is drawn without that piece.
 Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
 }
 
-// Returns a number that no other model of this or another run has: the clock's milliseconds, or more.
+// Returns a number that no other model has, in this run or another: the time in milliseconds, or a larger
+// number.
 std::uint64_t new_model_number() {
   using std::chrono::duration_cast, std::chrono::milliseconds, std::chrono::system_clock;
   static std::atomic<std::uint64_t> next =
@@ -36,7 +37,7 @@ struct ShownModel : NumberedModel {
   LoadedScan scan;
 };
 
-// Returns the values with the chosen side in place of the view "auto".
+// Returns the options with the chosen side in place of "auto" as the view.
 OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best) {
   const auto side = values.find("view");
   if (side == values.end() || side->second != OptionValue("auto") || !best) return values;
@@ -49,11 +50,11 @@ OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best
 }
 
 struct Shared {
-  ScanSource wanted;  // requested last, with its view
+  ScanSource wanted;  // the scan that was requested last
   OptionValues view;
-  std::optional<ViewGuess> best;            // the side that was chosen for the view "auto"
-  std::shared_ptr<const ScanOrder> unread;  // requested, but not yet read
-  LoadedScan scan;                          // read last
+  std::optional<ViewGuess> best;            // the side that was chosen, if the view is "auto"
+  std::shared_ptr<const ScanOrder> unread;  // the scan that was requested but is not read yet
+  LoadedScan scan;                          // the scan that was read last
   ShownModel shown;
 };
 
@@ -63,27 +64,27 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  // Preparation::ready locks this while the session is locked. So the session must not be called while this
-  // is locked.
+  // Lock order: the session calls Preparation::ready while it is locked, and ready locks `shared`. So a thread
+  // that has locked `shared` must not call the session.
   Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>>
-      at_rest;  // progress of fine pictures and pieces; null after other pictures
+      at_rest;  // progress of fine pictures and of pieces; null after other pictures
 
   PieceMaker maker;
 
   Mutex drawing_mutex;  // guards the members up to the next mutex
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
-  std::optional<View> turned_view;  // the view of the drawing below
-  std::optional<Drawing> turned;    // the model while the user turns it
+  std::optional<View> turned_view;  // the view for which `turned` was made
+  std::optional<Drawing> turned;    // the turned relief that is drawn while the user turns the model
   Mutex scan_mutex;                 // guards the members up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
-  Session session;  // the last member: its thread uses those above
+  Session session;  // declared last: its thread uses the members above
 
-  // Returns the preparation of a view of the scan that was requested last.
+  // Returns how to prepare the scan that was requested last in the view of the options.
   Preparation preparation_of(const ReliefOptions& options) {
     Preparation preparation;
     const auto chosen = std::make_shared<View>(options.effective_view());
@@ -94,7 +95,7 @@ struct Engine::State {
     preparation.all_sides = [this](Progress&) -> Preparation::Points {
       return shared.with([](const Shared& s) { return s.scan; }).all_sides();
     };
-    preparation.makes_first_relief = !changed;  // without threads the page requests no coarse relief
+    preparation.makes_first_relief = !changed;  // without threads no picture is requested meanwhile
     preparation.model = options.effective_model();
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
@@ -103,8 +104,8 @@ struct Engine::State {
     return preparation;
   }
 
-  // In the session's thread: reads the scan if necessary, and returns the points that the view shows. If the
-  // side is yet to be chosen, sets `view` to the best one.
+  // Runs in the session's thread. Reads the scan if necessary, and returns the points that the view shows. If
+  // the side is still to be chosen, sets `view` to the best side.
   Preparation::Points points(View& view, std::optional<double> number, Progress& progress) {
     if (auto done = read(progress); !done) return std::unexpected(done.error());
     const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
@@ -121,11 +122,11 @@ struct Engine::State {
     const auto unread = shared.with([](const Shared& s) { return s.unread; });
     if (!unread) return {};
     if (auto go = progress.stage("read", 0); !go) return go;
-    // Choosing another view cancels the preparation, but not the reading.
+    // If the user chooses another view, the preparation is cancelled, but the reading continues.
     const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
     Result<LoadedScan> scan = read_scan(*unread, is_unwanted);
     const bool is_wanted = shared.with([&](Shared& s) {
-      if (s.unread != unread) return false;  // another scan was opened meanwhile, or this one cancelled
+      if (s.unread != unread) return false;  // meanwhile, another scan was opened or this one cancelled
       s.unread = nullptr;
       if (scan) s.scan = std::move(*scan);
       return true;
@@ -138,7 +139,8 @@ struct Engine::State {
     return shared.with([](const Shared& s) { return NumberedModel(s.shown); });
   }
 
-  // Returns the scan that was read last or, if no relief could be made of it, the shown scan.
+  // Returns the scan that was read last. If no relief could be made of it, returns the scan that the page
+  // shows.
   LoadedScan scan_in_use() {
     const SessionStatus status = session.status();
     const bool has_failed = !status.is_preparing && status.error;
@@ -148,11 +150,11 @@ struct Engine::State {
     });
   }
 
-  // Draws the model in a view that is not prepared yet. The coarse relief is made once per view. It is used
-  // until that view is prepared, even if options change. Other pictures do not wait for this relief, and the
-  // next view cancels it.
+  // Draws the model in a view that is not prepared yet. The turned relief is made once per view, and is then
+  // used until the view is prepared, even if options change. While it is made, other pictures can be drawn.
+  // A request for another view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
-    std::uint64_t model = 0;  // the model that was drawn when the coarse relief was begun
+    std::uint64_t model = 0;  // the drawn model when the turned relief was begun
     for (std::optional<TurnedRelief> relief;;) {
       {
         const Lock lock(drawing_mutex);
@@ -169,8 +171,9 @@ struct Engine::State {
     }
   }
 
-  // With `drawing_mutex` locked: returns the drawing of the shown model; null before the first model. The
-  // drawing is frozen while another view is prepared: the preparation needs the processor.
+  // Returns the drawing of the shown model; null before the first model. While another view is being
+  // prepared, the drawing is frozen, so that the preparation gets the processor. The caller has locked
+  // `drawing_mutex`.
   Drawing* current_drawing() {
     const bool is_preparing = session.status().is_preparing;
     const ShownModel shown = shared.with([](const Shared& s) { return s.shown; });
@@ -202,7 +205,7 @@ Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<S
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const OptionValues& view) {
-  // A view that cannot be read is refused by the next picture.
+  // If the view's options are wrong, the next picture reports it.
   Preparation preparation = state_->preparation_of(parse_options(view).value_or(ReliefOptions{}));
   const auto unread = std::make_shared<const ScanOrder>(input, reading_of(view));
   state_->shared.with([&, wanted = input, values = view](Shared& s) mutable {
@@ -222,7 +225,7 @@ void Engine::show(const ScanSource& input, const OptionValues& view) {
   if (!is_open || session.error)
     open(input, view);
   else if (!has_view)
-    (void)choose_view(view);  // a view that cannot be read is refused by the next picture
+    (void)choose_view(view);  // if the view's options are wrong, the next picture reports it
 }
 
 Result<void> Engine::choose_view(const OptionValues& view) {
@@ -244,7 +247,7 @@ Result<void> Engine::choose_view(const OptionValues& view) {
 }
 
 // Cancels the session, and frees a scan of which no relief was made. The session is cancelled first, so that
-// work that finds no scan ends.
+// its thread does not go on without the scan.
 void Engine::cancel() {
   state_->session.cancel();
   state_->shared.with([](Shared& s) {
@@ -276,8 +279,8 @@ Result<ModelFacts> Engine::facts() {
   return state_->with_drawing([](Drawing& drawing) -> Result<ModelFacts> { return drawing.facts(); });
 }
 
-// Finds the height that the draft angle of the options allows, if they have one, while other pictures are
-// drawn.
+// Computes the largest height that the draft angle allows, if the options have one. Meanwhile other pictures
+// can be drawn.
 Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
   if (!request.options.draft_deg) return {};
   const NumberedModel shown = state_->shown_model();
@@ -286,13 +289,14 @@ Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
   return {};
 }
 
-// Makes the piece that a picture is to show, while other pictures are drawn.
+// Makes the piece that a picture is to show. Meanwhile other pictures can be drawn.
 Result<void> Engine::finish(PictureRequest& request) {
-  // If another model is being prepared, the piece of that model will be requested later.
+  // While another model is being prepared, no piece is made: the page requests the piece of the new model
+  // later.
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());
-  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // another piece may have come first
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // the picture may be cancelled by now
   std::uint64_t model = 0;
   RELIEVO_TRY(const std::optional<ReliefOptions> missing, state_->with_drawing([&](Drawing& drawing) {
     model = state_->drawn_model;
@@ -329,7 +333,7 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
 }
 
 Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
-  if (request.options.rim_mm)  // whether its bevel leans enough depends on the height under the draft angle
+  if (request.options.rim_mm)  // the draft limit decides whether the bevel leans enough
     if (auto known = find_draft_limit(request, PieceUse::entry); !known)
       RELIEVO_CHECK(unless_cancelled(known.error()));
   return state_->with_drawing([&](Drawing& drawing) { return drawing.profile(std::move(request), line); });
@@ -380,8 +384,8 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->control_points() > 0))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  // The options of pictures have the width that the plate leaves; those of exports may have none. With the
-  // width, both ask for the same piece.
+  // The options of a picture have the width that fits the plate; those of an export may have none. After
+  // with_width() both describe the same piece, which is then made only once.
   RELIEVO_TRY(const ReliefOptions sized, with_width(model->surface(), options));
   return state_->maker.piece(use, shown, sized);
 }

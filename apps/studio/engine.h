@@ -15,76 +15,77 @@
 
 namespace relievo::app::studio {
 
-// An engine's present work, and the scan that it shows.
+// The current work of an engine, and the scan that it shows.
 struct EngineStatus {
   bool is_busy = false;
   std::string stage;
   double fraction = 0;
-  std::optional<Error> error;  // error of the last opening or change of view
+  std::optional<Error> error;  // error of the last opening or change of the view
   ScanSource input;            // the shown scan
-  OptionValues view;           // last requested options for preparing the scan
-  std::string making_stage;    // stage of the finished piece that is being made; empty if there is none
+  OptionValues view;           // the options for preparing the scan that were requested last
+  std::string making_stage;    // stage of the finished piece that is being made; empty if none is
   double making_fraction = 0;
   std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first model
-  bool can_turn = false;    // whether pictures can show the model in other views
+  bool can_turn = false;    // whether pictures can show the model from other views
 };
 
-// Every method may be called from any thread. Methods that draw wait for each other.
+// Every method may be called from any thread. While one method draws, others that draw wait.
 class Engine {
  public:
-  // `changed` is for systems without threads: it is called when status() has changed within a call.
+  // `changed` is for systems without threads. It is called when status() has changed within a call.
   explicit Engine(const std::function<void()>& changed = {});
   ~Engine();
 
-  // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
-  // or for good if the new one fails.
+  // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready.
+  // If the new one fails, the old one stays.
   void open(const ScanSource& input, const OptionValues& view);
 
-  // Does the parts of open() and choose_view() that are needed to show the scan in that view: none if it is
-  // shown already.
+  // Does only those parts of open() and choose_view() that are needed to show the scan in that view. Does
+  // nothing if it is already shown.
   void show(const ScanSource& input, const OptionValues& view);
 
-  // Prepares another view of the scan that was opened last or, if that failed, of the shown scan. Errors:
-  // those of parse_options(); kind geometry if there is no scan.
+  // Prepares another view of the scan that was opened last or, if that scan failed, of the shown scan.
+  // Errors: those of parse_options(); kind geometry if there is no scan.
   Result<void> choose_view(const OptionValues& view);
 
   void cancel();
 
-  // Returns whether all work has ended, cancelled work included.
+  // Returns whether no work is running, not even cancelled work.
   bool is_idle();
 
-  // Without threads, this does the work that open(), show() and choose_view() have requested.
+  // On a system without threads, does the work that open(), show() and choose_view() have requested.
   void work();
 
   EngineStatus status() const;
 
-  // Returns the facts about the shown model. Errors of this and the methods below: kind geometry if there is
+  // Returns the facts about the shown model. This method and those below fail with kind geometry if there is
   // no relief yet.
   Result<ModelFacts> facts();
 
-  // picture() and profile() draw as Drawing does. While another view is being prepared, pictures show the
-  // last frame of the model that is shown until then. A picture of a finished piece waits until the piece is
-  // made. Any other picture cancels the making of that piece, so as not to wait for it. A picture that is
-  // neither fine nor of a finished piece also cancels all pictures that are. Errors: also those of piece().
+  // Draw as the methods of Drawing do. While another view is being prepared, a picture shows the last frame
+  // of the current model. A picture of a finished piece waits until that piece is made. Any other picture
+  // cancels the making of that piece instead of waiting for it. Fine pictures and pictures of finished pieces
+  // are also cancelled by any picture that is neither. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
-  // Returns the height in mm of the highest relief that the options allow, their draft angle included. With a
+  // Returns the greatest height, in mm, of a relief that the options and their draft angle allow. With a
   // draft angle this takes as long as making a piece, unless the height is already known. Any picture that is
-  // not of a finished piece cancels this. Errors: those of Drawing::reachable_height() and
+  // not of a finished piece cancels this call. Errors: those of Drawing::reachable_height() and
   // highest_with_draft(); kind cancelled.
   Result<double> reachable_height(PictureRequest request);
 
-  // Draws the scan itself as it looks in a view.
+  // Draws the scan itself in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);
 
-  // Returns the shown scan if it is a single depth image, else null. It shares the model with the scan.
+  // Returns the shown scan if it is a single depth image, otherwise null. The pointer shares ownership of the
+  // scan.
   std::shared_ptr<const SceneModel> depth_image() const;
 
-  // Returns the six sides, the best one first; see rank_views().
+  // Returns the six sides of the scan as views, the best one first; see rank_views().
   Result<std::vector<ViewGuess>> suggest_views();
 
-  // Returns the finished relief as `relievo make` makes it, and keeps it for the next call with these
+  // Returns the finished relief, as `relievo make` makes it, and keeps it for the next call with the same
   // options. Errors: those of make_relief(); kind option if the view of the options is not prepared; kind
   // cancelled after cancel_making().
   Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options,

@@ -4,7 +4,7 @@
 
 #include "studio/answers.h"
 
-// This header comes last, because it defines a macro _res that breaks Eigen.
+// This header must be included last, because it defines a macro _res that breaks Eigen.
 #include <httplib.h>
 
 #include <exception>
@@ -15,18 +15,20 @@ namespace relievo::app::studio {
 
 void send(Answer answer, httplib::Response& response);
 
-// Sends an error that the page can show, and closes the connection without reading the rest of the request.
+// Sends an error message that the page can show, and closes the connection without reading the rest of the
+// request.
 void refuse(httplib::Response& response, int status, const std::string& text);
 
-// Answers a request that ended with an exception: memory or threads ran out, or JSON had a value of a wrong
+// Answers a request that ended with an exception: memory or threads ran out, or a JSON value had the wrong
 // type.
 void answer(httplib::Response& response, const std::exception_ptr& exception);
 
-// Returns whether the head of a request allows its body; otherwise refuses it before any of it is read.
+// Returns whether the head of a request is acceptable. Otherwise refuses the request before any part of its
+// body is read.
 bool is_welcome(const httplib::Request& request, httplib::Response& response, std::size_t most_bytes);
 
-// Reads a body block by block. Returns whether the whole body arrived and was taken; otherwise refuses the
-// request.
+// Reads a body in blocks and passes each to `take`. Returns whether the whole body arrived and `take`
+// accepted it; otherwise refuses the request.
 bool read_body(const httplib::ContentReader& read, httplib::Response& response, std::size_t most_bytes,
                const std::function<Result<void>(std::string_view)>& take);
 

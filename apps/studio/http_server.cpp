@@ -7,15 +7,15 @@ namespace {
 
 using httplib::Request;
 
-// Runs tasks in the thread that accepts connections. The tasks only pass the connection to Connections, which
-// has threads of its own.
+// Runs each task at once in the thread that accepts connections. A task only passes its connection to
+// Connections, which has its own threads.
 class DirectQueue : public httplib::TaskQueue {
  public:
   void enqueue(std::function<void()> task) override { task(); }
   void shutdown() override {}
 };
 
-// Returns the size of the body that a request announces; nothing if it does not say.
+// Returns the size of the body that the head of a request states; nothing if it states none.
 std::optional<std::uint64_t> announced_body(const Request& request) {
   if (request.has_header("Transfer-Encoding")) return std::nullopt;
   if (!request.has_header("Content-Length")) return 0;
@@ -26,8 +26,8 @@ std::optional<std::uint64_t> announced_body(const Request& request) {
 
 HttpServer::HttpServer() : connections_([this](BufferedStream& stream) { return answer(stream); }) {
   new_task_queue = [] { return new DirectQueue; };
-  // With the library's default options another program of this user could take some of the connections, and
-  // read the token in them.
+  // With the default options of httplib, another program of the same user could open the same port, receive
+  // some of the connections, and read the token in them.
   set_socket_options([](int socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -41,7 +41,7 @@ std::optional<int> HttpServer::bind(int port) {
   else if (!bind_to_port(host, port))
     port = -1;
   if (port <= 0) return std::nullopt;
-  ::listen(svr_sock_, 1024);  // the library's backlog is 5 connections
+  ::listen(svr_sock_, 1024);  // httplib itself accepts only 5 pending connections
   return port;
 }
 

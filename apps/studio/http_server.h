@@ -1,4 +1,4 @@
-// Serves HTTP on 127.0.0.1, with limits that the library lacks. Tested by apps/studio/tests/server.test.mjs.
+// Serves HTTP on 127.0.0.1, with limits that httplib lacks. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <optional>
@@ -7,16 +7,16 @@
 
 namespace relievo::app::studio {
 
-// An httplib::Server whose connections are managed by Connections. No other program can share its port. A
-// connection is closed after a request if its body was not read to the end.
+// An httplib::Server whose connections are managed by Connections. No other program can share its port. If
+// the body of a request was not read to its end, the connection is closed after the answer.
 class HttpServer : public httplib::Server {
  public:
   HttpServer();
 
-  // Opens the port, or any free one if it is 0. Returns the opened port; nothing if the port is taken.
+  // Opens the port; any free port for 0. Returns the opened port; nothing if the port is taken.
   std::optional<int> bind(int port);
 
-  // Answers until stop() is called.
+  // Answers requests until stop() is called.
   void run();
 
  private:

@@ -13,9 +13,9 @@
 namespace relievo::app::studio {
 namespace {
 
-// Returns for each model the share of its points to keep, so that all models are about equally dense: points
-// are drawn as discs of one size, which suits only one density. Models are thinned to at most three times the
-// spacing of the finest.
+// Returns for each model the share of its points to keep, so that all models are about equally dense: all
+// points are drawn as discs of the same size, which suits only one density. The spacing of a model is at most
+// three times that of the densest one.
 std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
   std::vector<double> apart;
   if (places.empty()) return apart;
@@ -62,7 +62,8 @@ bool LoadedScan::is_one_file() const {
   return scene_.models.size() == 1 && scene_.models[0].pose == Pose{};
 }
 
-// Adds the points of a model. Normals are kept only if all models have them; so are colours.
+// Adds the points of a model. Keeps normals only if all models have them, and colours only if all models have
+// them.
 void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
   const bool is_mesh = !file.mesh.empty();
   const std::vector<Index> outlying = is_mesh ? std::vector<Index>() : outliers(file.cloud);

@@ -11,13 +11,13 @@
 
 namespace relievo::app::studio {
 
-// A scan, and how its depth images are read.
+// A scan to read, and the options for reading its depth images.
 struct ScanOrder {
   ScanSource input;
   InputArguments how = {};
 };
 
-// A scan or a scene that was read. It is immutable, and copies are cheap, as they share the points.
+// A scan or a scene that was read. It is immutable. Copies share the points, so copying is cheap.
 class LoadedScan {
  public:
   LoadedScan() = default;                    // no scan
@@ -25,31 +25,31 @@ class LoadedScan {
 
   const ScanSource& input() const { return order_.input; }
 
-  // Returns whether reading it in that way could make another scan.
+  // Returns whether reading the scan with these options could give another result.
   bool depends_on(const InputArguments& how) const;
 
-  // Returns the model if the scan is a single depth image, else null.
+  // Returns the model if the scan is a single depth image, otherwise null.
   const SceneModel* depth_image() const;
 
-  // Returns the points for ranking views: the points of clouds without outliers and the vertices of meshes,
-  // placed as in the front view. Null if no scan was read.
+  // Returns the points for ranking views: the points of clouds, without outliers, and the vertices of meshes,
+  // in the coordinates of the front view. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
 
-  // Returns points of all sides, for turning the model and for choosing a view. On a single mesh they are
-  // scattered evenly; otherwise they are those of cloud().
+  // Returns points on all sides of the scan, for turning it and for choosing a view. For a single mesh the
+  // points are scattered evenly over it; otherwise they are those of cloud().
   Result<std::shared_ptr<const Cloud>> all_sides() const;
 
-  // Returns the number of outliers that were left out: points of clouds far from all others.
+  // Returns the number of outliers that were left out of clouds.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns the remarks on the scan's files, one line each: on the points that the readers left out, in a
-  // scene with the name of the file, and on the sampling of points from meshes.
+  // Returns the remarks on the files of the scan, one line each: which points the readers left out (in a
+  // scene with the name of the file), and that points were sampled from a mesh.
   std::vector<std::string> remarks() const;
 
-  // Returns the points for the relief in that view; about `points` of them if they are sampled from meshes or
-  // scenes. Errors: those of sample_for_view().
+  // Returns the points for the relief in that view. If they are sampled from meshes or scenes, there are
+  // about `points` of them. Errors: those of sample_for_view().
   Result<std::shared_ptr<const Cloud>> seen_from(const View& view, std::optional<double> points,
                                                  Progress* progress) const;
 
@@ -63,11 +63,11 @@ class LoadedScan {
   std::size_t left_out_ = 0;
 };
 
-// Returns how depth images are read for these values. Values that cannot be read count as their defaults.
+// Returns the settings for reading depth images from the options. An invalid option counts as its default.
 InputArguments reading_of(const OptionValues& values);
 
-// Reads a scan. Errors: those of load_input(); kind memory, which names the scan; kind cancelled as soon as
-// `is_unwanted` returns true.
+// Reads a scan. Errors: those of load_input(); kind memory, with the name of the scan; kind cancelled as soon
+// as `is_unwanted` returns true.
 Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted);
 
 }  // namespace relievo::app::studio

@@ -48,7 +48,7 @@ void OpenDocuments::leave(const std::string& tab) {
   forget_tab(tab);
 }
 
-// With `mutex_` locked: removes a tab that is closed or shows another document.
+// Removes a tab that was closed or shows another document now. The caller has locked `mutex_`.
 void OpenDocuments::forget_tab(const std::string& tab) {
   std::erase_if(tabs_, [&](const Tab& each) { return each.name == tab; });
 }
@@ -63,14 +63,14 @@ bool OpenDocuments::is_shown(const std::string& document) const {
   return std::ranges::find(tabs_, document, &Tab::document) != tabs_.end();
 }
 
-// With `mutex_` locked: closes the entry, and returns the next one.
+// Closes the document of the entry, and returns the next entry. The caller has locked `mutex_`.
 std::list<OpenDocuments::Entry>::iterator OpenDocuments::close(std::list<Entry>::iterator entry) {
   entry->engine->cancel();
   closing_.push_back(entry->engine);
   return entries_.erase(entry);
 }
 
-// With `mutex_` locked: closes documents beyond the limits, but never the one that was used last.
+// Closes documents beyond the limits, but never the one that was used last. The caller has locked `mutex_`.
 void OpenDocuments::close_others() {
   std::size_t open = 1, hidden = 0;
   for (auto entry = std::next(entries_.begin()); entry != entries_.end();) {
@@ -93,7 +93,8 @@ void OpenDocuments::work() {
   forget_idle();
 }
 
-// Destroys closed engines that are idle. Destroying a busy engine would wait for its work.
+// Destroys the engines of closed documents that are idle. The destructor of a busy engine would wait for its
+// work.
 void OpenDocuments::forget_idle() {
   std::erase_if(closing_, [](const std::shared_ptr<Engine>& engine) { return engine->is_idle(); });
 }

@@ -1,5 +1,4 @@
-// Keeps the open documents, each with its scan and an engine of its own. Tested by
-// apps/studio/tests/tabs.test.mjs.
+// Keeps the open documents, each with its own engine. Tested by apps/studio/tests/tabs.test.mjs.
 #pragma once
 
 #include <functional>
@@ -16,12 +15,12 @@ namespace relievo::app::studio {
 // Every method may be called from any thread.
 class OpenDocuments {
  public:
-  // The largest number of open documents that no tab shows, and of all open documents. Beyond these, the
-  // least recently used document is closed; a tab that shows it opens it anew.
+  // Limits for the open documents that no tab shows, and for all open documents. Beyond them, the document
+  // that was used least recently is closed. If a tab shows that document, the tab opens it again.
   static constexpr std::size_t most_hidden = 1, most_open = 6;
 
-  // The largest number of tabs that are known. Beyond it, the tab that opened its document first is
-  // forgotten: a tab that has crashed does not report that it is closed.
+  // The largest number of known tabs. Beyond it, the tab that opened its document first is forgotten, because
+  // a tab that crashed never reports that it is closed.
   static constexpr std::size_t most_tabs = 64;
 
   struct Entry {
@@ -29,14 +28,14 @@ class OpenDocuments {
     std::shared_ptr<Engine> engine;
   };
 
-  // `changed` is passed to the engines, which call it if there are no threads.
+  // Passes `changed` to the engines; see Engine.
   explicit OpenDocuments(std::function<void()> changed = {}) : changed_(std::move(changed)) {}
 
   // Returns the document's engine; null if the document is not open.
   std::shared_ptr<Engine> find(const std::string& document);
 
-  // Opens the document if it is not open, and returns its engine. From now on the tab `tab` shows only this
-  // document; no tab does if `tab` is empty.
+  // Opens the document if it is not open, and returns its engine. From then on the tab `tab` shows this
+  // document and no other. If `tab` is empty, no tab shows it.
   std::shared_ptr<Engine> open(const std::string& document, const std::string& tab);
 
   bool is_open(const std::string& document);
@@ -44,13 +43,13 @@ class OpenDocuments {
   // Closes a document. Returns false, and leaves it open, if a tab other than `tab` shows it.
   bool close(const std::string& document, const std::string& tab);
 
-  // Call this when a tab is closed.
+  // Must be called when a tab is closed.
   void leave(const std::string& tab);
 
-  // Without threads, this does the requested work of the engines, see Engine::work().
+  // On a system without threads, does the requested work of all engines; see Engine::work().
   void work();
 
-  // Returns all open documents, the one used last first.
+  // Returns all open documents, the most recently used one first.
   std::vector<Entry> all();
 
  private:
@@ -69,8 +68,8 @@ class OpenDocuments {
   std::function<void()> changed_;
   Mutex mutex_;
   std::list<Entry> entries_;
-  std::list<Tab> tabs_;                           // the one that opened its document last is first
-  std::vector<std::shared_ptr<Engine>> closing_;  // of closed documents, until their cancelled work ends
+  std::list<Tab> tabs_;                           // sorted by the time of their last opening, newest first
+  std::vector<std::shared_ptr<Engine>> closing_;  // engines of closed documents, until their work ends
 };
 
 }  // namespace relievo::app::studio

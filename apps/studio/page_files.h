@@ -1,4 +1,4 @@
-// Finds the page's files, which are embedded in the program.
+// Finds the files of the page, which are embedded in the program.
 #pragma once
 
 #include <string_view>

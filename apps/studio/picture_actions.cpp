@@ -1,4 +1,5 @@
-// Does the actions on the engine of a document, and collects the facts that the page gets at its start.
+// Performs the actions that need a document's engine, and collects the facts that the page needs at its
+// start.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -23,8 +24,8 @@ Result<ReliefOptions> options_in(const Json& json) {
   return options_from_json(json.value("options", Json()), "options");
 }
 
-// Returns the models of a scene file with their placements, in the form of such a file; an empty array for
-// other scans.
+// Returns the models of a scene file with their positions, as they are written in such a file; an empty array
+// for other scans.
 Json models_of(const ScanSource& input) {
   Json models = Json::array();
   if (!input.sample.empty() || ending_of(input.path) != "json") return models;
@@ -82,7 +83,7 @@ Result<Answer> scan(Engine& engine, const Json& json) {
   return answer_of(picture, {{"width", picture.image.width}, {"height", picture.image.height}});
 }
 
-// Shows what became of the pixels of a depth image.
+// Answers with a picture that shows how the pixels of a depth image were used.
 Result<Answer> pixels(Engine& engine, const Json&) {
   const auto image = engine.depth_image();
   if (!image) return refusal(409, "expected a depth image to be open");
@@ -104,7 +105,7 @@ Result<Answer> reach(Engine& engine, const Json& json) {
   return answer_of(Json{{"height_mm", height_mm}});
 }
 
-// Returns the height of the front, rim included.
+// Returns the height of the front, including the rim.
 double front_mm(const Solid& solid) {
   Box box;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
@@ -112,7 +113,7 @@ double front_mm(const Solid& solid) {
   return box.size().z();
 }
 
-// Makes the piece as export writes it, and answers with its size.
+// Makes the piece as it is exported, and answers with its size.
 Result<Answer> piece(Engine& engine, const Json& json) {
   RELIEVO_TRY(const ReliefOptions options, options_in(json));
   RELIEVO_TRY(const auto made, engine.piece(options));
@@ -159,7 +160,7 @@ EngineAction find_engine_action(std::string_view name) {
   return found == std::end(actions) ? nullptr : found->second;
 }
 
-// Checks that the options can be read and do not contradict each other.
+// Checks that the options are valid and do not contradict each other.
 Result<Answer> Actions::check(const nlohmann::json& json) {
   RELIEVO_CHECK(options_in(json));
   return answer_of(Json::object());

@@ -1,4 +1,4 @@
-// Makes the finished pieces of a model, as export makes them.
+// Makes finished pieces of a model, as they are exported.
 #pragma once
 
 #include <cstdint>
@@ -15,52 +15,52 @@
 
 namespace relievo::app::studio {
 
-// Returns the height of the relief in a piece: exactly the requested one. Only if the piece is made as a tool
-// leaves it, returns the height that it got.
+// Returns the height of the relief in a piece. This is the requested height, except if the piece is the
+// surface that a tool leaves; then it is the height that results.
 double relief_height_mm(const MadeRelief& made, const ReliefOptions& options);
 
-// A prepared model with a number that no other model has.
+// A prepared model with its unique number.
 struct NumberedModel {
   std::shared_ptr<const ReliefModel> model;
   std::uint64_t number = 0;
 };
 
-// The purpose of a piece, or of the largest height under its draft angle: a file to export, a check of the
-// user's entry, or a picture. Work for a picture is cancelled by the next picture.
+// The purpose of PieceMaker's results: a file to export, a check of the user's entry, or a picture. The next
+// picture cancels work for a picture.
 enum class PieceUse { file, entry, picture };
 
-// Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any
-// thread.
+// Makes finished pieces, one at a time. Meanwhile other pictures can be drawn. Every method may be called
+// from any thread.
 class PieceMaker {
  public:
-  // `changed` is called during piece() and draft_limit() when stage() has changed. It may be empty.
+  // `changed` is called when stage() has changed during piece() or draft_limit(). It may be empty.
   explicit PieceMaker(std::function<void()> changed) : changed_(std::move(changed)) {}
 
   struct Stage {
-    std::string name;  // empty while nothing is made
+    std::string name;  // empty if nothing is being made
     double fraction = 0;
   };
   Stage stage() const;
 
-  // Returns the piece, and keeps it for the next call with that model and options. Errors: those of
+  // Returns the piece, and keeps it for the next call with the same model and options. Errors: those of
   // make_relief(); kind cancelled after cancel().
   Result<std::shared_ptr<const MadeRelief>> piece(PieceUse use, const NumberedModel& shown,
                                                   const ReliefOptions& options);
 
-  // Returns highest_with_draft(), and keeps it for the next call with that model and the same options apart
-  // from their height. Errors: those of highest_with_draft(); kind cancelled after cancel().
+  // Returns highest_with_draft(), and keeps it for later calls with the same model and options; the height
+  // may differ. Errors: those of highest_with_draft(); kind cancelled after cancel().
   Result<double> draft_limit(PieceUse use, const NumberedModel& shown, const ReliefOptions& options);
 
-  // Returns the result of draft_limit() for that model and these options; nothing if it is not known.
+  // Returns the kept result of draft_limit() for that model and these options; nothing if there is none.
   std::optional<double> known_draft_limit(const NumberedModel& shown, const ReliefOptions& options) const;
 
-  // Cancels the work that is running. If a use is given, cancels only work for that use.
+  // Cancels the running work. If `use` is given, cancels only work for that use.
   void cancel(std::optional<PieceUse> use = {});
 
  private:
   struct Making {
     Stage stage;
-    Progress* progress = nullptr;  // null while nothing is made
+    Progress* progress = nullptr;  // null if nothing is being made
     PieceUse use = PieceUse::file;
   };
 
@@ -70,7 +70,7 @@ class PieceMaker {
     double height_mm = 0;
   };
 
-  // Calls make(progress). Meanwhile stage() returns the progress, and cancel() cancels the work.
+  // Calls make(progress). During the call, stage() returns its progress, and cancel() cancels it.
   template <typename Make>
   auto watched(const NumberedModel& shown, PieceUse use, const Make& make);
 

@@ -16,7 +16,7 @@ struct UseInfo {
   Colour colour;
 };
 
-// Colours that people with any kind of colour blindness tell from each other and from greys.
+// People with any kind of colour blindness can distinguish these colours from each other and from greys.
 constexpr std::array<UseInfo, 3> left_out{{{PixelUse::missing, "missing", {136, 34, 85}},
                                            {PixelUse::background, "background", {51, 122, 183}},
                                            {PixelUse::blur, "blur", {230, 150, 0}}}};
@@ -25,7 +25,7 @@ Colour colour_of(PixelUse use) {
   return std::ranges::find(left_out, use, &UseInfo::use)->colour;
 }
 
-// Returns the greys of points by their depth: the nearest is white, the farthest dark.
+// Returns greys for points by depth: the nearest point is white, the farthest dark.
 class GreyOfDepth {
  public:
   explicit GreyOfDepth(const Cloud& cloud) : cloud_(cloud) {
@@ -57,7 +57,7 @@ Picture picture_of_uses(const SceneModel& image) {
   const Image<PixelUse>& uses = image.pixels->uses;
   const Cloud& cloud = image.file->cloud;
   const GreyOfDepth grey(cloud);
-  const bool is_photo = cloud.has_colours();  // it has a point for each pixel, also for missing ones
+  const bool is_photo = cloud.has_colours();  // a photo has a point for every pixel, even for missing ones
   Picture picture;
   picture.image.resize(uses.width, uses.height, 4);
   std::size_t point = 0;

@@ -1,4 +1,4 @@
-// Shows what became of the pixels of a depth image.
+// Draws how the pixels of a depth image were used.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,13 +8,14 @@
 
 namespace relievo::app::studio {
 
-// Returns a picture of a depth image, with a pixel for each of PixelUses::uses: kept pixels are grey, nearer
-// ones brighter, and the others have the colour of their use. The model has pixels.
+// Returns a picture of a depth image, with one pixel for each of PixelUses::uses. Kept pixels are grey,
+// nearer ones brighter; all others have the colour of their use. The model must have pixels.
 Picture picture_of_uses(const SceneModel& image);
 
-// Returns the meaning of the image's values, whether they became a surface or the brightness of a lithophane,
-// whether they are proportional to heights, the width of the image over its height, the number of pixels, and for each use but `kept` its name, its
-// colour and the number of its pixels. The model has pixels.
+// Returns facts about a depth image: the meaning of its values, whether they became a surface or the
+// brightness of a lithophane, whether they are proportional to heights, the width of the image divided by its
+// height, the number of pixels, and for each use except `kept` its name, its colour and the number of its
+// pixels. The model must have pixels.
 nlohmann::json uses_json(const SceneModel& image);
 
 }  // namespace relievo::app::studio

@@ -27,7 +27,7 @@ std::string random_token() {
   return text;
 }
 
-// Compares in constant time, so that the time does not reveal how much of a token is right.
+// Compares in constant time, so that the time does not reveal how much of a guessed token is right.
 bool is_equal(std::string_view a, std::string_view b) {
   unsigned different = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
@@ -35,7 +35,7 @@ bool is_equal(std::string_view a, std::string_view b) {
   return different == 0;
 }
 
-// Returns whether a host is this machine. Its port does not matter: a tunnel through ssh has one of its own.
+// Returns whether a host is this machine. The port does not matter, since an ssh tunnel may use another one.
 bool is_here(const std::string& host) {
   const std::size_t colon = host.rfind(':');
   const std::string_view name = std::string_view(host).substr(0, colon);

@@ -1,7 +1,7 @@
-// Authorises requests to the studio's server: only its own page, on this machine, may send them.
+// Authorises requests to the studio's server: only the studio's own page on this machine may send them.
 #pragma once
 
-// This header comes first, because the server's header defines a macro _res that breaks Eigen.
+// This header must be included first, because the server's header defines a macro _res that breaks Eigen.
 #include "relievo/core/types.h"
 
 #include <httplib.h>
@@ -11,18 +11,19 @@
 
 namespace relievo::app::studio {
 
-// Has a random token for the page's address, and checks that requests contain the token and come from that
-// page.
+// Has a random token, which is part of the page's address. Checks that requests contain the token and come
+// from that page.
 class RequestGuard {
  public:
-  // Takes the token of a former run, or draws a random one if `former_token` is no token.
+  // Uses the token of a former run. If `former_token` is not a token, makes a random one.
   explicit RequestGuard(const std::string& former_token);
 
   void set_port(int port) { port_ = port; }
   const std::string& token() const { return token_; }
   std::string address() const;
 
-  // Returns the rest of the path after the token; refuses a request with a wrong host, origin or token.
+  // Returns the part of the path after the token. Refuses a request with a wrong host, origin or token, and
+  // then returns nothing.
   std::optional<std::string> admit(const httplib::Request& request, httplib::Response& response) const;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Names of the materials for users, in the order of material_choices.
+// Names of the materials for users, in the same order as material_choices.
 constexpr std::array<std::string_view, material_choices.size()> material_names{
     "Plaster", "Struck silver", "Bronze", "Walnut", "Porcelain, lit from behind"};
 constexpr double most_pixels = 8e6, most_fine_pixels = 2.5e6;
@@ -27,8 +27,8 @@ struct Range {
   double min, max, otherwise;
 };
 
-// Returns a number of the object; `range.otherwise` if it is missing, nothing if it is no number in the
-// range.
+// Returns a number of the object. Returns `range.otherwise` if it is missing, and nothing if it is not a
+// number within the range.
 std::optional<double> number(const Json& json, const char* key, const Range& range) {
   const auto found = json.find(key);
   if (found == json.end()) return range.otherwise;
@@ -43,7 +43,7 @@ bool flag(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
-// Returns an array of n finite numbers; nothing for anything else.
+// Returns an array of n finite numbers; nothing for any other value.
 template <int n>
 std::optional<Eigen::Matrix<double, n, 1>> numbers(const Json& json, const char* key) {
   const auto found = json.find(key);
@@ -55,7 +55,8 @@ std::optional<Eigen::Matrix<double, n, 1>> numbers(const Json& json, const char*
   return v.allFinite() ? std::optional(v) : std::nullopt;
 }
 
-// Returns a direction, scaled so that neither its square nor a float of it can overflow.
+// Returns a direction, scaled so that its largest component is 1 or -1: no float and no square of it can then
+// overflow.
 std::optional<Vec3> direction(const Json& json, const char* key) {
   const std::optional<Vec3> v = numbers<3>(json, key);
   if (!v || v->isZero(0)) return std::nullopt;
@@ -106,7 +107,8 @@ Json to_json(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Rounds to thousandths. These are a quarter of a pixel in the page's curve, and keep the header short.
+// Rounds to thousandths, which are a quarter of a pixel in the page's curve. This keeps the HTTP header
+// short.
 Json rounded(const std::vector<double>& samples) {
   Json json = Json::array();
   for (const double sample : samples) json.push_back(std::round(sample * 1e3) / 1e3);
@@ -154,7 +156,7 @@ Result<View> view_from(const Json& json) {
   return view_towards(*towards, *up);
 }
 
-// The form for which the brightness of a picture is prepared in place of heights.
+// The form that is made from the brightness of a picture instead of heights.
 static constexpr const char* lithophane = "lithophane";
 
 OptionValues view_values(const Json& json) {
@@ -189,8 +191,8 @@ Result<ExportOrder> export_order_from(const Json& json) {
   return order;
 }
 
-// Returns the options for preparing a scan. Those without a value are empty texts, or null if they are
-// numbers.
+// Returns the options for preparing a scan. An option without a value is an empty text, or null if it is a
+// number.
 static Json shown_json(const OptionValues& values) {
   Json json = Json::object();
   for (const OptionRow& option : option_table()) {

@@ -10,18 +10,18 @@
 
 namespace relievo::app::studio {
 
-// Returns a request's body as JSON. Errors: kind input if it is not JSON, or no object.
+// Returns the body of a request as JSON. Errors: kind input if it is not a JSON object.
 Result<nlohmann::json> parse_body(std::string_view body);
 
-// These read fields of a request. Errors: kind input or option, which name the field.
+// Read fields of a request. Errors: kind input or option; they name the field.
 Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
 
-// Returns the export order: the options of a height map, and the material of a picture.
+// Returns the options of a height map and the material of a picture, for an export.
 Result<ExportOrder> export_order_from(const nlohmann::json& json);
 
-// Returns the page's options for preparing a scan; missing ones get their defaults.
+// Returns the options for preparing a scan. Options that the page did not send have their defaults.
 OptionValues view_values(const nlohmann::json& json);
 
 // Returns the options for preparing the scan of a new document.
@@ -33,11 +33,11 @@ nlohmann::json to_json(const ModelFacts& facts);
 // Returns the facts that are sent with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
 
-// Returns the six sides, each with its name, the direction towards the viewer, and the direction that is
-// shown upright.
+// Returns the six sides: their names, the directions towards the viewer, and the directions that are shown
+// upwards.
 nlohmann::json view_list();
 
-// Returns the materials of pictures, each with its id and its name for users.
+// Returns the materials of pictures: their ids, and their names for users.
 nlohmann::json material_list();
 
 nlohmann::json error_json(const Error& error);

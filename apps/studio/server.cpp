@@ -24,9 +24,9 @@ using namespace std::chrono_literals;
 constexpr std::size_t most_json = 4U << 20;
 constexpr int most_waiting = 32, most_pages = 8;
 constexpr int most_files =
-    24;  // uploads at the same time: a quarter of the threads, so that other requests are answered
+    24;  // uploads at the same time: a quarter of the threads, so that others can answer
 
-// Raises a counter by one for as long as this object exists.
+// Increases a counter by one as long as this object exists.
 class ScopedCount {
  public:
   explicit ScopedCount(std::atomic<int>& count) : count_(count), number_(++count) {}
@@ -34,7 +34,7 @@ class ScopedCount {
   ScopedCount& operator=(const ScopedCount&) = delete;
   ~ScopedCount() { --count_; }
 
-  // Returns the count when this object was made, including this object.
+  // Returns the count just after this object increased it.
   int number() const { return number_; }
 
  private:
@@ -42,15 +42,15 @@ class ScopedCount {
   int number_;
 };
 
-// The events of one stream: the statuses that have changed.
+// One stream of events: the statuses that have changed.
 class StatusStream {
  public:
   StatusStream(std::atomic<int>& pages, Actions& actions, const std::string& run_name)
       : count_(pages), actions_(actions), run_name_(run_name) {}
 
-  // Returns the events since the last call, after a comment line. The line is there even if there are no
-  // events, because only sending something shows whether the page is still there. The first text begins with
-  // the retry time and the run's name instead of the comment.
+  // Returns the events since the last call, after a comment line. Without events, only the line is sent:
+  // sending is the only way to find out whether the page is still open. The first text begins with the retry
+  // time and the name of the run instead of the comment.
   std::string next() {
     std::string text = is_new_ ? cat("retry: 300\ndata: ", Json{{"run", run_name_}}.dump(), "\n\n") : ":\n";
     is_new_ = is_busy_ = false;
@@ -66,8 +66,8 @@ class StatusStream {
     return text;
   }
 
-  // Returns the pause before the next call. It is shorter while a document is prepared, so that the page
-  // shows the progress at once.
+  // Returns the pause before the next call. It is short while a document is being prepared, so that the page
+  // shows the progress without delay.
   std::chrono::milliseconds pause() const { return is_busy_ ? 15ms : 80ms; }
 
  private:
@@ -75,7 +75,7 @@ class StatusStream {
   Actions& actions_;
   std::string run_name_;
   bool is_new_ = true, is_busy_ = false;     // is_busy_: a document was being prepared at the last call
-  std::map<std::string, std::string> last_;  // last statuses by document
+  std::map<std::string, std::string> last_;  // maps documents to their last statuses
 };
 
 }  // namespace
@@ -95,7 +95,8 @@ struct Server::State {
     set_up();
   }
 
-  // -------------------------------------------------------------------------------------------------- reads
+  // --------------------------------------------------------------------------------------------- GET
+  // requests
 
   void get(const std::string& name, Response& response) {
     if (name == "api/about") return send(answer_of(actions.about()), response);
@@ -115,8 +116,8 @@ struct Server::State {
                          std::string(file->type));
   }
 
-  // Streams the name of this run, and then the statuses of the open documents as they change. The stream
-  // stays open as long as the page is open.
+  // Streams the name of this run, followed by the statuses of open documents as they change. The stream stays
+  // open as long as the page is open.
   void follow(Response& response) {
     if (pages >= most_pages) return refuse(response, 503, "too many pages are open");
     had_page = true;

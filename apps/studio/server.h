@@ -1,4 +1,5 @@
-// The studio's web server: serves the page's files, and answers the page's requests, only on this machine.
+// The web server of the studio. It serves the files of the page and answers the page's requests, only on this
+// machine.
 #pragma once
 
 #include <chrono>
@@ -11,14 +12,13 @@
 namespace relievo::app::studio {
 
 struct ServerOptions {
-  int port = 0;  // 0: the port of the last run, or a free one if that is taken
-  std::string
-      page_folder;  // if given, page files are read from this folder, not the program; for work on the page
-  std::chrono::seconds linger{15};  // how long to go on after the last page is closed
+  int port = 0;             // 0: the port of the last run, or any free port
+  std::string page_folder;  // if given, the page is read from this folder, for people who work on the page
+  std::chrono::seconds linger{15};  // time from the closing of the last page to the end of the server
 };
 
-// Answers on 127.0.0.1 only. A request must have the secret token at the start of its path and name this
-// machine as its host, and must not come from another web site.
+// Serves only 127.0.0.1. The path of a request must begin with the secret token, its host must be this
+// machine, and it must not come from another web site.
 class Server {
  public:
   Server(Actions& actions, const DiskStore& store, const ServerOptions& options);
@@ -27,7 +27,7 @@ class Server {
   // Opens the port and returns the page's address. Errors: kind option if the port is taken.
   Result<std::string> bind();
 
-  // Answers until the last page has been closed for good. Waits for the first page.
+  // Answers until the last page was closed for good. Before the first page opens, it waits without limit.
   void run();
 
  private:

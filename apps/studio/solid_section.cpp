@@ -7,12 +7,12 @@
 namespace relievo::app::studio {
 namespace {
 
-// A crossing of a triangle's edge with the plane of the section.
+// A point where an edge of a triangle crosses the plane of the section.
 struct Crossing {
-  double along, z;  // `along` in steps of the samples, z in mm
+  double along, z;  // `along` in multiples of the distance between samples, z in mm
 };
 
-// Raises the samples between two crossings to at least the line between them.
+// Raises the samples between two crossings to the line between them, if they are lower.
 void raise(std::vector<float>& heights, Crossing a, Crossing b) {
   if (a.along > b.along) std::swap(a, b);
   const double last = static_cast<double>(heights.size() - 1);
@@ -34,7 +34,7 @@ std::vector<float> section_of(const Solid& solid, const SectionLine& line) {
   const Vec2 along = way.norm() > 0 ? Vec2(way / length) : Vec2(1, 0), across(-along.y(), along.x());
   std::vector<float> heights(line.samples, static_cast<float>(box.min.z() - solid.ground_mm));
   for (const Triangle& triangle : solid.triangles) {
-    std::array<Vec2, 3> places;  // along and across the line
+    std::array<Vec2, 3> places;  // coordinates along and across the line
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 p = solid.points[triangle[i]].head<2>() - middle - line.from;
       places[i] = {p.dot(along) / length * steps, p.dot(across)};

@@ -1,4 +1,4 @@
-// Calls the functions that JavaScript requests by name. They take JSON, and return JSON and bytes.
+// Calls functions by name for JavaScript. Each takes JSON, and returns JSON and bytes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,8 +14,8 @@ struct CallAnswer {
   std::vector<std::byte> bytes = {};
 };
 
-// Calls the function of that name. Objects that it makes and keeps get numbers, by which later calls refer to
-// them. Errors: those of the function; kind option for an unknown name.
+// Calls the function of that name. If it makes an object that stays alive, it returns a number, by which
+// later calls refer to the object. Errors: those of the function; kind option for an unknown name.
 Result<CallAnswer> call(std::string_view name, const nlohmann::json& arguments);
 
 }  // namespace relievo::app::web

@@ -1,4 +1,4 @@
-// Exports functions of the WebAssembly module.
+// Exports the functions of the WebAssembly module.
 #include <array>
 #include <cstddef>
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 using namespace relievo::app::web;
 
-// Describes an answer for the host; it is valid until the next call.
+// The answer to a call, for the host. It is valid until the next call.
 struct AnswerView {
   std::uint32_t is_error;
   const char* text;
@@ -48,13 +48,13 @@ __attribute__((export_name("relievo_free"))) void relievo_free(void* memory) {
   std::free(memory);
 }
 
-// Calls the function that a JSON request names. The request object has the arguments, too.
+// Calls the function that a JSON request names. The same object has the function's arguments.
 __attribute__((export_name("relievo_call"))) const AnswerView* relievo_call(const char* request,
                                                                             std::size_t size) {
   static std::string text;
   static std::vector<std::byte> bytes;
   static AnswerView view;
-  bytes = {};  // frees the last answer, as the work needs the memory
+  bytes = {};  // frees the last answer, since the call may need the memory
   relievo::Result<CallAnswer> answer = answer_to({request, size});
   const Json json = answer ? answer->json : error_json(answer.error());
   text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

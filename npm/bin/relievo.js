@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Runs the command line of the package: `relievo make` with the flags of the native program.
+// The command line of the package: `relievo make` with the flags of the native program.
 import fs from "node:fs";
 import path from "node:path";
 import { RelievoError } from "../src/engine.js";
@@ -11,7 +11,7 @@ const OUTPUTS = { output: "solid", preview: "preview", heightmap: "heightmap", "
 const MAP_VALUES = ["pixel", "dpi", "heightmap-bits", "heightmap-area", "heightmap-zero", "heightmap-high"];
 const OTHER_VALUES = [...MAP_VALUES, "units", "heightmap-size", "preview-size", "camera", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
 
-// Ends the program: with exit code 2 for misuse, 1 for bad input or output.
+// Ends the program with exit code 2 for misuse, and 1 for bad input or output.
 function fail(message, code = 1) {
   process.stderr.write(`relievo: ${message}\n`);
   process.exit(code);
@@ -25,7 +25,7 @@ const USAGE = `Usage: relievo make INPUT... -o OUT [--preview P.png] [--heightma
 The native program does the same and more: info, studio, sample, batch, compare and bench.
 `;
 
-// Returns ", the nearest is ..." if a user may have meant one of these names.
+// Returns ", the nearest is ..." if a user may have meant one of the names; otherwise an empty text.
 async function nearest(name, names) {
   const { json } = (await newEngine()).call("nearest", { name, names });
   return json.name && `, the nearest is ${json.name}`;
@@ -36,7 +36,7 @@ async function refuseFlag(typed, known) {
   misuse(`expected only known options, found '${typed}'${near}; see relievo make --help`);
 }
 
-// Returns { inputs, values } of the arguments. The value of a flag follows it, after "=" or as the next argument.
+// Returns { inputs, values } of the arguments. The value of a flag follows "=" or is the next argument.
 async function parse(args) {
   const inputs = [], values = {};
   const known = new Set([...optionTable.map((option) => option.name), ...OTHER_VALUES]);
@@ -55,7 +55,7 @@ async function parse(args) {
   return { inputs, values };
 }
 
-// Returns the value of an option. A length without a unit is one of --units, as in the native program.
+// Returns the value of an option. A length without a unit is in the unit of --units, as in the native program.
 function optionValue(option, text, units) {
   const isNumber = text.trim() !== "" && Number.isFinite(Number(text));
   if (option.unit === "MM") return isNumber && units === "in" ? `${text}in` : isNumber ? Number(text) : text;
@@ -65,14 +65,14 @@ function optionValue(option, text, units) {
   return Number(text);
 }
 
-// Returns the number of a flag outside the table of options.
+// Returns the number of a flag that is not in the table of options.
 function numberOf(values, flag, otherwise) {
   const value = Number(values[flag] ?? otherwise);
   if (!Number.isFinite(value)) misuse(`--${flag}: expected a number, found '${values[flag]}'`);
   return value;
 }
 
-// Returns a file on disk that the engine reads block by block.
+// Returns a file on disk, which the engine reads in blocks.
 function fileOnDisk(name) {
   let descriptor;
   try {
@@ -88,8 +88,8 @@ function fileOnDisk(name) {
 
 const REFERRING = [".obj", ".gltf", ".json", ".relievo"];
 
-// Gives the engine the input files, by the names that the user typed, and, if these can refer to other files, all files
-// of their folders.
+// Gives the engine the input files under the names that the user typed. If these files can refer to others, also gives
+// it all files in their folders.
 function addFiles(engine, inputs) {
   const add = (file) => {
     const name = file.split(path.sep).join("/");
@@ -149,7 +149,7 @@ async function refuseCommand(command) {
   misuse(`expected make or options, found '${command}'${await nearest(command, ["make", "options"])}; see relievo --help`);
 }
 
-// An error of an option names its flag, as in the native program, and is misuse.
+// Ends the program with an error. An error of an option names its flag and counts as misuse, as in the native program.
 function end(error) {
   if (error.kind !== "option") fail(error.message);
   const isFlag = optionTable.some(({ name }) => name === error.input) || OTHER_VALUES.includes(error.input);

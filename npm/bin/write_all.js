@@ -1,7 +1,7 @@
 // Writes files completely or not at all.
 import fs from "node:fs";
 
-// Writes a file under an unused name beside `name`, and adds that name to `made`.
+// Writes a file under an unused name in the folder of `name`, and adds that name to `made`.
 function writeBeside(name, bytes, made) {
   for (let i = 0; ; i++) {
     const temporary = `${name}.relievo-${process.pid}-${i}`;
@@ -19,8 +19,8 @@ function writeBeside(name, bytes, made) {
   }
 }
 
-// Writes all files, [[name, bytes], ...], or none: first writes all of them under temporary names. Removes only files
-// that it has made.
+// Writes all files, [[name, bytes], ...], or none. Writes all of them under temporary names first. Removes only files
+// that it has made itself.
 export function writeAll(files) {
   const made = [];
   try {

@@ -1,18 +1,18 @@
-// Makes files from arrays: PLY from clouds and meshes, TIFF from depths. The engine reads them like other files.
+// Makes files from arrays: PLY from clouds and meshes, TIFF from depths. The engine reads them like any other file.
 
 function expectLength(name, array, length) {
   if (array.length !== length)
     throw new TypeError(`${name}: expected ${length} numbers, found ${array.length}`);
 }
 
-// Takes rows of numbers, too: [[x, y, z], ...].
+// Converts numbers to a typed array. Also accepts rows of numbers: [[x, y, z], ...].
 function typedArray(name, given, Type) {
   const array = Array.isArray(given?.[0]) || ArrayBuffer.isView(given?.[0]) ? Array.from(given, (row) => [...row]).flat() : given;
   if (ArrayBuffer.isView(array) || Array.isArray(array)) return array instanceof Type ? array : Type.from(array);
   throw new TypeError(`${name}: expected an array of numbers`);
 }
 
-// Returns a PLY file of points (x, y, z of each in turn), and of normals, colours and faces if they are given.
+// Returns a PLY file with points (x, y, z of each in turn) and, if they are given, normals, colours and faces.
 export function cloudFile({ points, normals, colours, faces }) {
   const p = typedArray("points", points, Float64Array), count = Math.ceil(p.length / 3);
   expectLength("points", p, 3 * count);

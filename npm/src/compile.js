@@ -1,4 +1,4 @@
-// Compiles WebAssembly modules from texts.
+// Compiles WebAssembly modules that are stored as text.
 
 async function inflate(base64) {
   const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -6,5 +6,5 @@ async function inflate(base64) {
   return new Response(stream).arrayBuffer();
 }
 
-// Compiles a module that was compressed by gzip and is given in base64.
+// Compiles a module that is compressed by gzip and encoded in base64.
 export const compile = (base64) => inflate(base64).then((bytes) => WebAssembly.compile(bytes));

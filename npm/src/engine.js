@@ -1,7 +1,7 @@
-// Runs one instance of the engine, with its memory, the files that it can read, and calls with JSON.
+// Runs one instance of the engine, with its memory, the files that it can read, and its calls, which use JSON.
 import { asFile, wasi } from "./files.js";
 
-// An error of the engine. `input` is the file or the option, `place` the place in the file, and `expected` what was
+// An error of the engine. `input` is the file or the option, `place` the position in the file, and `expected` what was
 // expected there.
 export class RelievoError extends Error {
   constructor({ kind, input = "", place = "", expected = "", message }) {
@@ -21,7 +21,7 @@ export class Engine {
   #log = "";
   progress = null; // (stage, fraction) => false to cancel
 
-  // `module` is compiled WebAssembly; `statuses` is called with the text of each report of statuses.
+  // `module` is a compiled WebAssembly module. `statuses` is called with the text of each status report.
   static async create(module, statuses) {
     const engine = new Engine();
     const memory = () => engine.#exports.memory.buffer;
@@ -39,12 +39,12 @@ export class Engine {
     return engine;
   }
 
-  // Gives the engine a file of that name, in which "/" separates folders.
+  // Gives the engine a file with that name. "/" separates folders.
   addFile(name, source) {
     this.#files.set(name.replace(/^\.?\/+/, ""), asFile(source));
   }
 
-  // Calls a function of the engine. Returns its answer, with a copy of the answer's bytes.
+  // Calls a function of the engine. Returns its answer, in which the bytes are copied.
   call(name, options = {}) {
     if (this.#lastFailure) throw this.#lastFailure;
     const request = new TextEncoder().encode(JSON.stringify({ ...options, call: name }));
@@ -67,7 +67,7 @@ export class Engine {
     return new TextDecoder().decode(new Uint8Array(this.#exports.memory.buffer, at, size));
   }
 
-  // Returns the error for a failure. The instance cannot be used any more after it.
+  // Returns the error for a failure of the engine. After a failure, the instance cannot be used any more.
   #failure(reason, cause) {
     const isMemory = reason === "memory" || cause instanceof RangeError;
     this.#lastFailure = new RelievoError({ kind: isMemory ? "memory" : "failure",

@@ -1,11 +1,11 @@
-// Provides the files that the engine can read by the functions of WASI.
+// Implements the functions of WASI by which the engine reads its files.
 
 const BAD_FILE = 8, INVALID = 28, FAILED = 29, NOT_THERE = 44, UNKNOWN = 52;
 const REGULAR_FILE = 4, FOLDER = 3, CHARACTER_DEVICE = 2;
 const FIRST_FILE = 4; // after the standard streams and the root
 
-// Returns a file: an object with `size` and read(offset, to), which fills `to` as far as the file goes and returns the
-// number of bytes. A source that is such an object, as for a file on disk, is returned unchanged.
+// Returns a file: an object with `size` and read(offset, to), which fills `to` up to the end of the file and returns
+// the number of bytes. A source that already is such an object, such as a file on disk, is returned unchanged.
 export function asFile(source) {
   if (typeof source?.read === "function" && typeof source.size === "number") return source;
   const bytes = asBytes(source);
@@ -26,10 +26,10 @@ export function asBytes(source) {
   throw new TypeError("expected bytes: a Uint8Array or an ArrayBuffer");
 }
 
-// Returns the imports of WASI for files of these names. `memory` returns the engine's memory. `log` gets the text that
-// the engine writes to its standard streams, which happens only when it aborts.
+// Returns the imports of WASI for these files. `memory` returns the engine's memory. `log` gets the text that the
+// engine writes to its standard streams, which it does only when it aborts.
 export function wasi(files, memory, log) {
-  const open = new Map(); // by descriptor: {file, position}
+  const open = new Map(); // {file, position} by descriptor
   const view = () => new DataView(memory());
   const bytes = (at, size) => new Uint8Array(memory(), at, size);
   const name = (at, size) => new TextDecoder().decode(bytes(at, size)).replace(/^\.?\/+|\/+$/g, "");
@@ -52,7 +52,7 @@ export function wasi(files, memory, log) {
       try {
         got = entry.file.read(position, bytes(at, size));
       } catch {
-        return FAILED; // the file may have changed or vanished since it was chosen
+        return FAILED; // the file may have changed or vanished since the user chose it
       }
       position += got;
       sum += got;
@@ -63,7 +63,7 @@ export function wasi(files, memory, log) {
     return 0;
   }
 
-  // There is no environment, and there are no arguments.
+  // The engine gets no environment variables and no arguments.
   const noSizes = (count, size) => {
     view().setUint32(count, 0, true);
     view().setUint32(size, 0, true);

@@ -3,13 +3,13 @@ export type { ReliefOptions };
 
 export type Bytes = Uint8Array | ArrayBuffer;
 
-/** A file that is read in blocks. read() fills `to` as far as the file goes and returns the number of bytes. */
+/** A file that is read in blocks. read() fills `to` up to the end of the file, and returns the number of bytes. */
 export interface ReadableFile {
   size: number;
   read(offset: number, to: Uint8Array): number;
 }
 
-/** Numbers one after the other, or rows of them. */
+/** A list of numbers, or a list of rows of numbers. */
 export type Numbers = ArrayLike<number> | readonly ArrayLike<number>[];
 
 export interface CloudArrays {
@@ -23,31 +23,31 @@ export interface CloudArrays {
 }
 
 export interface DepthArrays {
-  /** Depths row by row from the top; 0 is missing. */
+  /** Depths row by row, the top row first. 0 means a missing depth. */
   depths: Numbers;
   width: number;
   height: number;
 }
 
-/** A scan: the bytes of a file, several files by name, or arrays. */
+/** A scan: the bytes of a file, an object that maps names to files, or arrays. */
 export type Source = Bytes | ReadableFile | CloudArrays | DepthArrays | { [name: string]: Bytes | ReadableFile };
 
 export interface InputOptions {
-  /** The name of the file. Its ending decides between text formats. */
+  /** The name of the file. Text formats are recognised by its ending. */
   name?: string;
   /** The camera of a depth image, as numbers. */
   camera?: string | Numbers;
-  /** Files above this size are read in blocks if their format allows it. By default that is 512 MB, and files with more
-   * than three million points and no triangles, which fill the memory of WebAssembly. */
+  /** Files above this size are read in blocks if their format allows it. By default these are files above 512 MB, and
+   * files with more than three million points and no triangles, which would fill the memory of WebAssembly. */
   streamAboveMb?: number;
   /** The height map of a base of the kind "image": a PNG or TIFF file. */
   baseImage?: Bytes | { name: string; bytes: Bytes };
 }
 
 export interface Watching {
-  /** Called at the beginning of each stage. Returning false cancels; what it throws is thrown by the call. */
+  /** Called at the beginning of each stage. Returning false cancels. An error that it throws cancels and is thrown on. */
   progress?: (stage: string, fraction: number) => boolean | void;
-  /** Checked between stages. */
+  /** Cancels when it is aborted. It is checked between stages. */
   signal?: AbortSignal;
 }
 
@@ -58,7 +58,7 @@ export interface HeightMap {
   width: number;
   height: number;
   mmPerPixel: number;
-  /** Millimetres above the lowest point, row by row from the top. */
+  /** Millimetres above the lowest point, row by row, the top row first. */
   heights: Float32Array;
 }
 
@@ -71,10 +71,10 @@ export interface Report {
   [key: string]: unknown;
 }
 
-// How a height map is written, as by the flags of the command line.
+// How to write a height map. The flags of the command line have the same meaning.
 export interface HeightMapFileOptions {
   size?: number; // longer side in pixels
-  pixel?: number | string; // exact size of a pixel, in the place of size
+  pixel?: number | string; // exact size of a pixel; replaces `size`
   dpi?: number;
   bits?: 8 | 16 | 32;
   area?: "plate" | "relief";
@@ -134,9 +134,9 @@ export declare function sample(name: string, options?: { points?: number; noise?
 export declare class RelievoError extends Error {
   constructor(fields: { kind: string; input?: string; place?: string; expected?: string; message?: string });
   readonly kind: "input" | "option" | "geometry" | "cancelled" | "output" | "memory" | "failure";
-  /** The file or the option. */
+  /** The file or the option that caused the error. */
   readonly input: string;
-  /** The place in the file, such as "line 12". */
+  /** The position in the file, such as "line 12". */
   readonly place: string;
   readonly expected: string;
 }

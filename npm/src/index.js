@@ -20,7 +20,7 @@ function call(engine, name, request = {}) {
 const nearestIn = (engine) => (name, names) => engine.call("nearest", { name, names }).json.name;
 
 // Calls the engine and reports the progress. Cancels the call as soon as the signal is aborted, or the callback returns
-// false or throws; what it throws is thrown on.
+// false or throws. An error that the callback throws is thrown on.
 function watchedCall(engine, name, request, { progress, signal } = {}) {
   signal?.throwIfAborted();
   const thrown = [];
@@ -41,7 +41,7 @@ function watchedCall(engine, name, request, { progress, signal } = {}) {
   }
 }
 
-// Returns an engine with the files of `source`, and the request for the options.
+// Returns an engine that has the files of `source`, and the request for the options.
 async function engineWith(source, options = {}) {
   const engine = await newEngine();
   const files = filesOf(source, options.name);
@@ -66,30 +66,31 @@ export class Relief {
     this.remarks = json.remarks;
   }
 
-  // Returns the solid as the bytes of a file: "stl", "3mf", "ply" or "obj".
+  // Returns the solid as the bytes of a file. The format is "stl", "3mf", "ply" or "obj".
   solid(format = "stl", { units = "mm" } = {}) {
     return this.#file("solid", `relief.${format}`, { units });
   }
 
-  // Returns the heights of the front as a file: a PNG of 16 bits, or a TIFF ("tif") in millimetres. The options are
-  // those of the command line: pixel or dpi in the place of size; bits, area, zero and high are its heightmap-*.
+  // Returns the heights of the front as a file: a 16-bit PNG, or a TIFF ("tif") in millimetres. The options are those
+  // of the command line: pixel or dpi replace size; bits, area, zero and high are the flags heightmap-*.
   heightMapFile(format = "png", { size = 1024, units = "mm", pixel, dpi, bits, area, zero, high } = {}) {
     const given = { pixel, dpi, "heightmap-bits": bits, "heightmap-area": area, "heightmap-zero": zero, "heightmap-high": high };
     const texts = Object.entries(given).filter(([, value]) => value !== undefined).map(([name, value]) => [name, String(value)]);
     return this.#file("heightmap", `heights.${format}`, { heightmap_px: size, units, ...Object.fromEntries(texts) });
   }
 
-  // Returns a picture of the relief, front and oblique, as the bytes of a PNG.
+  // Returns a picture of the relief with front and oblique view, as the bytes of a PNG.
   preview({ size = 1200 } = {}) {
     return this.#file("preview", "preview.png", { preview_px: size });
   }
 
-  // Returns a picture of the areas that the tool reaches, as the bytes of a PNG.
+  // Returns a picture of the areas that the tool can reach, as the bytes of a PNG.
   toolPicture() {
     return this.#file("tool_picture", "tool.png", {});
   }
 
-  // Returns the heights of the front in millimetres: { width, height, mmPerPixel, heights }, row by row from the top.
+  // Returns the heights of the front in millimetres: { width, height, mmPerPixel, heights }, row by row, the top row
+  // first.
   heightMap({ size = 1024 } = {}) {
     const { json, bytes } = call(this.#engine, "heights", { relief: this.#number, size });
     return { width: json.width, height: json.height, mmPerPixel: json.mm_per_pixel, heights: new Float32Array(bytes.buffer) };
@@ -116,7 +117,7 @@ export async function make(source, options = {}) {
   return new Relief(engine, watchedCall(engine, "make", request, options).json);
 }
 
-// A frame of a session. It uses memory of the engine until release() is called or nothing refers to the frame.
+// A frame of a session. It uses memory of the engine until release() is called or nothing refers to the frame any more.
 export class Frame {
   #engine;
   #number;
@@ -134,7 +135,7 @@ export class Frame {
     return new Float32Array(call(this.#engine, "frame_heights", { frame: this.#number }).bytes.buffer);
   }
 
-  // Returns { width, height, pixels } with four values per pixel, as ImageData takes them.
+  // Returns { width, height, pixels }. Each pixel has four values, as in ImageData.
   picture(session, { width = 800, height = 600, yawDeg = 0, pitchDeg = 0, zoom = 1, material = "plaster", fine = false } = {}) {
     const { json, bytes } = call(this.#engine, "picture", { session, frame: this.#number, width, height, yaw_deg: yawDeg,
       pitch_deg: pitchDeg, zoom, material, is_fine: fine ? 1 : 0 });
@@ -146,7 +147,7 @@ export class Frame {
   }
 }
 
-// A scan that is prepared once. Frames with other options then take milliseconds.
+// A scan that is prepared once. After that, frames with other options take milliseconds.
 export class Session {
   #engine;
   #number;
@@ -158,7 +159,7 @@ export class Session {
     this.triangleCount = json.triangles;
   }
 
-  // Prepares a scan. The options of the view and those of reading must be given here.
+  // Prepares a scan. The options of the view and of reading must be given here.
   static async open(source, options = {}) {
     const { engine, request } = await engineWith(source, options);
     return new Session(engine, watchedCall(engine, "open", request, options).json);
@@ -177,7 +178,7 @@ export class Session {
     return new Relief(this.#engine, watchedCall(this.#engine, "session_make", request, options).json);
   }
 
-  // These return x, y and z of each point of the surface, and three indices for each triangle.
+  // Return x, y and z of each point of the surface, and three indices for each triangle.
   get points() {
     return new Float64Array(call(this.#engine, "surface_points", { session: this.#number }).bytes.buffer);
   }
@@ -187,7 +188,7 @@ export class Session {
   }
 }
 
-// Returns a generated scan as the bytes of a PLY file; see samples.
+// Returns a generated scan as the bytes of a PLY file. `samples` lists the names.
 export async function sample(name, { points = 300000, noise = 0.15 } = {}) {
   const engine = await newEngine();
   return call(engine, "sample", { name, points, noise }).bytes;

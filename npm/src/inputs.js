@@ -1,4 +1,4 @@
-// Converts the arguments of users to files and requests for the engine.
+// Converts arguments of users to files and requests for the engine.
 import { cloudFile, depthFile } from "./arrays.js";
 import { RelievoError } from "./engine.js";
 import { optionTable } from "./options.js";
@@ -8,15 +8,15 @@ const nameOf = new Map(optionTable.map(({ keyword, name }) => [camelCase(keyword
 const isNumber = new Set(optionTable.filter((option) => "min" in option).map(({ name }) => name));
 const keywordOf = new Map([...nameOf].map(([keyword, name]) => [name, keyword]));
 const OF_THE_CALL = new Set(["progress", "signal", "camera", "baseImage", "streamAboveMb", "name"]);
-// The keywords, also by their names without a unit, which users often leave out.
+// Maps keywords, with and without their unit, to keywords: users often omit the unit.
 const all = [...nameOf.keys(), ...OF_THE_CALL];
 const keywords = new Map([...all.map((keyword) => [keyword.replace(/(Mm|Deg|Mb)$/, ""), keyword]), ...all.map((keyword) => [keyword, keyword])]);
 
 const isBytes = (source) => source instanceof ArrayBuffer || ArrayBuffer.isView(source);
 const isReadable = (source) => typeof source?.read === "function";
 
-// Returns a name for a file from its first bytes, as readers recognise some formats only by the name. STL is the only
-// such format of binary files; its texts begin with "solid".
+// Returns a name for a file whose first bytes are given, because readers recognise some formats only by the name. STL
+// is the only such binary format; a text STL begins with "solid".
 function guessName(bytes) {
   const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(512, bytes.byteLength)));
   const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"], ["\xFF\xD8\xFF", "scan.jpg"], ["\x93NUMPY", "scan.npy"],
@@ -27,7 +27,7 @@ function guessName(bytes) {
   return /^(v|o|g|mtllib) /m.test(head) ? "scan.obj" : "scan.xyz";
 }
 
-// Returns [[name, source], ...] for bytes, arrays, or an object of names and bytes.
+// Returns [[name, source], ...] for bytes, for arrays, or for an object that maps names to bytes.
 export function filesOf(source, name) {
   if (isBytes(source)) return [[name ?? guessName(source), source]];
   if (isReadable(source)) return [[name ?? source.name ?? "scan.ply", source]];
@@ -39,7 +39,7 @@ export function filesOf(source, name) {
   return files;
 }
 
-// Returns the files that are models. Leaves out files that others refer to: materials, buffers, textures, and the
+// Returns the files that are models. Leaves out files to which others refer: materials, buffers, textures, and the
 // models of a scene.
 export function modelsOf(files) {
   const names = files.map(([name]) => name);
@@ -50,7 +50,7 @@ export function modelsOf(files) {
   return names.filter((name) => !beside.has(ending(name)));
 }
 
-// Returns numbers as a text: a row with commas, rows with semicolons, X,Y;X,Y. Returns other values unchanged.
+// Returns numbers as a text: a list as X,Y and a list of lists as X,Y;X,Y. Returns other values unchanged.
 function textOf(value) {
   if (typeof value === "number") return String(value);
   if (!Array.isArray(value) && !ArrayBuffer.isView(value)) return value;
@@ -62,7 +62,7 @@ function optionError(input, expected) {
   return new RelievoError({ kind: "option", input, expected, message: `${input}: ${expected}` });
 }
 
-// Throws for a number that is not finite, in whatever part of a request: JSON has no such numbers.
+// Throws if a number anywhere in a request is not finite, since JSON has no such numbers.
 export function checkNumbers(request) {
   for (const [name, value] of Object.entries(request)) {
     if (typeof value === "number" && !Number.isFinite(value)) throw optionError(name, `expected a finite number, found ${value}`);
@@ -70,7 +70,7 @@ export function checkNumbers(request) {
   }
 }
 
-// Returns the request for a user's options. Throws for unknown option names; `nearest` takes one, and the known ones.
+// Returns the request for a user's options. Throws for unknown options; nearest(name, names) suggests a known one.
 export function requestOf(options, nearest) {
   const request = { options: {} };
   for (const [keyword, value] of Object.entries(options)) {

@@ -1,5 +1,5 @@
-// Makes reliefs in a worker, so that the page stays responsive. Cancelling ends the worker; the next job starts
-// another.
+// Makes reliefs in a worker, so that the page stays responsive. Cancelling ends the worker; the next job starts a new
+// one.
 import { RelievoError } from "./engine.js";
 
 export class WorkerJobs {
@@ -8,14 +8,14 @@ export class WorkerJobs {
   #waiting = new Map();
   #last = 0;
 
-  // `start` takes a function for messages and one for errors. It returns { post, end, rest }; rest() is called when no
+  // start() takes a function for messages and one for errors. It returns { post, end, rest }. rest() is called when no
   // job is left.
   constructor(start) {
     this.#start = start;
   }
 
-  // Makes a relief. `results` names the results to send back:
-  // { solids: ["stl"], heightMap: { size }, preview: { size } }.
+  // Makes a relief. `results` says which results to send back: { solids: ["stl"], heightMap: { size }, preview: { size
+  // } }.
   make(source, { progress, signal, ...options } = {}, results = {}) {
     return this.#send({ job: "make", source, options, results }, progress, signal);
   }

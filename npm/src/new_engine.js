@@ -3,7 +3,7 @@ import { compile } from "./compile.js";
 import { Engine } from "./engine.js";
 import { compressedModule } from "./module.js";
 
-let module; // the compiled module, which all instances share
+let module; // the compiled module; all instances share it
 
 export async function newEngine() {
   module ??= compile(compressedModule);

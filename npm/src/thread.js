@@ -1,4 +1,4 @@
-// Runs in the worker of RelievoWorker: answers messages by calls of the package.
+// Runs in the worker of RelievoWorker. Answers messages with calls of the package.
 import { make, sample } from "./index.js";
 
 const errorFields = ({ name, message, kind, input, place, expected }) => ({ name, message, kind, input, place, expected });

@@ -11,7 +11,7 @@ export class RelievoWorker extends WorkerJobs {
       return {
         post: (message) => { worker.ref(); worker.postMessage(message); },
         end: () => worker.terminate(),
-        rest: () => worker.unref(), // so that the program can end
+        rest: () => worker.unref(), // lets the program end
       };
     });
   }

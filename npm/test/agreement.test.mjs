@@ -1,4 +1,4 @@
-// Tests that solids made by WebAssembly have the same bytes as those of the native program.
+// Tests that WebAssembly and the native program make solids with the same bytes.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";

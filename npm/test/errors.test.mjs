@@ -1,4 +1,4 @@
-// Tests that errors name the file or the option, the place, and what was expected.
+// Tests that errors name the file or the option, the position, and what was expected.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { relievo } from "./support.mjs";
@@ -125,7 +125,7 @@ test("lengths may have units, and arrays are scans", async () => {
   assert.equal(Math.max(map.width, map.height), 200);
   assert.ok(Math.abs(map.heights.reduce((a, b) => Math.max(a, b), 0) - 2.54) < 0.2);
   const png = relief.heightMapFile("png", { dpi: 254, bits: 8, area: "relief", high: "black", zero: "ground" });
-  const header = new DataView(png.buffer, png.byteOffset); // width, height and bits of a PNG
+  const header = new DataView(png.buffer, png.byteOffset); // has width, height and bits of the PNG
   assert.deepEqual([header.getUint32(16), header.getUint32(20), header.getUint8(24)], [1000, 1000, 8]);
   assert.equal((await errorOf(async () => relief.heightMapFile("png", { dpi: 254, pixel: "0.1mm" }))).input, "dpi");
   const depths = new Float32Array(n * n).map((_, i) => 100 + points[3 * i + 2]);

@@ -1,4 +1,4 @@
-// Runs a program in WebAssembly: run.mjs PROGRAM. Passes its output on. The program can read no files.
+// Runs a WebAssembly program: run.mjs PROGRAM. Prints the program's output. The program cannot read files.
 import fs from "node:fs";
 import { wasi } from "../src/files.js";
 

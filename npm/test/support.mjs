@@ -1,4 +1,4 @@
-// Provides the tests with the built package, and with the native program to compare it with.
+// Provides the built package to the tests, and the native program for comparison.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";

@@ -1,4 +1,4 @@
-// Tests that the command line of the package writes its outputs, and changes no other file.
+// Tests that the command line of the package writes its outputs and changes no other file.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -6,7 +6,7 @@ import path from "node:path";
 import { test } from "node:test";
 import { writeAll } from "../bin/write_all.js";
 
-// Returns modes, times and contents of all files of a folder except those in `made`.
+// Returns modes, times and contents of all files in a folder except those in `made`.
 function seen(folder, made) {
   return fs.readdirSync(folder).filter((name) => !made.includes(name)).sort().map((name) => {
     const file = path.join(folder, name), { mode, mtimeMs } = fs.lstatSync(file);

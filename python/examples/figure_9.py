@@ -11,5 +11,5 @@ session = relievo.Session(sys.argv[1], method="paper", height_mm=5, resolution_m
 fronts = []
 for saturation in (0, 2.5, 5, 7.5, 10):
     both = session.make(saturation=saturation).preview(400)
-    fronts.append(both[:, : both.shape[1] // 2])  # the oblique view is on the right
+    fronts.append(both[:, : both.shape[1] // 2])  # the right half is the oblique view
 Path(picture).write_bytes(relievo.png(np.hstack(fronts)))

@@ -16,11 +16,11 @@
 namespace relievo::python {
 namespace {
 
-// The time between two checks for Ctrl-C. People perceive a response within a tenth of a second as immediate.
+// The time between two checks for Ctrl-C. People perceive an answer within a tenth of a second as immediate.
 constexpr std::chrono::milliseconds signal_interval(50);
 
-// The number of watched() calls for which this thread waits. A callback may make another call while the first
-// one runs.
+// The number of running watched() calls for which this thread waits. A callback may make another call while
+// the first one runs.
 thread_local int calls_of_this_thread = 0;
 
 struct Event {
@@ -28,7 +28,7 @@ struct Event {
   double fraction = 0;
 };
 
-// Carries messages from the working thread to the waiting one.
+// Passes messages from the working thread to the waiting thread.
 class Messages {
  public:
   void post(Event event) {
@@ -43,7 +43,7 @@ class Messages {
     changed_.notify_all();
   }
 
-  // Waits for messages, but at most signal_interval. Returns false after the last message.
+  // Waits for messages, but not longer than signal_interval. Returns false after the last message.
   bool wait(std::vector<Event>& events) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, signal_interval, [&] { return has_ended_ || !events_.empty(); });
@@ -71,11 +71,13 @@ struct CountedCall {
   ~CountedCall() { --calls_of_this_thread; }
 };
 
-// Ends the library's threads before a fork, as the child would not have them. Starts them again afterwards.
+// Ends the library's threads before a fork, since the child process would not have them, and starts them
+// again afterwards.
 class Fork {
  public:
   // Waits until no call of the library is running. A fork within a callback would wait for its own call for
-  // ever, so it does not wait; the new process may then use this module only after exec().
+  // ever, so in that case begin() does not wait; the child process can then use this module only after
+  // exec().
   void begin() {
     is_prepared_ = calls_of_this_thread == 0;
     if (!is_prepared_) return;
@@ -91,7 +93,8 @@ class Fork {
     working().unlock();
   }
 
-  // The lock is held by a thread of the parent, so the child makes a new lock. The child has no other thread.
+  // A thread of the parent process has locked the mutex, so the child makes a new one. The child has no other
+  // thread.
   void end_in_child() {
     if (!std::exchange(is_prepared_, false)) return;
     std::construct_at(&working());

@@ -1,4 +1,4 @@
-// Calls the library without Python's lock (GIL), so that other threads go on meanwhile.
+// Calls the library without Python's lock (GIL), so that other threads can run meanwhile.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,11 +13,11 @@
 
 namespace relievo::python {
 
-// Returns the mutex that is locked shared while the library works, and exclusively while the library's
-// threads are ended or started.
+// Returns the mutex for the library's threads. It is locked shared while the library works, and exclusively
+// while its threads are ended or started.
 std::shared_mutex& working();
 
-// Calls f without Python's lock. This is only for short work, as signals are not handled meanwhile.
+// Calls f without Python's lock. Only for short work, because signals are not handled meanwhile.
 template <typename F>
 auto unlocked(F&& f) {
   const py::gil_scoped_release release;
@@ -25,9 +25,9 @@ auto unlocked(F&& f) {
   return f();
 }
 
-// Calls `work` on a thread of its own and waits for its end. Meanwhile the calling thread handles signals
-// and, if `callback` is not None, calls it with the name of each stage and the fraction done. An exception
-// from a signal or from `callback` cancels the work, and is raised when the work has ended.
+// Calls `work` in a new thread and waits for its end. Meanwhile the calling thread handles signals and, if
+// `callback` is not None, calls it with the name of each stage and the fraction done. An exception from a
+// signal or from `callback` cancels the work, and is raised after the work has ended.
 void watched(const py::object& callback, const std::function<void(Progress&)>& work);
 
 // Returns the value of the result of `work`, or raises its error.

@@ -1,4 +1,4 @@
-// Raises the library's errors as Python's exceptions.
+// Raises the library's errors as Python exceptions.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,19 +14,19 @@ namespace relievo::python {
 namespace py = pybind11;
 
 // Convert paths, and texts that contain paths. Bytes that are not UTF-8 become surrogates in Python, as in
-// its os module.
+// Python's os module.
 std::string path_of(py::handle path);
 py::str text_of(std::string_view text);
 
-// Raises relievo.Error, or OutOfMemory for the kind memory. If the error names an option, the exception names
-// its keyword.
+// Raises OutOfMemory for an error of kind memory, and relievo.Error for others. If the error names an option,
+// the exception names its keyword.
 [[noreturn]] void raise(const Error& error);
 
-// Raises relievo.Error of kind input for the array called `name`; `place` says where in the array the fault
-// is.
+// Raises relievo.Error of kind input for the array called `name`. `place` is the position of the fault in the
+// array.
 [[noreturn]] void raise_input(std::string name, std::string place, std::string expected);
 
-// Makes all calls from Python raise OutOfMemory for std::bad_alloc, and keeps memory in reserve for that.
+// Makes all calls from Python raise OutOfMemory for std::bad_alloc, and reserves the memory that this needs.
 void add_errors();
 
 // Returns the value of a result, or raises its error.

@@ -19,25 +19,25 @@
 namespace relievo::python {
 namespace {
 
-// The content of a file called `name`. Python's object, which is immutable, owns the bytes.
+// The content of a file called `name`. An immutable Python object owns the bytes.
 struct FileBytes {
   py::bytes object;
   std::string name;
   std::span<const std::byte> bytes;
 };
 
-// A model from arrays of points and triangles, or from a depth image.
+// A model made from arrays of points and triangles, or from a depth image.
 struct ArrayModel {
   std::string name;
-  std::shared_ptr<const CloudFile> file;  // null for depths
+  std::shared_ptr<const CloudFile> file;  // null for a depth image
   std::shared_ptr<const DepthImage> depths;
 };
 
-// One model, or the path of a model, a scene or a project.
+// A model, or the path of a model, a scene or a project.
 using Source = std::variant<std::string, FileBytes, ArrayModel>;
 
-// Returns the model of points, with normals, colours and triangles if they are not None. `missing` is the
-// number of rows that were left out before.
+// Returns the model with these points, and with normals, colours and triangles if they are not None.
+// `missing` is the number of rows that were left out before.
 ArrayModel array_model(const py::array& points, const std::optional<py::array>& normals,
                        const std::optional<py::array>& colours, const std::optional<py::array>& faces,
                        std::size_t missing) {
@@ -102,7 +102,7 @@ py::object array_or_none(bool is_there, auto&& make) {
   return is_there ? py::object(make()) : py::none();
 }
 
-// Returns points, normals and colours of a generated scan.
+// Returns the points, normals and colours of a generated scan.
 py::tuple sample(const std::string& name, std::size_t points, double noise) {
   Cloud cloud = value_or_raise(make_sample(name, {points, noise}));
   const auto owner = std::make_shared<const Cloud>(std::move(cloud));
@@ -125,7 +125,7 @@ void write_cloud(const ArrayModel& model, const py::str& to, const std::string& 
   value_or_raise(app::write_files({&file, 1}));
 }
 
-// Returns the sources of a list of texts, (bytes, name) tuples, and models made by array_model() and
+// Returns the sources in a list of texts, (bytes, name) tuples, and models made by array_model() and
 // depth_model().
 std::vector<Source> sources_of(const py::list& list) {
   std::vector<Source> sources;
@@ -146,7 +146,7 @@ std::vector<Source> sources_of(const py::list& list) {
 }  // namespace
 
 void take_sources(const py::list& list, app::MakeOrder& order) {
-  // The sources are shared, because copies would change Python's reference counts in a thread without
+  // The sources are shared and not copied: copies would change Python's reference counts in a thread without
   // Python's lock.
   const auto sources = std::make_shared<const std::vector<Source>>(sources_of(list));
   std::vector<std::string> names;

@@ -17,7 +17,8 @@ namespace {
   throw py::type_error(cat(keyword, ": ", expected, ", found ", Py_TYPE(value.ptr())->tp_name));
 }
 
-// Returns a number or a text of the option's type; lengths may be texts with a unit, as on the command line.
+// Returns the value as a number or a text, according to the option's type. A length may be a text with a
+// unit, as on the command line.
 OptionValue value_of(const OptionRow& option, py::handle given) {
   const bool is_text = py::isinstance<py::str>(given);
   if (is_text && (!option.is_number() || option.is_length())) return given.cast<std::string>();

@@ -1,4 +1,4 @@
-// Converts Python's keywords to options.
+// Converts Python keyword arguments to options.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,15 +12,15 @@
 namespace relievo::python {
 
 // Returns the keyword of an option: its name with underscores and, for lengths and angles, with the unit, as
-// in rim_height_mm and draft_deg. Other texts are returned unchanged.
+// in rim_height_mm and draft_deg. Returns other texts unchanged.
 std::string keyword_of(std::string_view name);
 
-// Returns the values of a dict of keywords and values. None stands for the default. Raises TypeError for a
-// value of another type.
+// Returns the options in a dict of keywords and values. None means the default. Raises TypeError for a value
+// of another type.
 OptionValues values_of(const pybind11::dict& given);
 
-// Returns the options for reading depth images, and the size above which files are read in blocks. Raises the
-// same errors as values_of(), and relievo.Error.
+// Returns the options for reading depth images, and the file size above which files are read in blocks.
+// Raises the errors of values_of(), and relievo.Error.
 app::InputArguments input_arguments(const pybind11::dict& given);
 
 void add_options(pybind11::module_& module);

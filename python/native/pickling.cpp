@@ -1,4 +1,4 @@
-// Pickles of reliefs: all that their files, pictures and arrays are made from, and the report as it was.
+// Pickles reliefs: everything from which their files, pictures and arrays are made, and the original report.
 #include "native/pickling.h"
 
 #include <cstring>
@@ -13,7 +13,7 @@ py::bytes bytes_of(const std::vector<T>& values) {
   return py::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-// Raises unless a pickle is as this version of the package writes it.
+// Raises unless a pickle was written by this version of the package.
 void check(bool is_right) {
   if (!is_right) throw py::value_error("expected a pickle of a relief by this version of relievo");
 }

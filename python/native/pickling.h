@@ -1,4 +1,4 @@
-// Pickles of reliefs, so that processes may hand them on.
+// Pickles reliefs, so that processes can pass them to each other.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,11 +12,11 @@ namespace relievo::python {
 
 namespace py = pybind11;
 
-// Returns the state of a relief: its solids, its report and its remarks, as bytes and numbers.
+// Returns the state of a relief as bytes and numbers: its solids, its report and its remarks.
 py::tuple state_of(const app::FinishedRelief& relief);
 
-// Returns the relief of such a state: its files, pictures and arrays are those of the relief that was pickled.
-// Raises ValueError for a state of another version.
+// Returns the relief with that state. Its files, pictures and arrays are those of the pickled relief. Raises
+// ValueError for a state from another version.
 std::shared_ptr<app::FinishedRelief> relief_in(const py::tuple& state);
 
 }  // namespace relievo::python

@@ -34,7 +34,7 @@ SharedRelief make(const py::list& sources, const py::dict& keywords, const py::o
   return watched_value(callback, [&](Progress& progress) { return app::make(order, progress); });
 }
 
-// Raises an error unless a picture may have that many pixels on its longer side.
+// Raises unless a picture may have that many pixels on its longer side.
 void check_size(const char* keyword, int px, int most_px) {
   constexpr int least_px = 16;
   if (px < least_px || px > most_px)
@@ -95,7 +95,7 @@ py::array heights(const SharedRelief& relief, int size) {
   return array_of(std::move(map.image));
 }
 
-// Returns a picture of 8 bits, of one, three or four channels, as the bytes of a PNG file.
+// Returns an 8-bit picture with one, three or four channels as the bytes of a PNG file.
 py::bytes png(const py::array& picture) {
   const py::ssize_t dimensions = picture.ndim(), channels = dimensions == 3 ? picture.shape(2) : 1;
   const bool is_picture = (dimensions == 2 || dimensions == 3) &&
@@ -129,7 +129,7 @@ py::object colours(const SharedRelief& relief) {
   return view_of(solid.colours.data()->data(), {std::ssize(solid.colours), 3}, relief);
 }
 
-// Returns the path given for the scan of a project; empty if there is none.
+// Returns the path that the caller gives for the scan of a project; an empty path if there is none.
 std::string scan_path_of(const py::dict& keywords) {
   const py::object scan = keywords.attr("get")("scan");
   if (scan.is_none()) return {};

@@ -1,4 +1,4 @@
-// Makes reliefs as `relievo make` does, and gives them to Python.
+// Makes reliefs as `relievo make` does, and returns them to Python.
 #pragma once
 
 #include <pybind11/pybind11.h>

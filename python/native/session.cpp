@@ -1,4 +1,4 @@
-// Sessions: a model is prepared once, and many reliefs of it are made.
+// Lets Python prepare a model once and make many reliefs of it.
 #include "common/prepared_model.h"
 #include "native/arrays.h"
 #include "native/call.h"

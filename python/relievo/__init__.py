@@ -58,7 +58,7 @@ def set_threads(number: int) -> None:
         raise TypeError(f"set_threads() expected a whole number, found {type(number).__name__}") from None
 
 
-# A forked process has only the thread that forked, so the library's threads are ended before a fork.
+# A forked process has only the thread that called fork(), so the library's threads are ended before a fork.
 _os.register_at_fork(
     before=_native.begin_fork,
     after_in_parent=_native.end_fork_in_parent,

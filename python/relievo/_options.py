@@ -27,13 +27,13 @@ INPUT = [*of_stage("input"), "camera", "base_image", "scan", "stream_above_mb"]
 
 _TEXTS = {row["keyword"] for row in TABLE if "min" not in row}
 
-# A session uses the options of PREPARED once, when it prepares the scan. OF_FRAME has the options of its frames.
+# A session uses the options in PREPARED once, when it prepares the scan. OF_FRAME lists the options of its frames.
 PREPARED = {*of_stage("view", "model"), *INPUT} - {"base_image"}
 OF_MAKE = [row["keyword"] for row in TABLE if row["stage"] != "input"] + INPUT
 OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]
 OF_FRAME = of_stage("shape")
 
-# Keywords that another function takes.
+# Keyword arguments that belong to another function.
 ELSEWHERE = {"threads": "set_threads() sets the number of threads"}
 
 _EXTRA_HELP = {
@@ -54,7 +54,7 @@ def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
             raise TypeError(f"{function}() cannot change '{name}': {where}")
         hint = ELSEWHERE.get(name)
         if hint is None:
-            # Users often leave the unit out.
+            # Users often omit the unit.
             names = {re.sub("_(mm|deg|mb)$", "", keyword): keyword for keyword in known} | dict(zip(known, known))
             nearest = _native.nearest_name(name, list(names))
             hint = f"the nearest is '{names[nearest]}'" if nearest else ""

@@ -10,7 +10,7 @@ results are those of `relievo batch`, and either can continue a run of the other
 the run in its dashboard. If a worker dies, another worker does its scans again.
 """
 
-# Dask's functions have no types, and type checks must also work without Dask.
+# Dask's functions have no type annotations, and the type check must also work without Dask.
 # mypy: disable-error-code="no-untyped-call, import"
 
 from __future__ import annotations
@@ -29,14 +29,15 @@ from dataclasses import dataclass
 Record = dict[str, typing.Any]  # the record of one scan, as in scans.jsonl
 Watch = typing.Callable[[Record, int, int], None]
 
-# The largest number of tries of a scan. It is tried again if the system ended its program or a disk was full.
+# The largest number of attempts for a scan. It is tried again if the system killed its program or a disk was full.
 TRIES = 3
-# Dask gets up to this many scans as one task, because each task, and each start of the program, costs several
+# Dask gets up to this many scans in one task, because each task, and each start of the program, takes several
 # milliseconds.
 MOST_IN_TASK = 8
-# The name under which a worker states its memory in megabytes: dask worker --resources "relievo_mb=16000".
+# The name of the Dask resource by which a worker states its memory in megabytes: dask worker --resources
+# "relievo_mb=16000".
 RESOURCE = "relievo_mb"
-# By default Dask checks its workers 50 to 100 times per second, which takes several percent of the processors.
+# By default Dask checks its workers 50 to 100 times per second, which takes several percent of the processor time.
 QUIET = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "500ms"}
 
 
@@ -81,7 +82,7 @@ def run(
     lines = _call([program, "batch", source, "-o", output, "--list", *flags]).splitlines()
     with _client(scheduler, workers) as client:
         records = list(_work(client, program, ["-o", output, *_output_flags(flags)], lines, watch))
-    # The exit code, which is 1 if a scan failed, is ignored, as the records have the failures.
+    # Ignores the exit code, which is 1 if a scan failed: the records contain the failures.
     subprocess.run([program, "batch", source, "-o", output, "--pages", "--quiet", *flags], stderr=subprocess.DEVNULL,
                    check=False)
     return Run(records, os.path.join(output, "index.html"))
@@ -155,8 +156,8 @@ def _work(
     """Runs the jobs of all lines, and yields their records as they arrive."""
     from distributed import as_completed
 
-    # If all workers state their memory, Dask gives each worker only as many jobs at a time as fit into it. A scan that
-    # is too large for every worker runs alone.
+    # If all workers state their memory, Dask gives each worker only as many jobs at a time as its memory allows. A scan
+    # that is too large for every worker runs alone.
     workers = client.scheduler_info()["workers"].values()
     stated = [worker.get("resources", {}).get(RESOURCE) for worker in workers]
     most_mb = min(stated) if stated and all(stated) else None
@@ -177,7 +178,7 @@ def _work(
             job = json.loads(line)
             record = records.get(job["name"])
             tries[line] += 1
-            # A scan is tried again in a task of its own, so that it affects no other scan if it ends its worker.
+            # A scan is tried again in its own task, so that it affects no other scan if it kills its worker.
             if tries[line] < TRIES and (record is None or (record.get("may_succeed") and record["hash"])):
                 again = submit([line])
                 tasks[again] = [line]

@@ -33,19 +33,19 @@ from scipy.spatial import Delaunay, QhullError, cKDTree
 
 NEIGHBOURS = 6          # Section 3.4 takes six neighbours for each control point.
 STEEPEST = 4.0          # Reading 8 limits slopes to this length.
-TOLERANCE = 1e-12       # This relative residual keeps heights within 1e-10 of their span.
-PAIRS_AT_ONCE = 60_000  # This bounds the memory of the curvature: a jet of so many pairs takes 6 MB.
+TOLERANCE = 1e-12       # This relative residual makes heights exact to 1e-10 of their span.
+PAIRS_AT_ONCE = 60_000  # This limits the memory of the curvature: a jet of so many pairs takes 6 MB.
 
 
 @dataclass
 class Relief:
     """The result: all arrays refer to the visible points, of which `index` gives the places in the input."""
 
-    index: np.ndarray     # The places of the visible points in the input, ascending.
-    z: np.ndarray         # The heights over the base, with the detail.
+    index: np.ndarray     # The indices of the visible points in the input, ascending.
+    z: np.ndarray         # The heights above the base, including the detail.
     k: np.ndarray         # The normalised mean curvature, positive where the surface is convex.
     delta: float          # The standard deviation of |k|, see (6).
-    boundary: np.ndarray  # True for the points of P_b.
+    boundary: np.ndarray  # True for the points in P_b.
     rho: float            # The sampling density of the cloud.
     height: float         # The height span of z, see reading 9.
 
@@ -167,7 +167,7 @@ def boundary_points(xy, rho):
     xy = xy - xy.mean(axis=0)
     try:
         mesh = Delaunay(xy)
-    except (QhullError, ValueError):  # All points lie on a line or are fewer than three: none is inside.
+    except (QhullError, ValueError):  # All points are collinear, or there are fewer than three: none is inside.
         return np.ones(len(xy), bool)
     a, b, c = (xy[mesh.simplices[:, i]] for i in range(3))
     area4 = 2 * np.abs((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
@@ -204,7 +204,7 @@ def expected_normals(normals, weight):
 def slopes(expected):
     """Reading 8: returns the slopes dz/dx, dz/dy of surfaces with the expected normals, limited to STEEPEST."""
     divisor = np.maximum(expected[:, 2], np.linalg.norm(expected[:, :2], axis=1) / STEEPEST)
-    return -expected[:, :2] / np.maximum(divisor, 1e-300)[:, None]  # The latter makes 0 / 0 the slope 0.
+    return -expected[:, :2] / np.maximum(divisor, 1e-300)[:, None]  # The maximum makes the slope 0 / 0 equal 0.
 
 
 # ---------------------------------------------------------------- Section 3.4: solution of the heights

@@ -118,7 +118,7 @@ class Refusals(InFolder):
         strided[:] = points
         wanted = relievo.make(points, height_mm=3, resolution_mm=0.5).to_bytes("stl")
         packed = np.zeros(len(points), np.dtype([("x", "u1"), ("p", "f8", 3)]))
-        packed["p"] = points  # not aligned
+        packed["p"] = points  # makes the points unaligned
         for array in [strided, points[::-1][::-1], packed["p"], np.ma.array(points), points.tolist()]:
             self.assertEqual(relievo.make(array, height_mm=3, resolution_mm=0.5).to_bytes("stl"), wanted)
         masked = relievo.make(np.ma.masked_less(points, 0), height_mm=3, resolution_mm=0.5)

@@ -40,7 +40,7 @@ class Examples(InFolder):
         notebook = nbformat.read(EXAMPLES / "relief.ipynb", as_version=4)
         for cell in notebook.cells:
             self.assertEqual(cell.get("outputs", []), [], "the notebook is kept without outputs")
-        # Registers a kernel that runs this Python, as the machine may have no kernel or another one.
+        # Registers a kernel that runs this Python, because the machine may have no kernel or a different one.
         kernel = Path("share/jupyter/kernels/this")
         kernel.mkdir(parents=True)
         command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]

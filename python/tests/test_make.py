@@ -55,7 +55,7 @@ class SameBytes(InFolder):
         told = r"^scan\.xyz: left out 1 points with coordinates that are not finite$"
         with self.assertWarnsRegex(UserWarning, told) as warned:
             relief = make("scan.xyz", height_mm=2)
-        self.assertEqual(Path(warned.filename).name, "support.py")  # the caller's line
+        self.assertEqual(Path(warned.filename).name, "support.py")  # the file that called the library
         self.same(["--height", 2], relief, inputs=("scan.xyz",))
 
     def test_in_all_files(self):
@@ -147,7 +147,8 @@ class SameBytes(InFolder):
         flags = {flag.replace("-", "_") for flag in re.findall(r"^  (?:-[a-z],)?--([a-z-]+)", text, re.MULTILINE)}
         keywords = {*inspect.signature(relievo.make).parameters, *inspect.signature(relievo.Relief.save).parameters}
         without = flags - {re.sub("_(mm|deg|mb)$", "", keyword) for keyword in keywords}
-        # The output is the first argument of save(), and set_threads() sets the threads of the whole process.
+        # The output is the first argument of save(). The number of threads applies to the whole process and is set by
+        # set_threads().
         self.assertEqual(without, {"help", "output", "threads", "quiet"})
 
 

@@ -74,7 +74,8 @@ class Paper(unittest.TestCase):
     def agrees(self, points, normals, *coefficients, correlation=0.999, error=0.005):
         """Compares the heights of points that both find visible, other than those of the boundary, which the program puts
         on the base, for coefficients alpha, beta and gamma. The error is the root mean square as a share of the height."""
-        # The program has normals in single precision. At beta = .01, (6) is about .5 even for the rounding of a plane.
+        # The program uses normals in single precision. At beta = 0.01, (6) is about 0.5 even for the rounding errors of
+        # a plane.
         front = reference.Front(points, normals.astype(np.float32))
         for alpha, beta, gamma in coefficients:
             session = relievo.Session(points, normals=normals, method="paper", alpha=alpha, saturation=beta, detail=gamma)
@@ -94,7 +95,7 @@ class Paper(unittest.TestCase):
         self.assertGreater(np.corrcoef(own, heights)[0, 1], correlation)
         self.assertLess(np.sqrt(np.mean((own - heights) ** 2)), error * wanted.height)
 
-    # Beside the paper's coefficients there are some with which (6) weighs curvatures far more unequally.
+    # Besides the paper's coefficients, the test uses some for which (6) gives curvatures much more unequal weights.
     def test_generated_clouds_agree_with_the_reference(self):
         for points, normals in [bumpy_ball(10000), ball_before_a_tilted_sheet(), waves(6000)]:
             self.agrees(points, normals, (4, 0.01, 0.02), (1, 1, 0.05))

@@ -97,7 +97,7 @@ class Frames(unittest.TestCase):
                 session.frame(**sweep[i % 10]).heights[0]
 
         run(500)
-        # If each of the 10,000 frames left a hundred bytes, each part would grow by .2 MB.
+        # If each of the 10,000 frames leaked a hundred bytes, the memory would grow by 0.2 MB in each fifth of them.
         self.assertLess(least_growth_mb(5, lambda: run(FRAMES // 5)), 0.15)
 
     def test_and_reliefs_leak_nothing(self):

@@ -43,7 +43,7 @@ class Calls(unittest.TestCase):
         relievo.make(scan(), height_mm=3, resolution_mm=0.5)  # works as before
 
     def test_end_with_ctrl_c(self):
-        # A shell that starts the tests in the background makes them ignore SIGINT, so the usual handler is set here.
+        # A shell that starts the tests in the background makes them ignore SIGINT, so the test sets the usual handler.
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         large = relievo.sample("shell", points=300_000)
         begun = threading.Event()
@@ -86,8 +86,8 @@ class Calls(unittest.TestCase):
     def test_give_the_same_in_several_threads(self):
         heights = [2, 3, 4, 5]
         alone = [relievo.make(scan(), height_mm=h, resolution_mm=0.5).to_bytes("stl") for h in heights]
-        # The frames have no height to meet. With one, the search would start from the height of the last frame, and
-        # frames would depend on their order.
+        # These frames need not meet a height. Otherwise the search for u would start from the last frame, and a frame
+        # would depend on the order of frames.
         session = relievo.Session(scan(), method="paper")
         frames = [session.frame(saturation=h).heights.copy() for h in heights]
         with ThreadPoolExecutor(4) as pool:

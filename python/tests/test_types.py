@@ -25,7 +25,7 @@ class Types(unittest.TestCase):
 
     @unittest.skipUnless(find_spec("mypy"), "SKIPPED: mypy is not installed (python3-mypy)")
     def test_pass_stubtest(self):
-        # The private modules are checked as sources. stubtest would check even the names that they import.
+        # The sources of the private modules are checked instead. stubtest would even check the names that they import.
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as private:
             private.write("relievo\\._.*\n")
             private.flush()

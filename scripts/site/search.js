@@ -1,4 +1,5 @@
-// Searches the pages. The texts are in texts.js, which is loaded when the search is used first; this works from disk, too.
+// Searches the pages. The texts are in texts.js, which is loaded when the user first searches. This also works for
+// pages opened from disk.
 const root = document.documentElement.dataset.root, field = document.querySelector("#search"), found = document.querySelector("#found");
 const menu = document.querySelector(".side details");
 const wide = matchMedia("(min-width: 801px)");
@@ -17,7 +18,7 @@ function texts() {
   return loading;
 }
 
-// A heading counts ten times as much as the text below it. All words must be there.
+// A match in a heading counts ten times as much as one in the text. All words must occur.
 function score({heading, text}, words) {
   let sum = 0;
   for (const word of words) {

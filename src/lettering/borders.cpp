@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Distances between pieces, and the shape of strands, as shares of the row's width.
+// Distances between the beads or strands of a row and the shape of strands, as fractions of the row's width.
 constexpr double bead_step = 1.5, strand_step = .8, strand_length = .62, strand_width = .27;
 constexpr double strand_turn = std::numbers::pi / 4;
 constexpr int piece_corners = 32;
@@ -19,7 +19,7 @@ struct PlaceOnPath {
   Vec2 place, along;
 };
 
-// Returns places at equal distances along the closed path.
+// Returns points at equal distances along the closed path.
 std::vector<PlaceOnPath> places_on(const BorderRow& row, double step) {
   double length = 0;
   const auto side = [&](std::size_t i) -> Vec2 { return row.path[(i + 1) % row.path.size()] - row.path[i]; };
@@ -38,8 +38,8 @@ std::vector<PlaceOnPath> places_on(const BorderRow& row, double step) {
   return places;
 }
 
-// Returns ellipses at the places. `length` and `width` are half their diameters; the longer one turns from the
-// path by `turn`.
+// Returns ellipses at the given points. `length` and `width` are their half axes; `turn` is the angle from
+// the path to the longer axis.
 Outlines ellipses(const std::vector<PlaceOnPath>& places, double length, double width, double turn) {
   Outlines outlines;
   for (const auto& [place, along] : places) {

@@ -1,4 +1,4 @@
-// Outlines of borders along the rim: lines, beads and ropes. Tested by
+// Computes the outlines of borders along the rim: lines, beads and ropes. Tested by
 // tests/lettering/ornament_shapes_test.cpp.
 #pragma once
 
@@ -9,26 +9,26 @@
 
 namespace relievo {
 
-// A row of equal pieces along a convex polygon.
+// A row of equal beads or strands along a convex polygon.
 struct BorderRow {
   std::vector<Vec2> path;
   double width_mm = 0;
-  double count = 0;  // 0: as many as fit well
+  double count = 0;  // number of beads or strands; 0: as many as fit well
 };
 
-// Returns the two edges of a line of that width, whose outer edge lies `before` inside the polygon.
+// Returns the two edges of a line with the given width. Its outer edge is `before_mm` inside the polygon.
 Outlines line_outlines(std::span<const Vec2> polygon, double before_mm, double width_mm);
 
-// Returns discs whose diameter is the row's width.
+// Returns discs whose diameter is the width of the row.
 Outlines bead_outlines(const BorderRow& row);
 
-// Returns slanting ellipses.
+// Returns ellipses that are tilted against the path, as the strands of a rope.
 Outlines rope_outlines(const BorderRow& row);
 
-// Returns the radius of the largest circle within a disc, which is a polygon.
+// Returns the radius of the largest circle inside the polygon that represents a disc.
 double bead_radius(const BorderRow& row);
 
-// Returns half the smaller diameter of a rope's ellipse.
+// Returns the smaller half axis of a rope's ellipse.
 double strand_radius(const BorderRow& row);
 
 }  // namespace relievo

@@ -14,7 +14,7 @@
 #include "geometry/curve_polygon.h"
 #include "relievo/core/text.h"
 
-// The bytes of the font inside the program.
+// Embeds the bytes of the font in the program.
 asm(".pushsection .rodata\n"
     ".global relievo_font_begin\n.hidden relievo_font_begin\n"
     ".global relievo_font_end\n.hidden relievo_font_end\n"
@@ -26,12 +26,12 @@ extern "C" __attribute__((visibility("hidden"))) const char relievo_font_begin[]
 namespace relievo {
 namespace {
 
-// Limits for hostile fonts and texts.
+// Limits that protect against malicious fonts and texts.
 constexpr std::size_t most_characters = 1000, most_font_bytes = 64 << 20, most_outline_points = 50000,
                       most_corners = 100000;
-constexpr double farthest = 1e5;  // of corners from the line's start, in heights of capitals
+constexpr double farthest = 1e5;  // largest distance from the start of the line, in heights of capitals
 
-constexpr double least_capital = .1, usual_capital = .7;  // shares of the em
+constexpr double least_capital = .1, usual_capital = .7;  // height of capitals as a fraction of the em
 
 template <auto destroy>
 struct Destroyer {
@@ -64,7 +64,7 @@ Result<FontPointer> open_font(const Ornament& ornament) {
                                   ornament.font->name, "', which is none"));
 }
 
-// A part of the text that is shaped at once: one direction and one script.
+// A part of the text with one direction and one script, which HarfBuzz shapes as a whole.
 struct ScriptRun {
   std::size_t begin, end;
   hb_script_t script;
@@ -100,8 +100,8 @@ std::vector<FriBidiLevel> levels_of(const std::vector<FriBidiChar>& text) {
   return levels;
 }
 
-// Returns the runs in the order in which they are seen, from left to right: rule L2 of the bidirectional
-// algorithm, with runs in the place of characters.
+// Returns the runs in visual order, from left to right. Applies rule L2 of the Unicode bidirectional
+// algorithm to runs instead of characters.
 std::vector<ScriptRun> runs_of(const std::vector<FriBidiChar>& text) {
   const std::vector<FriBidiLevel> levels = levels_of(text);
   const std::vector<hb_script_t> scripts = scripts_of(text);
@@ -124,7 +124,7 @@ std::vector<ScriptRun> runs_of(const std::vector<FriBidiChar>& text) {
   return runs;
 }
 
-// Letters of these scripts are joined by strokes along a line.
+// Returns whether the letters of a script are connected along the line.
 bool is_joining(hb_script_t script) {
   constexpr hb_script_t joining[] = {HB_SCRIPT_ARABIC,   HB_SCRIPT_SYRIAC,     HB_SCRIPT_NKO,
                                      HB_SCRIPT_MANDAIC,  HB_SCRIPT_DEVANAGARI, HB_SCRIPT_BENGALI,
@@ -225,7 +225,7 @@ class LineShaper {
     return value;
   }
 
-  // Returns the text's characters, with one that is not UTF-8 replaced.
+  // Returns the characters of the text. Invalid UTF-8 becomes a replacement character.
   Result<std::vector<FriBidiChar>> characters() const {
     const std::string& text = ornament_.text;
     if (text.size() > 4 * most_characters)

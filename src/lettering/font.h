@@ -1,4 +1,4 @@
-// Shapes texts and outlines their glyphs by HarfBuzz, in the order of FriBidi. Tested by
+// Shapes texts and outlines their glyphs with HarfBuzz, in the order that FriBidi determines. Tested by
 // tests/lettering/font_test.cpp.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace relievo {
 
-// Glyphs that belong together, such as a letter with its marks. Coordinates begin at the line's start and its
-// baseline; the unit is the height of the font's capitals.
+// Glyphs that belong together, such as a letter with its marks. Coordinates are relative to the start of the
+// line and its baseline. The unit is the height of the font's capitals.
 struct GlyphCluster {
   Outlines outlines;
   double begin = 0, advance = 0;
-  bool is_joined = false;  // joined to its neighbours, as Arabic letters are
+  bool is_joined = false;  // connected to its neighbours, as Arabic letters are
 };
 
 struct ShapedLine {
@@ -23,8 +23,8 @@ struct ShapedLine {
   double advance = 0, x_height = 0;
 };
 
-// Returns the line of text in that font, or in the font inside the program. Curves become polygons that differ
-// from them by at most `tolerance`, in heights of capitals. Errors: those of check_text().
+// Returns the line of text in the ornament's font, or in the embedded font if it has none. Curves become
+// polygons that deviate by at most `tolerance`, in heights of capitals. Errors: those of check_text().
 Result<ShapedLine> shape_line(const Ornament& ornament, double tolerance);
 
 }  // namespace relievo

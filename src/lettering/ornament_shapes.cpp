@@ -15,13 +15,13 @@ namespace relievo {
 namespace {
 
 constexpr double curve_tolerance_mm = .003;
-// Shares that sizes have if none is given: texts of the margin within the borders, borders of the whole margin.
+// Default sizes as fractions: texts of the margin without its borders, borders of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
-constexpr double usual_height = .2;  // of a text's size
-constexpr double below_rim = .8;     // usual height as a share of the rim's
+constexpr double usual_height = .2;  // as a fraction of the text's size
+constexpr double below_rim = .8;     // default height as a fraction of the rim's height
 constexpr double least_mm = .01, most_mm = 1e4;
 
-// Returns the height of an ornament; `usual` applies if none is given and the rim is higher.
+// Returns the height of an ornament. If none is given, it is `usual`, but lower than the rim.
 double height_of(const Ornament& ornament, double usual, const OrnamentFrame& frame) {
   if (frame.rim_mm) usual = std::min(usual, below_rim * *frame.rim_mm);
   const double height = ornament.height_mm.value_or(ornament.is_engraved ? -usual : usual);
@@ -36,7 +36,7 @@ Vec2 middle_of(const OrnamentFrame& frame) {
   return Box::of(frame.inner).centre().head<2>();
 }
 
-// Returns the radius of the largest circle around the middle inside the rim.
+// Returns the radius of the largest circle inside the rim around the centre.
 double radius_within(const OrnamentFrame& frame) {
   const Vec2 middle = middle_of(frame);
   double radius = std::numeric_limits<double>::infinity();
@@ -48,13 +48,13 @@ double radius_within(const OrnamentFrame& frame) {
   return radius;
 }
 
-// The circle on which a text stands. Angles go in the direction of reading.
+// The circle on which a text stands. Angles increase in the reading direction.
 struct BaseCircle {
   Vec2 middle;
-  double radius, angle, sign;  // sign: -1 if it is read clockwise
+  double radius, angle, sign;  // sign: -1 if the text is read clockwise
 
-  // Returns the place of a point of the line: `along` from the text's middle, on a letter whose own middle is
-  // at `letter`.
+  // Returns the position of a point of the line: `along` is its distance from the text's centre, and `letter`
+  // that of the centre of its letter.
   Vec2 place(double along, double letter, double up, double read_radius) const {
     const double turn = angle + sign * letter / read_radius;
     const Vec2 outwards(std::cos(turn), std::sin(turn)),
@@ -64,7 +64,7 @@ struct BaseCircle {
   }
 };
 
-// Returns the outline with points at most `step` apart, so that it can be bent.
+// Returns the outline divided into edges of at most `step`, so that it can be bent.
 std::vector<Vec2> finely_divided(const std::vector<Vec2>& outline, double step) {
   std::vector<Vec2> fine;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -92,7 +92,7 @@ class TextPlacer {
     const bool is_bottom = ornament_.arc == TextArc::bottom;
     circle_ = {middle_of(frame_), radius_within(frame_) - inset - (is_bottom ? 0 : size_),
                to_radians(ornament_.angle_deg.value_or(is_bottom ? 270 : 90)), is_bottom ? 1. : -1.};
-    // At half the height of small letters the distance of letters is the straight line's.
+    // At half the height of small letters, letters have the same distances as on a straight line.
     read_radius_ = circle_.radius + (is_bottom ? -.5 : .5) * line_.x_height * size_;
     const double way = 2 * std::numbers::pi * read_radius_;
     if (!(circle_.radius > size_) || length_ > way)
@@ -105,8 +105,8 @@ class TextPlacer {
   }
 
  private:
-  // Returns the distance of the capitals from the rim at which the text, with what stands out above capitals and hangs
-  // below the line, lies in the middle of the margin within the borders.
+  // Returns the distance between capitals and rim that centres the text in the margin without its borders. Parts of
+  // letters above the capitals and below the baseline count as text.
   double usual_inset() const {
     constexpr double usual_overshoot = .1;
     Box box;
@@ -120,7 +120,7 @@ class TextPlacer {
            size_ * (ornament_.arc == TextArc::straight || ornament_.arc == TextArc::bottom ? below : above);
   }
 
-  // Widens the spaces until the text goes all around.
+  // Widens the spaces between letters until the text fills the whole circle.
   void spread(double way) {
     const auto n = static_cast<double>(line_.clusters.size());
     tracking_ += (way - length_ - tracking_) / n;

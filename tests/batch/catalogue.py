@@ -4,7 +4,7 @@ import math
 import os
 import random
 
-# With these options, the scans take little time.
+# Reliefs of these scans take little time with these options.
 OPTIONS = ["--method", "linear", "--height", "2", "--width", "30", "--resolution", "1.5", "--denoise", "0"]
 
 

@@ -21,7 +21,7 @@ import time
 sys.path.insert(0, os.path.dirname(__file__))
 import catalogue
 
-# Drawing a preview of the default size takes twice as long as making one of these reliefs.
+# A preview of the default size takes twice as long as one of these reliefs.
 SMALL_PICTURES = ["--preview-size", "64"]
 
 
@@ -110,7 +110,7 @@ def main():
             wait_for(count // 2, output, first, log)
             workers = worker_processes(first.pid)
         finally:
-            first.kill()  # kill -9: no program has a chance to put anything in order
+            first.kill()  # kill -9: no program can clean up
             first.wait()
         wait_for_the_end_of(workers, output)
         before = len(journal(output))
@@ -129,7 +129,7 @@ def check(output, scans, program, good, bad, first):
     assert [name for name in sorted(records) if records[name]["status"] == "made"] == good
     for name in bad:
         assert records[name]["error"].count("\n") == 0 and "expected" in records[name]["error"], records[name]
-    # Only a scan that was being made when a worker or the run was killed may have been begun twice. No scan was
+    # A scan may have been started twice only if a worker or the run was killed while it was being made. No scan was
     # finished twice.
     lines = journal(output)
     made = [record["name"] for record in lines if record["status"] == "made"]

@@ -1,4 +1,4 @@
-// Tests ZIP archives like those that sites for models offer.
+// Tests ZIP archives like those of web sites for models.
 #include "common/archive.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ Result<CloudFile> read(const std::string& archive) {
   return read_cloud_at(std::as_bytes(std::span(archive)), "a.zip");
 }
 
-// A glTF file with one triangle, whose coordinates are in another file.
+// A glTF file with one triangle. Its coordinates are in another file.
 const std::string gltf =
     R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],
@@ -63,7 +63,7 @@ TEST(Archive, BackslashesSeparateFoldersToo) {
   EXPECT_EQ(file->mesh.triangles.size(), 1U);
 }
 
-// As slicers write them: the main model has a component in another part.
+// Slicers write such files: the main model has a component in another part of the archive.
 TEST(Archive, AThreeMfIsReadWithItsParts) {
   const auto model = [](const std::string& objects, const std::string& items) {
     return "<model><resources>" + objects + "</resources><build>" + items + "</build></model>";
@@ -88,8 +88,8 @@ TEST(Archive, FormatsThatAreArchivesAreNamed) {
   EXPECT_TRUE(answer.error().message().ends_with("found a USD file; Blender exports it as glTF or PLY"));
 }
 
-// Changes a field in both headers of the archive's only file. `at` is the field's distance in bytes from the
-// field "version needed".
+// Changes a field in both headers of the archive's only file. The field is `at` bytes after the field
+// "version needed".
 std::string changed_headers(std::string archive, std::size_t at, std::uint16_t to) {
   archive = patched(archive, archive.find("PK\x03\x04") + 4 + at, to);
   return patched(archive, archive.find("PK\x01\x02") + 6 + at, to);

@@ -24,7 +24,7 @@ TEST(ContactSheet, ShowsTheLeftHalfOfAPreviewReduced) {
   const Image8 tile = tile_of_preview(two_halves(400, 100, 40, 200), 50);
   ASSERT_EQ(tile.width, 50);
   ASSERT_EQ(tile.height, 50);
-  EXPECT_EQ(tile.at(25, 25), 40);  // 200 x 100 pixels become 50 x 25, in the middle
+  EXPECT_EQ(tile.at(25, 25), 40);  // 200 x 100 pixels become 50 x 25, centred
   EXPECT_EQ(tile.at(49, 13), 40);
   EXPECT_NE(tile.at(25, 10), 40);
   EXPECT_NE(tile.at(25, 38), 40);
@@ -44,7 +44,7 @@ TEST(ContactSheet, ReadsThePngThatWeWrite) {
 
 TEST(ContactSheet, HasAPlaceForEachTile) {
   const std::vector<Tile> tiles(7, {filled_image<std::uint8_t>(20, 20, std::uint8_t{77}, 3), ""});
-  const Image8 sheet = contact_sheet(tiles, 20);  // 3 x 3 places
+  const Image8 sheet = contact_sheet(tiles, 20);  // 3 x 3 tiles
   EXPECT_EQ(sheet.width, 3 * 30 + 10);
   EXPECT_EQ(sheet.height, sheet.width + 3 * caption_height_px);
   std::size_t dark = 0;
@@ -52,7 +52,7 @@ TEST(ContactSheet, HasAPlaceForEachTile) {
   EXPECT_EQ(dark, 7U * 20 * 20 * 3);
 }
 
-// Returns the number of pixels in that colour, and fails if one lies outside of the columns and rows.
+// Returns the number of pixels of that colour. Fails if one of them is outside the given columns and rows.
 int count_within(const Image8& image, int left, int right, int top, int bottom) {
   int count = 0;
   for (int y = 0; y < image.height; ++y)
@@ -71,7 +71,7 @@ TEST(Caption, StaysWithinItsPlace) {
     return image;
   };
   EXPECT_EQ(count_within(written(""), 0, 0, 0, 0), 0);
-  // An l is an upright of seven pixels with a foot of two and a serif of one.
+  // The letter l is a stem of seven pixels with a foot of two pixels and a serif of one.
   EXPECT_EQ(count_within(written("l"), 47, 53, 8, 15), 7 + 3);
   const int three = count_within(written("lll"), 41, 59, 8, 15);
   EXPECT_EQ(three, 3 * 10);

@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Runs jobs without making reliefs: the arguments of a job become the content of its solid.
+// Runs jobs without making reliefs: the content of a job's solid is the list of its arguments.
 class BatchRun : public CliFolder {
  protected:
   void SetUp() override {
@@ -53,7 +53,7 @@ class BatchRun : public CliFolder {
     bool operator==(const Counts&) const = default;
   };
 
-  // Runs all jobs and returns how many were made, failed or kept.
+  // Runs all jobs, and returns how many were made, failed or kept.
   Counts run_jobs(RunLimits limits = {2, 0}) {
     const Records records = read_journals(workshop_.outputs);
     std::vector<Work> works;
@@ -94,7 +94,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(journal_lines(), 4U);
 }
 
-// A second run keeps finished outputs. It repeats killed jobs, but not jobs whose errors would come again.
+// A second run keeps finished outputs. It repeats killed jobs, but not jobs whose errors would occur again.
 TEST_F(BatchRun, DoesNothingTwice) {
   run_jobs();
   EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));
@@ -111,7 +111,7 @@ TEST_F(BatchRun, DoesNothingTwice) {
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
 }
 
-// If an option is changed and changed back, the outputs are still those of the change, so they must be made
+// If an option is changed and changed back, the outputs still are those of the change, so they must be made
 // again.
 TEST_F(BatchRun, KeepsOnlyWhatWasMadeLast) {
   jobs_.resize(1);
@@ -126,7 +126,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
   jobs_.resize(2);
   run_jobs();
   const std::string text = read_all(journal_path());
-  write_all(journal_path(), text.substr(0, text.size() - 20));  // as a power failure may leave the journal
+  write_all(journal_path(), text.substr(0, text.size() - 20));  // such as a power failure leaves it
   EXPECT_EQ(run_jobs(), (Counts{1, 0, 1}));
   EXPECT_EQ(run_jobs(), (Counts{0, 0, 2}));
 }
@@ -134,7 +134,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
 TEST_F(BatchRun, GivesAllProcessorsToTheFewJobsThatMemoryAllows) {
   jobs_.resize(1);
   jobs_[0].options["width"] = "10";
-  run_jobs({1, 50});  // the job needs 100 MB, more than the limit, so it runs alone
+  run_jobs({1, 50});  // the job needs 100 MB, which is over the limit, so it runs alone
   const std::string arguments = read_all(folder_ / "out/a.stl");
   const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
   EXPECT_NE(arguments.find("--threads="), std::string::npos);
@@ -174,7 +174,7 @@ class BatchProgram : public CliFolder {
     write_all(folder_ / "scans/bad.ply", "ply\nformat ascii 1.0\n");
   }
 
-  // Returns the lines that --list prints, one per job.
+  // Returns the lines that --list prints: one per job.
   std::vector<std::string> listed(const std::string& options = "") const {
     const Outcome list = run(cat("batch scans -o out --list ", options, quick));
     EXPECT_EQ(list.exit_code, 0) << list.err;
@@ -222,7 +222,7 @@ TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
-// One process runs several jobs, for programs that hand scans to workers. A bad scan must not stop the
+// A program that hands scans to workers may run several jobs in one process. A bad scan must not stop the
 // others.
 TEST_F(BatchProgram, DoesSeveralJobsInTurn) {
   const Outcome jobs = run(command_for(listed()));

@@ -1,4 +1,4 @@
-// Tests the height maps that the program writes: the size and meaning of their pixels, in the files themselves
+// Tests the height maps that the program writes: the size and meaning of their pixels, as stated in the files
 // and in the report.
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace test;
 
 class CliHeightMaps : public CliFolder {
  protected:
-  // Makes a height map of the torus on a plate of 120 x 80 mm with a rim, and returns its values.
+  // Makes a height map of the torus on a plate of 120 x 80 mm with a rim. Returns its values.
   Image<float> map(const std::string& options, const std::string& file = "h.png") {
     const Outcome outcome =
         run("make torus.ply --plate 120x80 --height 3 --rim 4 --rim-height 1 -o " + file + " " + options);
@@ -27,7 +27,7 @@ class CliHeightMaps : public CliFolder {
     return value_of(read_depth_image(std::as_bytes(std::span(bytes_)), file)).values;
   }
 
-  // Returns the pixels per metre in the chunk pHYs of a PNG, across and down.
+  // Returns the horizontal and vertical pixels per metre in the chunk pHYs of a PNG.
   std::pair<unsigned, unsigned> pixels_per_metre() const {
     const std::size_t at = bytes_.find("pHYs") + 4;
     const auto number = [&](std::size_t from) {
@@ -54,11 +54,12 @@ TEST_F(CliHeightMaps, HavePixelsOfExactSizeWithoutASolid) {
   const std::set<std::string> kinds{".png", ".ply"};
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     EXPECT_TRUE(kinds.contains(entry.path().extension())) << entry.path();
-  EXPECT_EQ(map("--pixel 0.01in").width, 473);  // 472.4 pixels: a part of one on either side
+  EXPECT_EQ(map("--pixel 0.01in").width, 473);  // 472.4 pixels: the outer columns are incomplete
   EXPECT_EQ(map("--pixel 0.5", "h.tif").width, 240);
 }
 
-// The pixels of a pitch that divides the plate are those of the picture with as many pixels.
+// If the size of a pixel divides the plate evenly, the map is the same as with the corresponding number of
+// pixels.
 TEST_F(CliHeightMaps, OfAPitchAreThoseOfTheSameNumberOfPixels) {
   const Image<float> by_pitch = map("--pixel 0.5");
   EXPECT_EQ(by_pitch.pixels, map("--heightmap-size 240").pixels);
@@ -68,8 +69,8 @@ TEST_F(CliHeightMaps, OfTheReliefAloneHaveNeitherMarginNorRim) {
   const Image<float> plate = map("--pixel 0.25", "h.tif"),
                      relief = map("--pixel 0.25 --heightmap-area relief", "h.tif");
   EXPECT_EQ(plate.height, 320);
-  EXPECT_NEAR(relief.height, (80 - 2 * 4 - 2 * 5) * 4, 4);  // without rim and margin
-  // The relief lies in the middle of the plate, so the smaller picture is the middle of the larger one.
+  EXPECT_NEAR(relief.height, (80 - 2 * 4 - 2 * 5) * 4, 4);  // without the rim and the margin
+  // The relief is at the centre of the plate, so the smaller map is the central part of the larger one.
   const int left = (plate.width - relief.width) / 2, top = (plate.height - relief.height) / 2;
   double difference = 0;
   for (int y = 0; y < relief.height; ++y)
@@ -105,7 +106,7 @@ TEST_F(CliHeightMaps, OfEightBitsSayHowHighAGreyIs) {
   }
 }
 
-// A batch makes height maps alone, too.
+// A batch can make height maps without solids.
 TEST_F(CliHeightMaps, AreMadeByABatch) {
   std::filesystem::create_directory(folder_ / "scans");
   std::filesystem::copy_file(folder_ / "torus.ply", folder_ / "scans" / "a.ply");

@@ -1,5 +1,5 @@
-// Tests errors that users of the program make: each ends with an exit code and one line, and leaves no file
-// behind.
+// Tests errors that users of the program make. Each must end with an exit code and one line, and leave no
+// file.
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"

@@ -1,5 +1,5 @@
-// Tests the solids and height maps that the program writes. Solids are read without the library, and volumes
-// are compared with closed forms.
+// Tests the solids and height maps that the program writes. Solids are read without the library, and their
+// volumes are compared with closed forms.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,8 +40,8 @@ ReadSolid solid_in_3mf(const std::string& file) {
   return solid;
 }
 
-// The 3MF file has the same solid as the STL file. The height map reaches from the ground to the relief's
-// highest point.
+// The 3MF file has the same solid as the STL file. The values of the height map range from the ground to the
+// relief's highest point.
 TEST_F(CliSolids, Writes3mfAndTiff) {
   const std::string options = "make torus.ply --height 3 --tolerance 0.05 --quiet";
   EXPECT_EQ(run(options + " -o t.3mf --heightmap h.tif --report r.json").exit_code, 0);
@@ -54,13 +54,13 @@ TEST_F(CliSolids, Writes3mfAndTiff) {
   ASSERT_TRUE(map) << map.error().message();
   const auto [lowest, highest] = std::ranges::minmax(map->values.pixels);
   EXPECT_NEAR(highest - lowest, 3, .02);
-  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the corner lies in the margin
+  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the corner is in the margin
   const nlohmann::json report = nlohmann::json::parse(read_all(folder_ / "r.json"), nullptr, false);
   EXPECT_LE(report.value("simplification_error_mm", 1.0), .05);
   EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);
 }
 
-// Together, relief and die fill a block. A lithophane's plate is .8 mm thick.
+// Relief and die together fill a block. The plate of a lithophane is 0.8 mm thick.
 TEST_F(CliSolids, MakesEveryForm) {
   const auto made = [&](const std::string& form) {
     const std::string file = form + ".stl";
@@ -81,7 +81,8 @@ TEST_F(CliSolids, MakesEveryForm) {
   EXPECT_NEAR((relief.volume() + die.volume()) / block, 1, 1e-4);
 }
 
-// The thickness of a photo's lithophane follows its values, from 0.8 mm where it is brightest to 3.2 mm.
+// The thickness of a photo's lithophane depends linearly on its values, from 0.8 mm at the brightest to 3.2
+// mm at the darkest.
 TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   Image8 photo{60, 40, 3, {}};
   for (int i = 0; i < 60 * 40; ++i)
@@ -100,7 +101,7 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   const std::string tiff = read_all(folder_ / "l.tif");
   const auto map = read_depth_image(std::as_bytes(std::span(tiff)), "l.tif");
   ASSERT_TRUE(map);
-  // The map has 2 pixels per millimetre, and the photo a pixel per millimetre.
+  // The map has 2 pixels per millimetre, and the photo has 1.
   const float bright = map->values.at(2 * (5 + 59), 50);
   for (int c = 1; c < 59; ++c) {
     const double darker = static_cast<double>(map->values.at(2 * (5 + c), 50) - bright);
@@ -108,7 +109,7 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   }
 }
 
-// The arc of the ground is as long as the flat plate, and its chord is the width of the file.
+// The arc of the ground is as long as the flat plate. Its chord is the width of the bent solid.
 TEST_F(CliSolids, TellsHowWideASphereLeavesTheGround) {
   const Outcome made =
       run("make torus.ply -o s.stl --wrap sphere:turn=100 --outline circle --diameter 110 --height 2");

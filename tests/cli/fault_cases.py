@@ -23,7 +23,7 @@ def run_with_fault(place, kind, chance, command, name):
     elif kind == "read":
         faults.arm(Faults.READS, chance.randint(1, most[6]), chance.choice([1, 10**9]))
     process = place.start(command, {})
-    if kind == "kill" and chance.random() < 0.5:  # half of the signals come while outputs are written
+    if kind == "kill" and chance.random() < 0.5:  # half of the signals come while outputs are being written
         while process.poll() is None and not place.is_writing():
             time.sleep(0.003)
         time.sleep(chance.uniform(0, 0.02))
@@ -93,7 +93,8 @@ def batch(workshop, kind, chance, number):
         place.mark_as_batch()
         place.add_foreign_files(place.out)
         code, errors, has_hit = run_with_fault(place, kind, chance, batch_command(place), "batch")
-        # If the mark was removed before the program looked for it, and other files were not yet, it refuses the folder.
+        # The program refuses the folder if the mark was already removed when it looked for it, but the other files were
+        # not.
         if kind == "folder gone" and code == 2 and "expected an empty folder, or one of relievo batch" in errors:
             return has_hit
         check_end(kind, code, errors)
@@ -103,12 +104,12 @@ def batch(workshop, kind, chance, number):
         if kind != "folder gone":
             place.check_foreign_files()
             for name, content in files_in(place.out).items():
-                is_of_all = name == "contact-sheet.png"  # it shows the scans that were made
+                is_of_all = name == "contact-sheet.png"  # it shows all scans that were made
                 require(is_of_all or name not in whole or content == whole[name], name, "is not whole")
         place.faults[Faults.CLOCK] = 0
         is_of_others = place.out.is_dir() and any(place.out.iterdir()) and not place.is_marked()
         code, _, errors = finish(place.start(batch_command(place), {}))
-        # If files were written after the mark was removed, the folder counts as foreign.
+        # If files were written after the mark was removed, the folder no longer counts as that of a batch.
         if kind == "folder gone" and is_of_others:
             require(code == 2, "a folder of others is taken", code, errors[:2000])
             return has_hit

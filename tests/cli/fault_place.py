@@ -12,7 +12,7 @@ from pathlib import Path
 SIZE = ["--method", "linear", "--denoise", "0", "--width", "30", "--height", "1", "--resolution", "0.5"]
 SIGNALS = (signal.SIGKILL, signal.SIGINT, signal.SIGTERM)
 NO_ROOM, BROKEN = 28, 5  # ENOSPC, EIO
-PATIENCE = 300  # seconds after which a program counts as stuck
+PATIENCE = 300  # a program that takes more seconds counts as stuck
 
 
 class Find(Exception):
@@ -98,7 +98,7 @@ class Place:
         self.workshop, self.folder = workshop, workshop.folder / str(number)
         self.out, self.state = self.folder / "out", self.folder / "state"
         self.mounted = []
-        # Some file systems support files without names, others do not: both kinds are tried in turn.
+        # Some file systems support files without names, and others do not. Odd and even numbers test one kind each.
         self.environment = {"NO_TMPFILE": "1"} if str(number)[-1] in "13579" else {}
 
     def __enter__(self):

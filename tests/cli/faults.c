@@ -1,12 +1,12 @@
-// This library is preloaded into programs and makes faults happen in them. tests/cli/faults sets these
-// variables in the environment: THREADS, the largest number of threads; SHRINK, the file that becomes shorter
-// when it is about to be read; CLOCK_BACK, with which the clock is set back by an hour whenever it is read.
-// With NO_TMPFILE, no file can be made without a name. scripts/fault-campaign sets FAULTS, a file of numbers
-// that all processes of a program share. They say which calls fail: see the enumeration below. Allocations
-// are counted from main() on, or from the start if AT_ONCE is set. Allocations of modules whose paths contain
-// a word of EXCEPT are not counted.
+// This library is preloaded into programs and causes faults in them. tests/cli/faults sets these environment
+// variables: THREADS, the largest number of threads; SHRINK, a file that becomes shorter just before it is
+// read; CLOCK_BACK, which sets the clock back by an hour whenever it is read. With NO_TMPFILE, no file can be
+// made without a name. scripts/fault-campaign sets FAULTS, a file of numbers that all processes of a program
+// share; the numbers say which calls fail, see the enumeration below. Allocations are counted from the start
+// of main(), or from the start of the program if AT_ONCE is set. Allocations by modules whose paths contain a
+// word of EXCEPT are not counted.
 #define _GNU_SOURCE
-#define open declared_open  // declared with a variable number of arguments
+#define open declared_open  // the header declares it with a variable number of arguments
 #define open64 declared_open64
 #include <fcntl.h>
 #undef open
@@ -29,7 +29,7 @@ extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 
-// With NO_TMPFILE, programs behave as on a file system that cannot make files without names.
+// With NO_TMPFILE, programs see a file system that cannot make files without names.
 static int open_with(const char* path, int flags, mode_t mode) {
   if ((flags & O_TMPFILE) == O_TMPFILE && getenv("NO_TMPFILE")) {
     errno = EOPNOTSUPP;
@@ -37,12 +37,25 @@ static int open_with(const char* path, int flags, mode_t mode) {
   }
   return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
 }
-int open(const char* path, int flags, mode_t mode) { return open_with(path, flags, mode); }
-int open64(const char* path, int flags, mode_t mode) { return open_with(path, flags, mode); }
+int open(const char* path, int flags, mode_t mode) {
+  return open_with(path, flags, mode);
+}
+int open64(const char* path, int flags, mode_t mode) {
+  return open_with(path, flags, mode);
+}
 
-// Each kind of call has three numbers: how many calls there were, which is the first to fail (0 for none), and how many
-// fail one after the other. Allocations of fewer than `least_bytes` are not counted and do not fail.
-enum { allocations = 0, writes = 3, reads = 6, write_error = 9, clock_shift_s = 10, least_bytes = 11, numbers = 16 };
+// Each kind of call has three numbers: the number of calls so far, the first call that fails (0 for none),
+// and the number of successive calls that fail. Allocations of fewer than `least_bytes` bytes are not counted
+// and do not fail.
+enum {
+  allocations = 0,
+  writes = 3,
+  reads = 6,
+  write_error = 9,
+  clock_shift_s = 10,
+  least_bytes = 11,
+  numbers = 16
+};
 static atomic_long none[numbers];
 static atomic_long* shared = none;
 static int is_started;
@@ -86,23 +99,31 @@ static int allocation_fails(size_t size, const void* caller) {
 }
 
 #define FAILS(size) allocation_fails(size, __builtin_return_address(0))
-void* malloc(size_t size) { return FAILS(size) ? 0 : __libc_malloc(size); }
-void* calloc(size_t count, size_t size) { return FAILS(count * size) ? 0 : __libc_calloc(count, size); }
-void* realloc(void* block, size_t size) { return FAILS(size) ? 0 : __libc_realloc(block, size); }
-void* aligned_alloc(size_t alignment, size_t size) { return FAILS(size) ? 0 : __libc_memalign(alignment, size); }
+void* malloc(size_t size) {
+  return FAILS(size) ? 0 : __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) {
+  return FAILS(count * size) ? 0 : __libc_calloc(count, size);
+}
+void* realloc(void* block, size_t size) {
+  return FAILS(size) ? 0 : __libc_realloc(block, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  return FAILS(size) ? 0 : __libc_memalign(alignment, size);
+}
 int posix_memalign(void** block, size_t alignment, size_t size) {
   if (FAILS(size)) return ENOMEM;
   return (*block = __libc_memalign(alignment, size)) ? 0 : ENOMEM;
 }
 
-void* _ZSt15set_new_handlerPFvvE(void* handler) {  // std::set_new_handler, which main() calls first
-  void* library = dlopen("libstdc++.so.6", RTLD_NOW | RTLD_NOLOAD);  // loaded locally if a module of Python needs it
+void* _ZSt15set_new_handlerPFvvE(void* handler) {  // std::set_new_handler, called first by main()
+  void* library = dlopen("libstdc++.so.6", RTLD_NOW | RTLD_NOLOAD);  // loaded locally if a module needs it
   void* (*original)(void*) = (void* (*)(void*))dlsym(library, "_ZSt15set_new_handlerPFvvE");
   is_started = 1;
   return original(handler);
 }
 
-// Only calls on regular files fail, not those on connections or the terminal.
+// Calls fail on regular files only, not on connections or the terminal.
 static int file_fails(int kind, int file) {
   struct stat about;
   if (shared == none || fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || !fails(kind)) return 0;
@@ -129,10 +150,13 @@ ssize_t write(int file, const void* bytes, size_t size) {
 ssize_t writev(int file, const struct iovec* parts, int count) {
   return file_fails(writes, file) ? -1 : syscall(SYS_writev, file, parts, count);
 }
-int fsync(int file) { return file_fails(writes, file) ? -1 : (int)syscall(SYS_fsync, file); }
+int fsync(int file) {
+  return file_fails(writes, file) ? -1 : (int)syscall(SYS_fsync, file);
+}
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*start)(void*), void* argument) {
-  int (*create)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) = dlsym(RTLD_NEXT, "pthread_create");
+  int (*create)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) =
+      dlsym(RTLD_NEXT, "pthread_create");
   static atomic_long given;
   const char* most = getenv("THREADS");
   return most && atomic_fetch_add(&given, 1) >= atol(most) ? EAGAIN : create(thread, how, start, argument);

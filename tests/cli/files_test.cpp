@@ -1,4 +1,4 @@
-// Tests files of the programs: paths that are no files, temporary files, and pipes where they are allowed.
+// Tests files of the programs: paths that are not files, temporary files, and pipes where they are allowed.
 #include "common/files.h"
 
 #include <fcntl.h>
@@ -75,8 +75,8 @@ TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   EXPECT_EQ(files(), before + 2) << "nothing is left of what could not take its place";
 }
 
-// The names of temporary files end with consecutive numbers. Here files with the next 2,000 numbers exist
-// already.
+// Names of temporary files end with consecutive numbers. In this test, files with the next 2,000 numbers
+// already exist.
 TEST_F(Files, NothingIsRemovedThatWasThere) {
   write_all(path("a.stl"), "old");
   std::vector<std::string> names{"a.stl.relievo-abcdef", "a.stl.relievo-ABCDEF", "a.stl.relievo-"};
@@ -90,8 +90,8 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// The test writes the files that a process leaves if it is killed just before a finished file replaces
-// another.
+// The test writes the files that a process leaves if it is killed just before it replaces a file by the
+// finished new one.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   const auto leave = [&](const char* name) {
@@ -147,7 +147,7 @@ TEST_F(Files, TemporaryFilesHaveTheirPermissionsAndLeaveTheMaskAlone) {
   ::umask(before);
 }
 
-// While one thread handles the signal, the others go on making files.
+// While one thread handles the signal, the other threads continue to make files.
 TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "this sanitizer delays signals";
@@ -175,7 +175,7 @@ TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
 }  // namespace
 }  // namespace relievo
 
-// Replaces umask() of the C library, to count calls.
+// Replaces umask() of the C library, to count its calls.
 extern "C" mode_t umask(mode_t mask) {
   ++relievo::calls_of_umask;
   return static_cast<mode_t>(::syscall(SYS_umask, mask));

@@ -40,7 +40,7 @@ TEST_F(CliInputs, ReadsNoFileOutsideTheFolderOfAGltf) {
   expect_refusal("info scans/a.gltf", "expected a file in the same folder, found '../b.bin'");
 }
 
-// Triangles use three of the five points. Of the other two, one is not finite, and one is far away.
+// The triangles use three of the five points. One of the other points is not finite, and one is far away.
 TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   write_all(folder_ / "a.obj",
             "v 0 0 0\nv 2 0 0\nv 0 3 0\nv nan 0 0\nv 0 0 1e30\nvn 0 0 1\nvn 0 0 -1\n"
@@ -52,7 +52,7 @@ TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   EXPECT_EQ(line_of(run("info s.json").out, "from"), "0, 0, 50");
 }
 
-// A small ball beside a button is left out, and so is noise. Each line names the option that keeps it.
+// A small ball beside a button is left out, and so is noise. Each remark names the option that keeps it.
 TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
   const Cloud crumb = moved(sphere(200, .03), {1.6, 0, 0});
   write_all(folder_ / "button.ply", write_ply(joined(button(40000, 1, .15), crumb)));
@@ -80,8 +80,8 @@ TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
   EXPECT_EQ(run("make torus.ply -o t.stl --stream-above 0.1").err.find("faces"), std::string::npos);
 }
 
-// In WebAssembly clouds of more points than fit into memory are read piece by piece. Meshes are not, as only the
-// points that are seen of their triangles are kept.
+// In WebAssembly, a cloud with more points than fit into memory is read in blocks. A mesh is not, since only
+// sampled points of its visible triangles are kept.
 TEST_F(CliInputs, ReadsCloudsOfTooManyPointsPieceByPiece) {
   const std::string torus = (folder_ / "torus.ply").string();
   const auto remarks = [&](const std::string& path, double most_points) {

@@ -1,5 +1,5 @@
-# Makes a relief of a generated scan with the program RELIEVO in FOLDER, and fails unless the solid is a binary STL file
-# of the length that its number of triangles says.
+# Makes a relief of a generated scan with the program RELIEVO in FOLDER. Fails if the solid is not a binary STL file
+# whose length agrees with its number of triangles.
 set(scan ${FOLDER}/whole_relief.ply)
 set(body ${FOLDER}/whole_relief.stl)
 execute_process(COMMAND ${RELIEVO} sample shell -o ${scan} --points 20000 COMMAND_ERROR_IS_FATAL ANY)

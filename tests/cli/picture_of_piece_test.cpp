@@ -1,5 +1,5 @@
-// Tests that the studio shows what its files contain. Compares its picture of a piece with a picture of the
-// exported STL, which is drawn only from the triangles.
+// Tests that the studio shows the content of its files: compares its picture of a piece with a picture of the
+// exported STL, for which only the triangles are used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using app::studio::Drawing;
 
-// Returns the model that the options ask for, which is one for all methods but the paper's.
+// Returns the model for the options. All methods except the paper's share one model.
 std::shared_ptr<const ReliefModel> model_for(const ReliefOptions& options) {
   const auto make = [](const View& view) {
     return std::make_shared<const ReliefModel>(*prepare(*make_sample("still_life", {.points = 20000}), view));
@@ -30,7 +30,7 @@ std::shared_ptr<const ReliefModel> model_for(const ReliefOptions& options) {
   return options.effective_view().is_paper ? make(options.effective_view()) : made;
 }
 
-// Returns a solid of the triangles in a file. Triangles that face upwards are its front.
+// Returns a solid made of the triangles in a file. Triangles that face upwards form its front.
 Solid solid_with_front(const test::ReadSolid& file, double ground_mm) {
   Solid solid = test::solid_of(file);
   solid.ground_mm = ground_mm;
@@ -52,7 +52,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Removes the camera's angles from a piece, as they are not among the options. Returns the camera.
+// Removes the camera's angles, which are not options, from a piece. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);
@@ -62,7 +62,7 @@ Camera take_camera(nlohmann::json& piece) {
   return camera;
 }
 
-// Removes the base from a piece and returns it. A base of kind image gets its image here, as the text of a
+// Removes the base from a piece and returns it. Adds the image of a base of kind image, since the text of a
 // piece cannot contain it.
 BaseOptions take_base(nlohmann::json& piece) {
   BaseOptions base = *parse_base(piece.value("base", "plane"));
@@ -71,9 +71,9 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
-// Returns the correlation, over the piece, between the picture's green channel and the cosines of the angles
-// between surface and lamp. Expects that the piece is drawn where there are cosines and nowhere else, except
-// for pixels of its outline.
+// Returns the correlation between the picture's green channel and the cosines of the angles between surface
+// and lamp, over the pixels of the piece. Expects that the picture shows the piece exactly where there are
+// cosines, except at pixels of its outline.
 double agreement(const Image8& picture, const Image<double>& cosines) {
   Image<float> drawn = filled_image(picture.width, picture.height, 0.F), expected = drawn;
   PixelMask both;
@@ -91,8 +91,8 @@ double agreement(const Image8& picture, const Image<double>& cosines) {
   return correlation(drawn, expected, both);
 }
 
-// Expects that, without shadows, the piece's brightness follows the angles between surface and lamp. A second
-// renderer, which shares no code with the library, computes these angles.
+// Expects that the brightness of the piece, without shadows, depends on the angles between surface and lamp.
+// A second renderer, which shares no code with the library, computes these angles.
 void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& drawing,
                       app::studio::PictureRequest request) {
   const Camera& camera = request.render.camera;
@@ -107,8 +107,8 @@ void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& dr
     const double right = agreement(shown->picture.image, test::lamp_cosines(file, rays, lamp));
     const Vec3 other = lamp.cwiseProduct(Vec3(-1, 1, 1));
     const double wrong = agreement(shown->picture.image, test::lamp_cosines(file, rays, other));
-    // The library's renderer adds the light of the sky, and shades large triangles and steep walls smoothly;
-    // the other renderer does neither.
+    // The library's renderer also adds skylight, and shades large triangles and steep walls smoothly, which
+    // the other renderer does not do.
     EXPECT_GT(right, request.options.form == Form::lithophane ? .55 : .85);
     EXPECT_LT(wrong, right - .2);
   }
@@ -147,7 +147,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   SolidRenderer(solid).render(request.render, file);
   EXPECT_GT(test::structural_similarity(shown->picture.image, file.image), .97);
 
-  // The comparison must detect another picture, here one that is 2 % smaller.
+  // The comparison must detect a different picture, such as one that is 2 % smaller.
   request.render.camera.zoom = .98;
   SolidRenderer(solid).render(request.render, file);
   EXPECT_LT(test::structural_similarity(shown->picture.image, file.image), .85);

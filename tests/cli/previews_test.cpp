@@ -1,4 +1,4 @@
-// Tests that the preview of a relief shows the relief on plates of all forms and wraps.
+// Tests that the preview of a relief shows the relief for all forms and wraps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ MadeRelief made_of(const char* wrap, Form form = Form::relief, double radius = 1
   return make_relief(std::move(cloud), options).value();
 }
 
-// Returns the pixels of the left or the right picture in the preview.
+// Returns the pixels of the left or the right view in the preview.
 std::vector<std::uint8_t> half_of(const Image8& preview, bool is_right) {
   std::vector<std::uint8_t> half;
   const int width = preview.width / 2;
@@ -35,7 +35,7 @@ std::vector<std::uint8_t> half_of(const Image8& preview, bool is_right) {
   return half;
 }
 
-// Returns the share of the pixels' values that clearly differ.
+// Returns the share of values that differ clearly.
 double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
   std::size_t differ = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) differ += std::abs(a[i] - b[i]) > 12;
@@ -56,8 +56,8 @@ TEST(PreviewOfRelief, OfABentLithophaneIsTheFlatOneLitFromBehind) {
   EXPECT_EQ(half_of(preview_of(made, {.longer_side_px = side_px}), false), half_of(flat, false));
 }
 
-// The front picture shows the relief before it is bent. The oblique picture must show the relief, too, so it
-// must change if the sphere in it is larger.
+// The front view shows the relief before it is bent. The oblique view must show the relief, too: it must
+// change if the sphere in the relief is larger.
 TEST(PreviewOfRelief, OfAnInsideWrapShowsTheWork) {
   for (const char* wrap :
        {"cylinder:turn=360,inside", "cylinder:turn=360,inside,direction=0", "cylinder:turn=270,inside",

@@ -1,5 +1,5 @@
-// Checks a solid in an STL file, and a height map against it, without the code that made them: check_solid
-// SOLID.stl [MAP.png|MAP.tif]. If there are faults, the program prints them and its exit code is 1.
+// Checks a solid in an STL file, and a height map against the solid, without the code that made them:
+// check_solid SOLID.stl [MAP.png|MAP.tif]. Prints the faults; the exit code is 1 if there are any.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -16,7 +16,7 @@ std::string bytes_of(const char* path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The triangles that face +Z, and their box.
+// The triangles that face +Z, and their bounding box.
 struct Front {
   std::vector<Corners> triangles;
   Box box;
@@ -37,8 +37,8 @@ Front front_of(const Solid& solid) {
   return front;
 }
 
-// Returns the height of the highest triangle under each pixel's centre, NaN where there is none. Tries all
-// pixels in each triangle's box.
+// Returns the height of the highest triangle at each pixel's centre; NaN where there is no triangle. Tests
+// all pixels in the bounding box of each triangle.
 Image<double> heights_under(const Front& front, int width, int height, double mm_per_pixel) {
   Image<double> heights = filled_image(width, height, std::nan(""));
   const Vec3 middle = front.box.centre();
@@ -66,8 +66,8 @@ Image<double> heights_under(const Front& front, int width, int height, double mm
   return heights;
 }
 
-// Returns how a map differs from the solid. The text is empty if no pixel differs by more than .01 mm, and at
-// most a thousandth of the pixels by more than a micrometre.
+// Returns a text about the difference between a map and the solid. It is empty if no pixel differs by more
+// than 0.01 mm, and at most a thousandth of the pixels by more than a micrometre.
 std::string difference(const Solid& solid, const char* path) {
   const std::string file = bytes_of(path);
   const Result<DepthImage> map = read_depth_image(std::as_bytes(std::span(file)), path);

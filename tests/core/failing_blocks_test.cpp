@@ -1,5 +1,5 @@
-// Tests parallel calls whose blocks throw, as they do when memory runs out. Builds without exceptions, such
-// as WebAssembly, leave these tests out.
+// Tests parallel calls whose blocks throw, as when memory runs out. Builds without exceptions, such as
+// WebAssembly, omit these tests.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -23,7 +23,7 @@ struct Failure {
   std::size_t block;
 };
 
-// Returns the block whose exception a parallel call throws; `blocks` if it throws none.
+// Returns the block whose exception the parallel call throws; `blocks` if it throws none.
 template <typename F>
 std::size_t failed_block(std::size_t blocks, F&& f) {
   try {
@@ -45,8 +45,7 @@ TEST_P(FailingBlocks, GiveTheCallerTheirException) {
   EXPECT_THROW(parallel_both([] { throw std::bad_alloc(); }, [] {}), std::bad_alloc);
 }
 
-// The lowest of the failing blocks waits a while for another one to fail. So a higher block often fails
-// before it.
+// The lowest failing block waits a while for another block to fail. So a higher block often fails first.
 TEST_P(FailingBlocks, GiveTheExceptionOfTheLowestOne) {
   for (std::size_t first = 0; first < 60; ++first) {
     std::atomic<bool> has_other_failed = false;
@@ -72,8 +71,8 @@ TEST_P(FailingBlocks, LeaveOutThoseThatHaveNotBegun) {
   EXPECT_LE(begun, GetParam());
 }
 
-// Each block waits for the block before it. Unless a failure ends the waiting, the blocks after the failing
-// one would wait for ever.
+// Each block waits for the previous block. The blocks after a failing block would wait for ever if the
+// failure did not end their waiting.
 TEST_P(FailingBlocks, EndTheWaitOfOthers) {
   for (std::size_t failing = 0; failing < 50; ++failing) {
     BlockFlags done(50);

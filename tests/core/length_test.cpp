@@ -30,7 +30,7 @@ TEST(Length, MayBeAFraction) {
 }
 
 // Each case is a text and its length in millimetres, or null if the text must be refused. The tests of the
-// page's parse_length() use the same file.
+// page's parseLength() use the same file.
 TEST(Length, IsWhatTheSharedCasesSay) {
   std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "lengths.json");
   const auto cases = nlohmann::json::parse(file);

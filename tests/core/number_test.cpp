@@ -66,8 +66,8 @@ TEST(Number, SaysThatANumberIsOutOfRange) {
 }
 
 #if defined(__cpp_lib_to_chars)
-// The standard library gives the expected values. Texts with few digits take the parser's fast path, texts
-// with many do not.
+// The expected values are those of the standard library. Texts with few digits take the parser's fast path;
+// texts with many digits do not.
 TEST(Number, DoesWhatTheStandardLibraryDoes) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 50'000; ++i) {

@@ -1,5 +1,5 @@
-// Tests loops that several threads run at the same time. The tests for WebAssembly leave this file out, as it
-// uses std::thread.
+// Tests loops that several threads run at the same time. The tests for WebAssembly omit this file, as it uses
+// std::thread.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,16 +12,16 @@
 namespace relievo {
 namespace {
 
-// Waits until the flag is set, but at most a minute: if loops wait for each other, the test fails instead of
-// running for ever.
+// Waits until the flag is set, but at most a minute: if the loops wait for each other, the test fails instead
+// of running for ever.
 bool is_set_in_time(const std::atomic<bool>& flag) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!flag && std::chrono::steady_clock::now() < end) std::this_thread::yield();
   return flag;
 }
 
-// The long loop lasts until the short one has ended. If the short loop waits for it, the long one gives up
-// after a minute.
+// The long loop runs until the short one has ended. If the short loop waits for the long one, the long one
+// gives up after a minute.
 TEST(ParallelLoops, DoNotWaitForTheEndOfALongOne) {
   set_thread_count(2);
   std::atomic<bool> has_begun = false, may_end = false, has_given_up = false;

@@ -27,7 +27,7 @@ TEST(FindRoot, FindsRootsNearAndFar) {
   }
 }
 
-// Each function is much steeper in one part than in another.
+// Each function is much steeper in one part of its domain than in another.
 TEST(FindRoot, FindsThemOnCurvesOfManyShapes) {
   const auto expect_root = [](auto f) {
     const Search s = search(f);

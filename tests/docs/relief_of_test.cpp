@@ -1,4 +1,4 @@
-// Tests that the example of docs/library.md, compiled as it stands there, makes the relief that that page promises.
+// Tests that the example of docs/library.md, compiled unchanged, makes the relief that the page promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ relievo::Result<std::vector<std::byte>> relief_of(std::span<const std::byte> sca
 
 namespace {
 
-// Returns the extent along z of a binary STL: 84 bytes of header, then 50 bytes per triangle, normals first.
+// Returns the extent along z of a binary STL, which has 84 bytes of header, then 50 bytes per triangle: the
+// normal, then the corners.
 float z_extent(std::span<const std::byte> stl) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (std::size_t at = 84; at + 50 <= stl.size(); at += 50)

@@ -1,6 +1,6 @@
-// Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file, a zero byte
-// and the buffer of the glTF file; both are put into an archive. Otherwise the rest is the archive or project
-// file itself.
+// Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file, a zero byte,
+// and the buffer of the glTF file; both are put into an archive. Otherwise the rest is itself the archive or
+// project file.
 #include <algorithm>
 #include <cstdlib>
 #include <string>

@@ -1,4 +1,4 @@
-// Fuzz target of fonts: texts of several scripts are set in a font with these bytes.
+// Fuzz target of fonts: sets texts of several scripts in a font that consists of the input's bytes.
 #include <cstdlib>
 #include <memory>
 #include <string_view>

@@ -1,5 +1,5 @@
-// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names.
-// The first byte of an input chooses one of these names, the rest is the file.
+// Fuzz targets of the readers, one for each family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file
+// names. The first byte of an input chooses one of these names; the rest is the file.
 #include <array>
 #include <cstdlib>
 #include <string>
@@ -28,7 +28,7 @@ constexpr std::array names = {"a.png", "a.tif", "a.npy", "a.pfm",
                               "a.bmp", "a.asc", "a.dat", "a.jpg"};  // pictures
 #endif
 
-// Returns the file with right checksums, without which no E57 file is read.
+// Returns the file with correct checksums, because the reader of E57 rejects all others.
 std::string with_checksums(std::string file) {
   for (std::size_t page = 0; page + 1024 <= file.size(); page += 1024) {
     const std::uint32_t checksum = bitwise_crc32c(std::string_view(file).substr(page, 1020));

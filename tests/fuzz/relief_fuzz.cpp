@@ -1,5 +1,5 @@
-// Fuzz target of whole reliefs. A small cloud and a few options become an error or a solid, which must be
-// closed and as high as was asked. The first bytes are the options, the others the points.
+// Fuzz target of whole reliefs. A small cloud and a few options give an error or a solid, which must be
+// closed and have the requested height. The first bytes are the options, the rest are the points.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace relievo;
 
-// Makes a point of every three bytes. The points lie in rows of a grid, so that most are visible.
+// Makes a point from every three bytes. The points lie on the lines of a grid, so that most are visible.
 Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
   Cloud cloud;
   for (std::size_t i = 0; i + 2 < size && cloud.size() < 400; i += 3) {

@@ -1,4 +1,4 @@
-// Fuzz target of the studio's requests, below HTTP. The first byte chooses an action, the rest is the body.
+// Fuzz target of the studio's requests without HTTP. The first byte chooses an action, the rest is the body.
 // One document is open, and pictures and exports are small. The page must be able to show every answer.
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ constexpr const char* action_names[] = {
     "frame",    "scan",   "profile", "export", "view",  "reach", "state", "picture", "recent",      "leave",
     "document", "status", "facts",   "pixels", "views", "check", "piece", "save",    "cancel_piece"};
 
-// A studio that has opened a sample.
+// A studio with an open sample.
 struct Studio {
   std::string folder = std::filesystem::temp_directory_path() / "relievo-fuzz-XXXXXX";
   DiskStore store{*take_state_folder(::mkdtemp(folder.data()))};
@@ -47,7 +47,8 @@ struct Studio {
   ~Studio() { std::filesystem::remove_all(folder); }
 };
 
-// Makes a request concern the open document, with pictures and samples that take little time.
+// Makes a request refer to the open document, and reduces its pictures and samples so that they take little
+// time.
 Json small(Json json, const std::string& document) {
   if (json.value("document", Json("")) != Json("x")) json["document"] = document;
   json["width"] = 48;
@@ -71,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                      small(*json, studio.document))
                 : answer_of(json.error());
   } catch (const Json::exception&) {
-    return 0;  // a field of another type, which the server answers with 400
+    return 0;  // a field has the wrong type, which the server answers with 400
   }
   constexpr std::array known = {200, 202, 400, 409, 422, 500};
   const bool is_known = std::ranges::find(known, made.status) != known.end();

@@ -1,4 +1,4 @@
-// Fuzz target of drawings: SVG, and the points of walls along small drawings.
+// Fuzz target of drawings: SVG files, and the points of walls along small drawings.
 #include <cstdlib>
 #include <string_view>
 

@@ -33,8 +33,8 @@ TEST(Inset, LeavesOutSidesThatVanish) {
   EXPECT_EQ(inset(cut, 30.0 * (2 - std::sqrt(2.0))).size(), 4U);
 }
 
-// The result is within a micrometre of the rectangle, not exactly equal: the sides that stand for a round
-// corner lie inside its arc, and so do these sides after the inset.
+// The result is within a micrometre of the rectangle, but not equal: a round corner is a polygon inside its
+// arc, and so is the polygon after the inset.
 TEST(Inset, RoundCornersOfThatRadiusBecomeSharp) {
   const std::vector<Vec2> corners = {{0, 0}, {60, 40}};
   const std::vector<Vec2> rounded = outline_around(corners, {Outline::round, 5, 5});
@@ -60,4 +60,5 @@ TEST(Inset, EveryCornerIsAsFarInsideAsAsked) {
 }
 
 }  // namespace
+   // inset.
 }  // namespace relievo

@@ -17,7 +17,7 @@ std::vector<Vec2> points_around_0(std::size_t n, unsigned seed) {
   return points;
 }
 
-// Returns a closed loop through the points in the order of their angles, which does not cross itself.
+// Returns a closed loop through the points, sorted by their angles. The loop does not cross itself.
 std::vector<EdgeEnds> loop_around(const std::vector<Vec2>& points) {
   std::vector<Index> order(points.size());
   for (Index i = 0; i < order.size(); ++i) order[i] = i;

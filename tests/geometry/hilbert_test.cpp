@@ -12,7 +12,7 @@ TEST(HilbertOrder, StepsFromCellToAdjacentCell) {
   const int side = 64;
   std::vector<Vec2> points;
   for (int i = 0; i < side * side; ++i) points.emplace_back(64 * (i % side), 64 * (i / side));
-  points.emplace_back(4095, 4095);  // makes the curve's finest cells unit squares
+  points.emplace_back(4095, 4095);  // makes the finest cells of the curve unit squares
   std::vector<Index> order = hilbert_order(points);
   std::erase(order, side * side);
   for (std::size_t k = 1; k < order.size(); ++k) {
@@ -39,7 +39,7 @@ TEST(HilbertOrder, KeepsEqualPointsByNumber) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-// A single far point must not put all other points into one cell, so it must not change their order.
+// If a single distant point put all others into one cell, it would change their order.
 TEST(HilbertOrder, ResolvesClusters) {
   std::vector<Vec2> points;
   for (int i = 0; i < 1024; ++i) points.emplace_back(i * 37 % 32, i / 32);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double cell = .1;
 
-// Random points of a square of side 2, and a lattice that counts two of every three.
+// Random points in a square of side 2, and a lattice that counts two of every three points.
 struct Scattered {
   std::vector<Vec3> points = test::sheet(3000, 1, 0).points;
   std::vector<Index> counted = two_of_three(points.size());
@@ -48,8 +48,8 @@ std::vector<double> some_values(std::size_t n) {
   return values;
 }
 
-// B-splines reproduce linear functions. So a point's position in cells is its position in the plane, scaled
-// and shifted.
+// B-splines reproduce linear functions. So a point's position in cells is a scaled and shifted copy of its
+// position in the plane.
 TEST(Lattice, IsLinearBetweenItsNodes) {
   const Scattered s;
   const Vec2 first = s.place(0);
@@ -59,7 +59,7 @@ TEST(Lattice, IsLinearBetweenItsNodes) {
   }
 }
 
-// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() are nowhere below
+// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() are never below
 // this parabola, and at most 1/64 above it.
 TEST(Lattice, IsSmoothBetweenItsNodes) {
   const Scattered s;
@@ -74,7 +74,7 @@ TEST(Lattice, IsSmoothBetweenItsNodes) {
   }
 }
 
-// The expected values follow the definition: each node's mean is computed from all counted points.
+// The expected values follow the definition: the mean of a node is computed from all counted points.
 TEST(Lattice, GathersMeansBySquaredWeights) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());
@@ -130,7 +130,7 @@ TEST(Lattice, FindsWhatValuesDoBetweenNodes) {
   }
 }
 
-// A node inside the lattice belongs to four cells. It is the first corner of one cell, the second corner of
+// A node inside the lattice is a corner of four cells: the first corner of one cell, the second corner of
 // another, and so on.
 TEST(Lattice, KnowsTheCellsAroundANode) {
   const Scattered s;
@@ -157,8 +157,8 @@ TEST(Lattice, FindsTheNodesAroundAPoint) {
   }
 }
 
-// The expected nodes are those inside the triangle. place() gives its corners in units of cells, in which a
-// node's coordinates are its column and row.
+// The expected nodes are those inside the triangle. place() gives the triangle's corners in units of cells;
+// in these units, a node's coordinates are its column and row.
 TEST(Lattice, FindsTheNodesInATriangle) {
   const Scattered s;
   for (Index first = 0; first + 2 < 300; first += 3) {
@@ -180,7 +180,7 @@ TEST(Lattice, FindsTheNodesInATriangle) {
 }
 
 // Cubic B-splines add up to 1 and reproduce linear functions. So the spread amounts add up to the given
-// amount, and their centre is the given place.
+// amount, and their centroid is the given position.
 TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
   const Scattered s;
   for (const Vec2& place : {Vec2(3, 4), Vec2(5.25, 2.9), Vec2(7.999, 8.5)}) {

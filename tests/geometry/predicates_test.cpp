@@ -26,7 +26,7 @@ Integer orientation(Integer ax, Integer ay, Integer bx, Integer by) {
   return ax * by - ay * bx;
 }
 
-// Computes the determinant in the number type to which `integer` converts coordinates.
+// Computes the determinant in the number type that `integer` returns.
 template <typename F>
 auto orient2d_oracle(const Vec2& a, const Vec2& b, const Vec2& c, F integer) {
   const auto cx = integer(c.x()), cy = integer(c.y());
@@ -57,7 +57,7 @@ int exact_incircle(const Quad& q) {
   return incircle_oracle(q, BigInteger::scaled).sign();
 }
 
-// Returns the sign that plain doubles give. Its errors show that a test contains hard cases.
+// Returns the sign as computed in plain doubles. Its errors prove that a test contains hard cases.
 int naive_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return sign(orient2d_oracle(a, b, c, [](double x) { return x; }));
 }
@@ -83,9 +83,9 @@ TEST(Predicates, AgreeWithIntegerArithmetic) {
   }
 }
 
-// The examples are those of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra, C. Yap, "Classroom Examples of
-// Robustness Problems in Geometric Computations", 2008: a point near the line through two other points moves
-// by single bits.
+// The examples are from L. Kettner, K. Mehlhorn, S. Pion, S. Schirra, C. Yap, "Classroom Examples of
+// Robustness Problems in Geometric Computations", 2008: a point near the line through two other points is
+// moved by single bits.
 TEST(Orient2d, IsRightOnTheClassroomExamples) {
   struct Line {
     Vec2 p, q, r;
@@ -108,7 +108,7 @@ TEST(Orient2d, IsRightOnTheClassroomExamples) {
   }
 }
 
-// Four points of a unit circle are moved by a common offset and rounded. The last one is also moved by -2 to
+// Four points on a unit circle are moved by a common offset and rounded. The last one is also moved by -2 to
 // 2 times 2^-53.
 TEST(Incircle, IsRightNearTheCircle) {
   std::mt19937_64 random(1);
@@ -128,8 +128,8 @@ TEST(Incircle, IsRightNearTheCircle) {
   EXPECT_GT(naive_errors, 0);
 }
 
-// The corners of an upright rectangle lie on a circle, whatever their coordinates are. The test must find
-// this even if the differences of the coordinates are rounded.
+// The corners of an axis-parallel rectangle lie on a circle, whatever its coordinates are. The predicate must
+// find this even if the differences of the coordinates are rounded.
 TEST(Incircle, KnowsRectangles) {
   std::mt19937_64 random(2);
   const auto coordinate = [&] {
@@ -147,7 +147,7 @@ TEST(Incircle, KnowsRectangles) {
   }
 }
 
-// The coordinates in one determinant may have any magnitudes that the header allows.
+// The coordinates in a determinant may have any magnitudes in the range that the header allows.
 TEST(Predicates, AreExactToTheEndsOfTheRange) {
   std::mt19937_64 random(3);
   const double ends[] = {0, 1e-60, -1e-60, 1e70, -1e70, 1 + 0x1p-52, 1e-20, -0x1.fffffffffffffp-150, 3e40};

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// An L whose arms are 2 and 0.5 wide, with a hole in the wide arm.
+// An L with arms of width 2 and 0.5, and with a hole in the wide arm.
 Outlines ell() {
   return {{{0, 0}, {6, 0}, {6, .5}, {2, .5}, {2, 5}, {0, 5}}, {{.8, 3}, {.8, 3.6}, {1.4, 3.6}, {1.4, 3}}};
 }

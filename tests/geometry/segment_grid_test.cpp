@@ -60,7 +60,7 @@ TEST(SegmentGrid, CrossingsAgreeWithBruteForce) {
 }
 
 TEST(SegmentGrid, KnowsTheSideAlsoBesideCorners) {
-  std::vector<Segment> star;  // a closed curve with acute corners, with its inside on the left
+  std::vector<Segment> star;  // a closed curve with acute corners; its inside is on the left
   const auto at = [](int i) {
     const double angle = std::numbers::pi * i / 5;
     return Vec2((i % 2 ? .3 : 1) * Vec2(std::cos(angle), std::sin(angle)));

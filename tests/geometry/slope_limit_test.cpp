@@ -14,14 +14,14 @@
 namespace relievo {
 namespace {
 
-// Two triangles that share a short edge. The points are the two ends of the edge, then the far corner of each
-// triangle.
+// Two triangles that share a short edge. The points are first the two ends of the edge, then the far corner
+// of each triangle.
 struct Needles {
   std::array<Vec3, 4> points;
   std::vector<Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
 };
 
-// Computes a triangle's slope by its definition, from its normal.
+// Computes the slope of a triangle by definition, from its normal.
 double steepness_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   return std::hypot(p.y() * q.z() - p.z() * q.y(), p.z() * q.x() - p.x() * q.z()) /
@@ -40,14 +40,16 @@ double rise_of(const Needles& needles) {
 }
 
 Needles stored(Needles needles) {
-  // The floats are stored first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
+  // The floats are first stored in an array, because g++ 12 drops the rounding of double(float(x)) when it
+  // vectorises.
   std::vector<Vec3f> points;
   for (const Vec3& p : needles.points) points.push_back(p.cast<float>());
   for (std::size_t i = 0; i < 4; ++i) needles.points[i] = points[i].cast<double>();
   return needles;
 }
 
-// The needles after limit_slopes(), and the largest move of a point; infinity if a needle is still too steep.
+// The needles after limit_slopes(), and the largest distance that a point moved; infinity if a needle is
+// still too steep.
 struct Flattened {
   Needles needles;
   double largest_move = std::numeric_limits<double>::infinity();
@@ -69,7 +71,7 @@ Flattened flattened(const Needles& given, Rounding rounding) {
   return made;
 }
 
-// To flatten these needles, the far corner must move several times by less than half a step of single
+// To flatten these needles, the far corner must move several times by less than half a unit of single
 // precision. Rounding must not undo each of these moves.
 TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   const Needles needles = stored({{Vec3(20.0135155, 20.0189285, 3.00464439),
@@ -83,8 +85,8 @@ TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   EXPECT_EQ(stored(made.needles).points, made.needles.points);
 }
 
-// A small move flattens one needle but makes the other steep. To flatten both, the far corners must move
-// hundreds of times as far.
+// A small move flattens one needle but makes the other one steep. Both become flat only if the far corners
+// move hundreds of times as far.
 TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   const Needles needles = stored({{Vec3(20.0088615, 20.0504284, 3.0039897),
                                    {20.0088387, 20.0504589, 3.0040071},
@@ -99,8 +101,8 @@ TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
 }
 
 // Returns two needles that share a short edge, with slopes up to `most` before rounding. The edge is 20 to
-// 200 times the spacing of single-precision numbers there, and the needles are 10 to 100 times as long as the
-// edge.
+// 200 times as long as the local spacing of single-precision numbers, and the needles are 10 to 100 times as
+// long as the edge.
 Needles random_needles(test::Random& random, double most) {
   const double edge = std::exp(random.uniform(std::log(4e-5), std::log(4e-4))),
                turn = random.uniform(0, 2 * std::numbers::pi);

@@ -36,7 +36,7 @@ std::vector<float> values_of(std::span<const Vec2> points, F f) {
   return values;
 }
 
-// Fits the spline to values at its sites, and returns its values at other places.
+// Fits the spline to values at its sites. Returns its values at other points.
 std::vector<float> fitted(const MultilevelSpline& spline, std::span<const float> values,
                           std::span<const Vec2> at) {
   SplineFunction function = spline.make_function();
@@ -62,8 +62,8 @@ double b_spline(int degree, double t) {
   return t / degree * b_spline(degree - 1, t) + (degree + 1 - t) / degree * b_spline(degree - 1, t - 1);
 }
 
-// The lattice of one level, as in textbooks. The B-spline of node (i, j) covers 4 x 4 cells. The first cell
-// is in column i - 3 and row j - 3 of the domain.
+// The lattice of one level, as in textbooks. The B-spline of node (i, j) covers 4 x 4 cells, of which the
+// first is in column i - 3 and row j - 3 of the domain.
 struct Lattice {
   std::size_t columns, rows;
   double cell;
@@ -87,8 +87,8 @@ Lattice lattice(int level) {
   return {2 * cells + 3, cells + 3, std::ldexp(1, -level)};
 }
 
-// Computes equations (3) to (5) of Lee, Wolberg and Shin (see spline.h) for sites with weights, without
-// shortcuts.
+// Computes equations (3) to (5) of Lee, Wolberg and Shin (see spline.h) for sites with weights, directly and
+// without optimisation.
 Lattice approximated(int level, std::span<const Vec2> sites, std::span<const float> weights,
                      std::span<const double> values) {
   Lattice result = lattice(level);
@@ -188,7 +188,7 @@ TEST(Spline, TakesTheEdgesValueOutsideTheDomain) {
   EXPECT_EQ(out[2], out[3]);
 }
 
-// A site of weight 0 changes nothing. If all weights are 0, the spline is 0.
+// A site of weight 0 has no effect. If all weights are 0, the spline is 0.
 TEST(Spline, FollowsTheWeights) {
   std::vector<Vec2> sites = scattered(200);
   std::vector<float> values = values_of(sites, wavy), weights = ones(200);
@@ -229,8 +229,8 @@ TEST(Spline, TellsWhatTheFitLeaves) {
   EXPECT_LT(largest_difference(sum, values), 3e-4);
 }
 
-// A spline that is fitted on its three coarsest levels only is the same function on a lattice of six levels
-// as on one of three.
+// A spline that is fitted only on its three coarsest levels is the same function on a lattice of six levels
+// as on a lattice of three.
 TEST(Spline, IsTheSameOnAFinerLattice) {
   const std::vector<Vec2> sites = scattered(200), places = scattered(300, 2);
   const std::vector<float> values = values_of(sites, wavy);

@@ -1,5 +1,5 @@
 // Compares triangulations with those of Qhull, which computes in plain doubles. For points that are far from
-// degenerate both must be the same.
+// degenerate, both must be equal.
 #ifdef RELIEVO_HAS_QHULL
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// Triangles with their corners in rising order, because Qhull does not orient its facets alike.
+// Triangles with sorted corners, because Qhull does not orient its facets consistently.
 using Corners = std::set<Triangle>;
 
 Corners corners_of(const Triangulation& triangulation) {

@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<Vec2>;
 
-// Returns the triangles in a sorted order, each beginning with its lowest corner.
+// Returns the triangles sorted, each beginning with its lowest corner.
 std::set<Triangle> sorted_triangles(const Triangulation& triangulation) {
   std::set<Triangle> triangles;
   for (Triangle t : triangulation.triangles) {
@@ -30,7 +30,7 @@ void expect_correct(const Points& points) {
   EXPECT_EQ(delaunay_fault(points, delaunay(points)), "");
 }
 
-// Returns twice the signed area, exactly for integers below 2^12.
+// Returns twice the signed area; exact for integers below 2^12.
 double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
@@ -40,8 +40,8 @@ double in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          (c - d).squaredNorm() * twice_area(d, a, b);
 }
 
-// Returns the corners of the convex hull and the points on its edges, counter-clockwise from the leftmost
-// point, without duplicates. The algorithm is the monotone chain.
+// Returns the corners of the convex hull and the points on its edges, without duplicates, counter-clockwise
+// from the leftmost point. Uses the monotone chain algorithm.
 Points brute_hull(Points points) {
   const auto less = [](const Vec2& p, const Vec2& q) {
     return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
@@ -80,7 +80,7 @@ Points few_integer_points(int most, int limit) {
 }
 
 // All other tests rely on delaunay_fault(), so it must find every fault. Points in general position have only
-// one Delaunay triangulation, so any change of a number in it is a fault.
+// one Delaunay triangulation, so changing any number in it is a fault.
 TEST(DelaunayCheck, RejectsAnyChangedNumber) {
   const Points points = random_points(60);
   const Triangulation right = delaunay(points);
@@ -118,8 +118,8 @@ TEST(DelaunayCheck, RejectsWhatFailsOneCheckAlone) {
   EXPECT_EQ(delaunay_fault(kite, twin), "points");
   EXPECT_EQ(delaunay_fault(Points{{-5, 0}, {0, 1}, {5, 0}, {0, 9}}, good), "turns") << "a notch at point 1";
 
-  // Five triangles around a centre span 144 degrees each. Their only fault is that their border goes around
-  // the centre twice.
+  // Five triangles around a centre, with an angle of 144 degrees each. Their only fault is that their border
+  // goes around the centre twice.
   Points star = circle_points(5);
   star.emplace_back(0, 0);
   Triangulation t;
@@ -160,7 +160,7 @@ TEST(Delaunay, AgreesWithBruteForceOnSmallIntegers) {
   }
 }
 
-// Three points form a triangle of every Delaunay triangulation if no other point lies on or inside their
+// Three points are a triangle in every Delaunay triangulation if no other point lies inside or on their
 // circle.
 TEST(Delaunay, HasAllTrianglesWithAnEmptyClosedCircle) {
   ASSERT_TRUE(rc::check([] {
@@ -236,7 +236,7 @@ TEST(Delaunay, CoversGrids) {
   }
 }
 
-// Neighbouring points of this grid differ only by the last bit of a coordinate.
+// Neighbouring points of this grid differ only in the last bit of a coordinate.
 TEST(Delaunay, CoversAGridOfNeighbouringDoubles) {
   Points points = grid_points(40, 40);
   for (Vec2& p : points) p = Vec2(0.3, 0.4) + p * 0x1p-54;
@@ -290,8 +290,8 @@ TEST(Delaunay, DoesNotDependOnExactMovesAndScales) {
   EXPECT_EQ(triangles_of([](const Vec2& p) { return Vec2(-p.y(), p.x()); }), expected);
 }
 
-// Either diagonal of four points on a circle may be chosen. The choice, drawn for the cells of a grid, must be
-// the same on every machine. (A change of the order of insertion may change the picture.)
+// Either diagonal of four points on a circle is allowed. The choice, drawn for the cells of a grid, must be
+// the same on every machine. If the order of insertion changes, the picture may change.
 TEST(Delaunay, ChoosesTheSameDiagonalsEverywhere) {
   const int side = 6;
   const Points points = grid_points(side, side);
@@ -310,8 +310,8 @@ TEST(Delaunay, ChoosesTheSameDiagonalsEverywhere) {
 )");
 }
 
-// After each insertion the triangulation is that of the points so far, and only triangles that
-// each_around_newest() names have other corners than before.
+// After each insertion, the triangulation is that of the points so far. Only triangles that
+// each_around_newest() visits have changed their corners.
 TEST(DelaunayBuilder, GrowsPointByPoint) {
   const Points all = random_points(300, 17);
   Points points(all.begin(), all.begin() + 3);

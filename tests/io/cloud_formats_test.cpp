@@ -61,8 +61,8 @@ TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {
 TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
   const std::string head =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 10\nPOINTS 10\nDATA binary_compressed\n";
-  // The data are four literal bytes, then 116 bytes that are copied from four bytes back. This length less 2
-  // is stored as 7 + 107.
+  // The data are four literal bytes, followed by a copy of 116 bytes that starts four bytes back. The format
+  // stores this length minus 2, as 7 + 107.
   const std::string packed = std::string("\x03", 1) + raw(2.F) + std::string("\xE0\x6B\x03", 3);
   const auto file = value_of(
       read(head + raw(static_cast<std::uint32_t>(packed.size())) + raw(std::uint32_t{120}) + packed, "scan"));
@@ -128,7 +128,8 @@ TEST(Las, ColoursOfEightBitsStay) {
   EXPECT_EQ(read(file, "scan")->cloud.colours, (std::vector<Colour>{{200, 0, 0}, {0, 0, 255}}));
 }
 
-// Up to format 5, a byte has five bits of class and the bit of withheld points; later formats have two bytes.
+// Up to format 5, one byte has five bits for the class and one bit for withheld points. Later formats have
+// two bytes.
 TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
   const std::size_t old_record = 227 + 15, new_record = 375 + 15;
   const std::vector<std::string> files = {
@@ -147,7 +148,7 @@ TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
     EXPECT_EQ(whole.cloud.points, file_of(las(), "a.las").cloud.points);
     EXPECT_TRUE(whole.remarks.empty());
   }
-  // Flags of other kinds, and classes of 32 and more, whose low bits look like noise, change nothing.
+  // Flags of other kinds change nothing. Neither do classes of 32 and more whose low bits look like noise.
   for (const std::string& text :
        {patched(las(), old_record, std::uint8_t{0x62}), patched(las(4), new_record, std::uint8_t{0xCB}),
         patched(las(4), new_record + 1, std::uint8_t{39})}) {

@@ -1,5 +1,5 @@
-// Reads files from the test suites of other projects, which are no part of this project because of their
-// licences. Every result must pass check_answer(), and agree with the verdicts in the files' names and with
+// Reads files from the test suites of other projects. Their licences do not allow them to be part of this
+// project. Every result must pass check_answer(), and agree with the verdicts in the files' names and with
 // the reports of validators.
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ class Corpus : public testing::Test {
 
   static std::string missing_corpus() { return test::missing_scan("../corpus"); }
 
-  // Returns the files below a folder of the corpus whose names have the given ending.
+  // Returns the files in and below a folder of the corpus whose names have the given ending.
   std::vector<fs::path> files(const std::string& below, const std::string& ending) const {
     std::vector<fs::path> found;
     if (!fs::is_directory(folder_ / below)) return found;
@@ -59,7 +59,7 @@ class Corpus : public testing::Test {
   const fs::path folder_ = test::shared_data() / "../corpus";
 };
 
-// Prints how many files of each format are read.
+// Prints the number of files of each format that are read and refused.
 TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
   for (const std::string& ending : readable_endings()) {
     std::size_t read = 0, refused = 0;
@@ -81,13 +81,14 @@ TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
   }
 }
 
-// Returns the number of points in the file, including those left out for lack of coordinates or normals.
+// Returns the number of points in the file, including those that were left out because coordinates or normals
+// were missing.
 std::size_t all_points(const CloudFile& file) {
   return file.cloud.size() + file.dropped_points + file.left_out_points + file.unmeasured_points +
          (file.cloud.has_normals() ? file.dropped_normals : 0);
 }
 
-// Returns the number in the first line with that beginning; nothing if there is no such line.
+// Returns the number in the first line that begins so; nothing if there is no such line.
 std::optional<std::size_t> number_after(const std::string& text, const std::string& beginning) {
   const std::size_t found = text.find("\n" + beginning);
   if (found == std::string::npos) return std::nullopt;
@@ -132,7 +133,7 @@ TEST_F(Corpus, BrokenStlIsRefused) {
   }
 }
 
-// The numbers in these pictures count up, and begin anew after the largest number.
+// The values of these pictures count up, and restart at 0 after the largest value.
 TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
   std::size_t judged = 0;
   for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {
@@ -173,7 +174,7 @@ TEST_F(Corpus, LuminanceIsThatOfTheChannels) {
   EXPECT_GT(judged, 0U);
 }
 
-// A glTF file, and numbers from the validator's report beside it.
+// A glTF file, and numbers from the validator's report on it.
 struct JudgedGltf {
   std::string name;
   std::size_t errors, draws, triangles;
@@ -193,7 +194,7 @@ std::vector<JudgedGltf> judged_gltf(const std::vector<fs::path>& reports) {
   return all;
 }
 
-// Files that may contradict a test, given by the ends of their names, and the reason.
+// Files for which a test need not hold, given by the ends of their names, and the reason.
 struct Exceptions {
   const char* reason;
   std::vector<std::string> names;
@@ -219,7 +220,7 @@ TEST_F(Corpus, RightGltfOfTheValidatorIsRead) {
         << name << (file ? " is no exception any more" : file.error().expected);
     if (!file) continue;
     ++read;
-    if (file->mesh.empty()) continue;  // in two files, all triangles have a corner twice and are left out
+    if (file->mesh.empty()) continue;  // in two files, every triangle has two equal corners and is left out
     EXPECT_EQ(file->mesh.triangles.size(), triangles) << name;
   }
   EXPECT_TRUE(all.empty() || read > 0);
@@ -260,7 +261,7 @@ TEST_F(Corpus, BrokenGltfOfTheValidatorIsRefused) {
           << end << " is no exception any more";
 }
 
-// The names of the corrupt pictures of PngSuite begin with x.
+// PngSuite gives corrupt pictures names that begin with x.
 TEST_F(Corpus, BrokenPngIsRefused) {
   for (const fs::path& path : files("nothings+stb", ".png"))
     EXPECT_FALSE(path.filename().string().starts_with("x") && depths_at(path)) << path;
@@ -284,7 +285,7 @@ TEST_F(Corpus, BrokenPlyIsRefused) {
     EXPECT_FALSE(path.string().contains("_err_") && read_at(path)) << path;
 }
 
-// libE57Format and its reference implementation wrote these scans of one model, in numbers of many sizes.
+// libE57Format and its reference implementation wrote these scans of one model, with integers of many widths.
 TEST_F(Corpus, OneModelHasTheSamePointsInE57OfEveryNumber) {
   const fs::path rust = folder_ / "cry-inc+e57/testdata";
   const auto finest = read_at(rust / "bunnyDouble.e57");
@@ -325,7 +326,7 @@ TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
   EXPECT_FALSE(read_at(folder_ / "cry-inc+e57/testdata/corrupt_crc.e57"));
 }
 
-// The files have point formats 4 to 10, with extra bytes and wave packets. Some have points of several
+// The files have point formats 4 to 10, with extra bytes and wave packets. Some have points from several
 // scanners.
 TEST_F(Corpus, LazHasThePointsOfItsLas) {
   std::size_t compared = 0;
@@ -347,24 +348,24 @@ TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {
   for (const fs::path& path : files("nst+JSONTestSuite", ".json")) {
     const std::string name = path.filename().string();
     const std::string text = content_of(path);
-    if (text.contains('\0')) continue;  // nlohmann's parser takes a zero byte for the end, which is harmless
+    if (text.contains('\0')) continue;  // nlohmann's parser stops at a zero byte, which is harmless
     const bool is_json = json_error_place(text).empty();
     EXPECT_FALSE(name.starts_with("y_") && !is_json) << name;
     EXPECT_FALSE(name.starts_with("n_") && is_json) << name;
   }
 }
 
-// The files contain one picture in numbers of many sizes. Divided by the largest number of each size, the
-// pictures are equal, but for rounding.
+// The files contain the same picture with values of many widths. Divided by the largest value of each width,
+// the pictures are equal up to rounding.
 TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
   const fs::path depth = folder_ / "image-rs+image-tiff/tests/libtiffpic/depth";
   const auto finest = depths_at(depth / "flower-minisblack-16.tif");
   if (!finest) GTEST_SKIP() << missing_corpus();
   for (const int bits : {8, 10, 12, 14, 24, 32}) {
     const auto image = depths_at(depth / cat("flower-minisblack-", bits < 10 ? "0" : "", bits, ".tif"));
-    if (!image) continue;  // not every size is in the corpus
+    if (!image) continue;  // not every width is in the corpus
     ASSERT_EQ(image->values.size(), finest->values.size());
-    // Pictures of more than 16 bits were made from 8 bits, so they are as coarse.
+    // Pictures of more than 16 bits were made from 8 bits, so their values are as coarse as those.
     const double most = std::exp2(bits) - 1, coarsest = bits > 16 ? 1 / 255. : 1 / most;
     for (std::size_t i = 0; i < image->values.size(); ++i)
       ASSERT_NEAR(static_cast<double>(image->values[i]) / most,

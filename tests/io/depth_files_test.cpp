@@ -1,4 +1,4 @@
-// Tests the reading of depth images in PNG and TIFF files, whole and broken.
+// Tests reading depth images from PNG and TIFF files, whole and broken.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,13 +14,13 @@
 #include "support/read_text.h"
 #include "support/results.h"
 
-// The size in bytes of the largest allocation. The test program and its libraries call the malloc() below in
-// place of the system's. Sanitizers have a malloc() of their own, so nothing is measured with them.
+// The size in bytes of the largest allocation. The malloc() below replaces that of the system in the test
+// program and its libraries. Sanitizers have their own malloc(), so nothing is measured with them.
 static std::atomic<std::size_t> largest_allocation = 0;
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RELIEVO_WATCHES_ALLOCATIONS
-extern "C" void* __libc_malloc(std::size_t bytes);  // NOLINT: the name is the library's
+extern "C" void* __libc_malloc(std::size_t bytes);  // NOLINT: the library has this name
 extern "C" void* malloc(std::size_t bytes) {
   if (bytes > largest_allocation) largest_allocation = bytes;
   return __libc_malloc(bytes);
@@ -83,7 +83,7 @@ TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
   }
 }
 
-// The chunk has the length 2, the grey 3001 and its checksum.
+// The chunk consists of its length 2, its name, the grey 3001 and its checksum.
 TEST(ReadDepthImage, TheTransparentGreyOfAPngIsMissing) {
   std::string file = as_string(write_png(grey16()));
   const std::string chunk("\0\0\0\2tRNS\x0B\xB9\x27\xDA\x1F\xDB", 14);
@@ -118,7 +118,7 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }
 
-// Returns a PNG chunk that states the given length, which may be wrong. The chunk's checksum is wrong, but is
+// Returns a PNG chunk that states the given length, which may be wrong. Its checksum is wrong, too, but is
 // not read if the chunk is skipped.
 std::string png_chunk(const std::string& type, std::uint32_t length, const std::string& data) {
   std::string chunk;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int columns = 3, rows = 2;
 
-// All levels differ, among them the least and the greatest.
+// Returns different levels, among them the smallest and the largest.
 int level(int column, int row) {
   return 51 * (column + columns * row);
 }
@@ -25,7 +25,7 @@ JpegSquares grey_squares() {
   return picture;
 }
 
-// Grey in three channels, as many programs write it.
+// Returns a grey picture in three channels, as many programs write it.
 JpegSquares grey_colours() {
   JpegSquares picture = grey_squares();
   picture.channels = 3;
@@ -37,7 +37,7 @@ JpegSquares one_colour(int y, int blue, int red) {
   return {1, 1, 3, {{y, blue, red}}};
 }
 
-// Returns a segment of Exif whose second tag is the orientation.
+// Returns an Exif segment whose second tag is the orientation.
 std::string exif(int orientation, bool is_big_endian) {
   const auto number = [&](std::uint32_t value, int bytes) {
     std::string text;
@@ -85,7 +85,7 @@ TEST(DepthJpeg, MayBeProgressive) {
   expect_levels(image_of(picture));
 }
 
-// The formulas of JFIF, rounded by libjpeg to whole levels.
+// The expected values follow the formulas of JFIF, rounded to integers as libjpeg does.
 TEST(DepthJpeg, ColoursAreChannelsOrLuminance) {
   const int y = 100, blue = 40, red = -30;
   const std::string file = jpeg_of(one_colour(y - 128, blue, red));
@@ -103,7 +103,7 @@ TEST(DepthJpeg, IsTurnedUpright) {
   const DepthImage stored = image_of(grey_squares());
   for (const bool is_big_endian : {false, true}) {
     JpegSquares picture = grey_squares();
-    picture.segments = exif(6, is_big_endian);  // row 0 is the right side, column 0 the top
+    picture.segments = exif(6, is_big_endian);  // row 0 is the right edge, column 0 the top edge
     const DepthImage turned = image_of(picture);
     ASSERT_EQ(turned.values.width, stored.values.height);
     for (int y = 0; y < stored.values.height; ++y)
@@ -157,7 +157,7 @@ TEST(DepthJpeg, AnyDamagedByteGivesAnAnswer) {
     }
 }
 
-// Each scan takes as long as the whole picture.
+// Each scan takes as much time as the whole picture.
 TEST(DepthJpeg, HasAHundredScansAtMost) {
   JpegSquares picture = grey_squares();
   picture.is_progressive = true;

@@ -15,8 +15,8 @@
 namespace relievo {
 namespace {
 
-// Reads an archive by its central directory. Returns the name and inflated content of each file, checked by
-// its CRC.
+// Reads an archive by its central directory. Returns the name and the inflated content of each file, after
+// checking its CRC.
 std::map<std::string, std::string> unzip(const std::vector<std::byte>& bytes) {
   const auto number = [&](std::size_t at, std::size_t size) {
     std::size_t value = 0;

@@ -1,5 +1,5 @@
-// Tests the table of formats: the lists that are made from it, and that each row reads the files of its
-// format.
+// Tests the table of formats, the lists that are made from it, and that each of its rows reads the files of
+// its format.
 #include "io/formats.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(Formats, ListTheEndingsOfAllFiles) {
   }
 }
 
-// Returns the name of the row that reads the file, or "none".
+// Returns the name of the table's row that reads the file, or "none".
 std::string_view format_of(std::string_view bytes, std::string_view name) {
   for (const io::Format& format : io::formats)
     if (format.is_format({bytes, name})) return format.name;

@@ -1,4 +1,4 @@
-// Tests glTF with buffers in other files, and with legal but rare features.
+// Tests glTF with buffers in other files, and with features that are legal but rare.
 #include "io/gltf/gltf.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@
 namespace relievo {
 namespace {
 
-// Reads the glTF `text` with `files` beside it. `asked` gets the names of the files that the reader asks for.
+// Reads the glTF `text`, with `files` in the same folder. Adds the names of the files that the reader
+// requests to `asked`.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
   return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
@@ -23,7 +24,7 @@ Result<CloudFile> read_beside(const std::string& text, const std::map<std::strin
   });
 }
 
-// Returns the sample, read after `what` in its JSON is replaced by `by`.
+// Returns the sample, read after `what` in its JSON was replaced by `by`.
 CloudFile changed(std::string_view what, std::string_view by) {
   return file_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
 }
@@ -51,7 +52,7 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
 const std::string draco_primitive =
     R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}},"attributes")";
 
-// A file may have both plain and compressed vertices. Then it does not require the extension.
+// If a file has both plain and compressed vertices, it does not require the extension.
 TEST(Gltf, CompressedVerticesAreRefusedUnlessThereArePlainOnes) {
   const std::string both = replaced(gltf_json(), R"("attributes")", draco_primitive);
   EXPECT_EQ(file_of(glb_of(both), "a.glb").mesh.triangles, tetrahedron_triangles);
@@ -70,7 +71,7 @@ TEST(Gltf, PointsAndLinesBesideTrianglesAreTold) {
                                                     "left out the lines"}));
 }
 
-// The data of a URI are base64 or plain bytes. In both, any byte may be escaped.
+// The data in a URI are base64 or plain bytes. In both forms, any byte may be escaped.
 TEST(Gltf, ReadsDataOfUrisInBothForms) {
   std::string escaped;
   for (const char byte : gltf_buffer()) {
@@ -159,7 +160,7 @@ TEST(Gltf, TakesWholeNumbersWrittenAsFractions) {
   const auto file = changed(R"("nodes":[0])", R"("nodes":[0.0])");
 }
 
-// Returns the tetrahedron, with sparse values in place of its second and fourth corner.
+// Returns the tetrahedron with its second and fourth corner replaced by sparse values.
 std::string sparse_glb(const std::string& base) {
   std::string json =
       replaced(gltf_json(), R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
@@ -199,8 +200,8 @@ TEST(Gltf, AnEmptyAccessorHasNoPoints) {
   EXPECT_EQ(message_of(json, "a.gltf"), "a.gltf, meshes: expected triangles or points, found none");
 }
 
-// Exporters store coordinates as integers of 8 or 16 bits. Either these stand for fractions of the largest
-// integer, or the node scales them.
+// Exporters store coordinates as integers of 8 or 16 bits. These are fractions of the largest integer, or the
+// node scales them.
 TEST(Gltf, ReadsQuantisedMeshes) {
   struct Kind {
     int code;
@@ -230,7 +231,7 @@ TEST(Gltf, ReadsQuantisedMeshes) {
                     R"({"buffer":0,"byteLength":48,"byteStride":)" + std::to_string(stride) + "}");
     const auto file = file_of(glb_of(json, buffer), "a.glb"), plain = file_of(glb(), "a.glb");
     EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
-    const Vec3 middle(10, 0, 0);  // the nodes move the mesh here, and double sizes
+    const Vec3 middle(10, 0, 0);  // the nodes move the mesh here, and double its size
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 expected =
           (plain.mesh.points[i] - middle) * (kind.is_normalised ? 1 : kind.largest) + middle;
@@ -239,8 +240,8 @@ TEST(Gltf, ReadsQuantisedMeshes) {
   }
 }
 
-// Together, the file's two nodes move meshes by (10, 0, 0) and double sizes. The second copy is also turned
-// by 90 degrees about z.
+// Together, the two nodes of the file move meshes by (10, 0, 0) and double their size. The second copy is
+// also rotated by 90 degrees about z.
 TEST(Gltf, PutsCopiesOfAMeshWhereInstancingSaysSo) {
   std::string buffer = gltf_buffer();
   for (const float x : {0.F, 0.F, 0.F, 5.F, 6.F, 7.F}) buffer += raw(x);
@@ -319,7 +320,7 @@ double volume_of(const Mesh& mesh) {
   return volume;
 }
 
-// A mirror turns the triangles of a mesh inside out, so readers must reverse them, as the format demands.
+// Mirroring turns the triangles of a mesh inside out. The format requires that readers reverse them.
 TEST(Gltf, KeepsTheOutsideOfMirroredMeshesOutside) {
   for (const char* scale : {"[2,2,2]", "[-2,2,2]", "[-2,-2,-2]"}) {
     const auto file = changed("[2,2,2]", scale);
@@ -339,7 +340,7 @@ TEST(Gltf, KeepsNormalsOfMirroredMeshesOutside) {
     }
 }
 
-// A search for the root from each node would take half a minute, and a recursive search would overflow the
+// Searching for the root from each node would take half a minute, and a recursive search would overflow the
 // stack.
 TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   std::string nodes = R"("nodes":[)";

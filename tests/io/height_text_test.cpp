@@ -1,4 +1,5 @@
-// Tests heights in text: the grids of GIS programs, and tables of numbers, which must not be taken for clouds.
+// Tests heights in text files: the grids of GIS programs, and tables of numbers, which must not be read as
+// clouds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +46,8 @@ TEST(EsriGrid, ReadsOtherSpellings) {
   EXPECT_EQ(image.step, 1);
 }
 
-// Heights of hundreds of metres on a grid of a few units, within the range of degrees, are those of degrees.
+// A grid a few units wide with heights of hundreds of metres, in the range of degrees, has degrees as its
+// unit.
 TEST(EsriGrid, ConvertsDegrees) {
   const std::string heights = " 0 300 200 100 0 300 200 100 0 300 200 100 0 300 200 100";
   const auto size_at = [&](const std::string& corner, const std::string& cell) {
@@ -53,7 +55,7 @@ TEST(EsriGrid, ConvertsDegrees) {
                     heights)
         .pixel_size;
   };
-  const Vec2 degrees = size_at("59", "0.5");  // the middle lies at 60 degrees
+  const Vec2 degrees = size_at("59", "0.5");  // the centre is at 60 degrees
   EXPECT_NEAR(degrees.x() / degrees.y(), .5, 1e-12);
   EXPECT_EQ(size_at("59", "100"), Vec2(100, 100));
   EXPECT_EQ(size_at("100", "0.5"), Vec2(.5, .5));
@@ -79,7 +81,7 @@ TEST(EsriGrid, SaysWhatIsWrong) {
             "d: expected at most 134217728 pixels, found 50000 x 40000");
 }
 
-// Returns a table of the heights of a hill.
+// Returns a table with the heights of a hill.
 std::string hill(int columns, int rows, const std::string& separator, char point = '.') {
   std::string text;
   for (int r = 0; r < rows; ++r) {
@@ -104,7 +106,7 @@ TEST(HeightTable, ReadsAllSeparators) {
   EXPECT_EQ(image_in("# Channel: Height\n" + hill(12, 9, "\t")).values.pixels, image.values.pixels);
 }
 
-// The example of OpenSCAD's manual for surface().
+// The example is from OpenSCAD's manual for surface().
 TEST(HeightTable, ReadsOpenScadsExample) {
   const auto image = image_in(
       "# 10x10 surface data\n10 9 8 7 6 5 5 5 5 5\n9 8 7 6 6 4 3 2 1 0\n\n8 7 6 6 4 3 2 1 0 0\n"

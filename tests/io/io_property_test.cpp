@@ -1,4 +1,4 @@
-// Tests properties of the readers with generated files, whole and broken.
+// Tests properties of the readers with generated files, both whole and broken.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -20,7 +20,7 @@ using rc::gen::element;
 using rc::gen::inRange;
 using rc::gen::map;
 
-// Returns numbers that any type from int8 to double represents.
+// Returns numbers that all types from int8 to double can represent.
 rc::Gen<double> small_number() {
   return map(inRange(0, 128), [](int i) { return static_cast<double>(i); });
 }
@@ -45,8 +45,8 @@ rc::Gen<float> finite_float() {
   });
 }
 
-// Returns columns with the given names, shuffled with extra columns. All have any type; the extra ones may be
-// lists.
+// Returns columns with the given names and some extra columns, shuffled. All have random types; the extra
+// ones may be lists.
 std::vector<PlyColumn> any_columns(std::vector<std::string> names) {
   const int extras = *inRange(0, 4);
   for (int i = 0; i < extras; ++i) names.push_back("extra" + std::to_string(i));
@@ -77,7 +77,7 @@ PlyTable any_table(const std::string& name, const std::vector<std::string>& colu
   return table;
 }
 
-// Returns the row's value in the named column, which is no list.
+// Returns the value in the named column of the row. The column must not be a list.
 double value_of(const PlyTable& table, const std::vector<double>& row, std::string_view name) {
   std::size_t at = 0;
   for (const PlyColumn& column : table.columns) {
@@ -164,7 +164,7 @@ TEST(TextProperty, EverySeparatorGivesTheSamePoints) {
   }));
 }
 
-// Returns small valid files of every format, which tests then break: format_samples() and more PLY files.
+// Returns small valid files of every format: format_samples() and more PLY files. Tests then break them.
 std::vector<FileSample> valid_files() {
   const PlyTable strips{"strips", {{"int", "i", "uchar"}, {"short", "s"}}, {{2, 0, 1, 7}, {0, 9}}};
   const PlyTable vertex{
@@ -223,7 +223,7 @@ TEST(BrokenFiles, WithAnyByteChangedGiveAnAnswer) {
   }
 }
 
-// Makes several edits: removes, doubles and inserts bytes, enlarges numbers and swaps lines.
+// Makes several edits: removes, duplicates and inserts bytes, enlarges numbers, and swaps lines.
 std::string mutated(std::string text) {
   const auto place = [&] { return *inRange<std::size_t>(0, text.size() + 1); };
   const int edits = *inRange(1, 6);

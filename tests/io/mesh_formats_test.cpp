@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns the triangles of a mesh by their corners' coordinates, smallest first, to compare meshes regardless
-// of numbering.
+// Returns the corner coordinates of a mesh's triangles, smallest first, to compare meshes independently of
+// numbering.
 std::vector<std::array<std::array<double, 3>, 3>> corners_of(const Mesh& mesh) {
   std::vector<std::array<std::array<double, 3>, 3>> all;
   for (const Triangle& t : mesh.triangles) {
@@ -57,7 +57,7 @@ TEST(MeshFormats, StripsOfPlyTurnEverySecondTriangle) {
   }
 }
 
-// The arrow has an area of 2. A fan from its second corner would have a larger area.
+// The arrow has the area 2. A fan from its second corner would have a larger area.
 TEST(MeshFormats, ConcavePolygonsAreCoveredInEveryFormat) {
   const PlyTable vertices = ply_vertices({{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}});
   const PlyTable faces = ply_faces({{4, 1, 2, 3, 0}});
@@ -112,7 +112,7 @@ TEST(Stl, TextMayBeginInManyWays) {
     expect_tetrahedron(text, "scan.stl", "STL ascii");
 }
 
-// The name of the solid contains words of the format, which must not be read as such.
+// The name of the solid contains keywords of the format, which must not be read as such.
 TEST(Stl, TextMayStandInOneLine) {
   const std::string named = replaced(ascii_stl(), "solid tetrahedron", "solid a vertex of my facet 7");
   expect_tetrahedron(replaced(named, "\n", " "), "a.stl", "STL ascii");
@@ -163,7 +163,7 @@ TEST(Off, ReadsColoursAndNormals) {
   EXPECT_EQ(file.mesh.colours, file.cloud.colours);
 }
 
-// Returns a number's bytes, big-endian.
+// Returns the bytes of a number in big-endian order.
 template <typename T>
 std::string big(T value) {
   std::string bytes = raw(value);
@@ -171,7 +171,8 @@ std::string big(T value) {
   return bytes;
 }
 
-// Returns the tetrahedron in binary form, with `of_vertex` after each position. The last face has a colour.
+// Returns the tetrahedron as a binary OFF file, with `of_vertex` after each position. The last face has a
+// colour.
 std::string binary_off(const std::string& keyword, const std::string& of_vertex) {
   std::string file = keyword + " BINARY\n" + big(4) + big(4) + big(6);
   for (const Vec3& p : tetrahedron_points) {
@@ -220,8 +221,8 @@ TEST(Off, TheKeywordMayBeMissing) {
   expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", "OFF "), "a.off", "OFF");
 }
 
-// Numbers after a face may be its colour, so a second face in a line is skipped. Only at the end of the file
-// the reader notices that a face is missing; then it gives this reason.
+// Numbers after a face may be its colour, so a second face in the same line is skipped. The reader notices
+// the missing face only at the end of the file, and then states this reason.
 TEST(Off, TwoRowsInALineAreRefusedWithTheReason) {
   EXPECT_EQ(
       message_of(replaced(off(), "3 0 2 1\n", "3 0 2 1 "), "a.off"),

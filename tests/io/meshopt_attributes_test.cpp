@@ -1,4 +1,4 @@
-// Tests attributes in both versions of meshopt's compression, with encoders that are independent of the
+// Tests attributes in both versions of meshopt's compression, with encoders that do not depend on the
 // decoder.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace io;
 
-// Returns the difference of two numbers as version 1 stores it in a channel of this mode, in four bytes.
+// Returns the difference of two numbers in four bytes, as version 1 stores it in a channel of this mode.
 std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std::uint32_t now) {
   std::uint32_t stored = std::rotr(before ^ now, static_cast<int>(mode >> 4));
   if (mode < 2) {
@@ -32,8 +32,8 @@ std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std:
   return bytes;
 }
 
-// Returns the elements as version 1 compresses them. `modes` has the mode of each channel of four bytes. Each
-// column of bytes is stored in the next of the ways that suit it.
+// Returns the elements as version 1 compresses them. `modes` has the mode of each channel of four bytes. The
+// columns of bytes use all suitable encodings in turn.
 std::string compressed_attributes_1(const std::string& elements, std::size_t stride,
                                     const std::string& modes) {
   const std::size_t count = elements.size() / stride, block = block_of(stride);
@@ -68,7 +68,7 @@ std::string compressed_attributes_1(const std::string& elements, std::size_t str
 }
 
 TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
-  // Sixteen differences of the first byte of each four-byte element, with 4 bits each. Two of them (0xf) do
+  // Sixteen differences, of 4 bits each, of the first byte of each four-byte element. Two of them (0xf) do
   // not fit into 4 bits; they follow as the last two bytes. The other three bytes of the elements do not
   // change.
   const std::string group = bytes_of({0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5});
@@ -81,7 +81,7 @@ TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
   EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 16, .stride = 4})), expected);
 }
 
-// Returns random elements. Each byte differs by less than `range` from the same byte of the element before.
+// Returns random elements. Each byte differs by less than `range` from the same byte of the previous element.
 std::string random_elements(std::mt19937& random, std::size_t bytes, std::size_t stride, unsigned range) {
   std::string elements;
   for (std::size_t i = 0; i < bytes; ++i)
@@ -94,7 +94,7 @@ TEST(MeshoptAttributes, DecodesAttributesOfAllSizes) {
   std::mt19937 random(1);
   for (const std::size_t stride : {4U, 8U, 12U, 16U, 64U, 256U})
     for (const std::size_t count : {1U, 15U, 16U, 17U, 64U, 200U, 255U, 256U, 257U, 1000U})
-      for (const unsigned range : {1, 2, 5, 256}) {  // bytes differ by less than this
+      for (const unsigned range : {1, 2, 5, 256}) {  // differences of bytes are less than this
         const std::string elements = random_elements(random, count * stride, stride, range);
         const std::string stream = compressed_attributes(elements, stride);
         const MeshoptLayout layout{.count = count, .stride = stride};

@@ -1,6 +1,6 @@
 // Tests the buffer views of glTF that KHR_meshopt_compression and EXT_meshopt_compression compress. They come
-// from examples of the specification, from streams that are put together by hand, and from an encoder that is
-// independent of the decoder.
+// from examples of the specification, from hand-made streams, and from an encoder that does not depend on the
+// decoder.
 #include "io/gltf/meshopt.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ TEST(Meshopt, RefusesLayoutsThatAreNotAllowed) {
   EXPECT_FALSE(meshopt_mode("POINTS") || meshopt_filter("QUATERNION"));
 }
 
-// Returns the stream of triangles with these codes and data. Entry 0 of its table stands for two new corners,
-// entry 1 for the last vertex and a new corner.
+// Returns the stream of triangles with these codes and data. Entry 0 of its table means two new corners, and
+// entry 1 means the last vertex and a new corner.
 std::string triangle_stream(const std::string& codes, const std::string& data) {
   return "\xE1" + codes + data + bytes_of({0x00, 0x10}) + std::string(14, '\0');
 }
@@ -59,9 +59,9 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
       0x0D,  // the newest edge, 3 1, and the index before the last explicit one, 1
       0x0F,  // the newest edge, 3 0, and an explicit index: the last one, 0, plus 10
       0xF1,  // a new corner 5, the last vertex and a new corner
-      0xFF,  // explicit indices: 3 before, 2 after and 300 after
+      0xFF,  // explicit indices: minus 3, plus 2 and plus 300
       0xFE,  // a new corner, the newest vertex and an explicit one
-      0xFE,  // begins anew with 0 1 2
+      0xFE,  // starts again with 0 1 2
   });
   const std::string data = bytes_of({20, 0xFF, 5, 4, 0xD8, 0x04, 0x1F, 1, 0x00});
   const MeshoptLayout layout{MeshoptMode::triangles, MeshoptFilter::none, 33, 4};
@@ -77,7 +77,7 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
   EXPECT_EQ(text_of(small), bytes_of({0, 0, 1, 0, 2, 0}));
 }
 
-// Decodes triangles as the specification says, but with lists in place of ring buffers. Invents the data that
+// Decodes triangles as the specification says, but with lists instead of ring buffers. Makes up the data that
 // the codes need.
 class TriangleModel {
  public:
@@ -173,8 +173,8 @@ std::optional<std::vector<std::byte>> filtered(MeshoptFilter filter, const std::
 }
 
 TEST(Meshopt, UnfoldsTheOctahedron) {
-  // The directions are +x, -y, the middle between +x and +y, and -z, which lies at the corners. 127 stands
-  // for 1, and so does 15 where there are fewer bits.
+  // The directions are +x, -y, halfway between +x and +y, and -z, which is at the corners. 127 means 1; with
+  // fewer bits, 15 means 1.
   const std::string folded = bytes_of({127, 0, 127, 7, 0, -15, 15, 8, 64, 63, 127, 9, 15, 15, 15, 1});
   EXPECT_EQ(text_of(filtered(MeshoptFilter::octahedral, folded, 4)),
             bytes_of({127, 0, 0, 7, 0, -127, 0, 8, 91, 89, 0, 9, 0, 0, -127, 1}));
@@ -205,7 +205,7 @@ TEST(Meshopt, MixesColours) {
   EXPECT_FALSE(filtered(MeshoptFilter::colour, std::string(4, '\0'), 4));
 }
 
-// Any bytes are refused or are decoded to as many bytes as the layout states.
+// The decoder either refuses the bytes, or returns as many bytes as the layout states.
 TEST(Meshopt, SurvivesAnyBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
@@ -219,7 +219,7 @@ TEST(Meshopt, SurvivesAnyBytes) {
   }
 }
 
-// A compressed view of a glTF file, as its JSON describes it.
+// A compressed view of a glTF file, as the file's JSON describes it.
 struct TestView {
   std::string bytes, mode;
   std::size_t count = 0, stride = 0;
@@ -236,7 +236,7 @@ std::string json_of(const TestView& view, std::size_t offset, const std::string&
          "\"}}}";
 }
 
-// Returns the tetrahedron's corners in thousandths, each as four numbers of 16 bits.
+// Returns the corners of the tetrahedron in thousandths, each as four 16-bit numbers.
 TestView compressed_corners() {
   std::string positions;
   for (const Vec3& point : tetrahedron_points) {
@@ -249,7 +249,7 @@ TestView compressed_corners() {
   return {compressed_attributes(positions, 8), "ATTRIBUTES", tetrahedron_points.size(), 8};
 }
 
-// Returns the tetrahedron's triangles with only explicit indices.
+// Returns the triangles of the tetrahedron, encoded with explicit indices only.
 TestView compressed_triangles() {
   std::string data;
   int last = 0;

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A picture as libpng reads it; an error of libpng ends the test program.
+// A picture as libpng decodes it. An error of libpng ends the test program.
 struct Decoded {
   int width = 0, height = 0, bits = 0, colour_type = 0;
   std::vector<std::byte> samples;  // as stored: 16-bit samples big-endian
@@ -50,8 +50,8 @@ Decoded decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// Returns an image of ramps, jumps and a little noise, for which every filter is useful. Its values reach
-// from the smallest to the largest number.
+// Returns an image of ramps, jumps and slight noise, for which every filter is useful. Its values range from
+// the smallest to the largest number.
 template <typename T>
 Image<T> pattern(int width, int height, int channels) {
   Image<T> image{width, height, channels, {}};

@@ -1,4 +1,4 @@
-// Checks by areas that triangles cover their polygons, for shapes that a fan does not cover.
+// Checks by their areas that triangles cover polygons that a fan does not cover.
 #include "io/polygon.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ Vec3 area_of(const Polygon& p) {
   return sum;
 }
 
-// Expects that triangulate() covers the polygon, which must not cross itself. The triangles cover it without
-// overlap if none of them is turned over and their areas add up to the polygon's.
+// Expects that triangulate() covers the polygon, which must not cross itself. If no triangle is reversed and
+// the areas add up to that of the polygon, the triangles cover it without overlap.
 void expect_covered(const Polygon& polygon, const char* what) {
   const auto triangles = triangulate(polygon);
   const Vec3 area = area_of(polygon);
@@ -37,7 +37,7 @@ void expect_covered(const Polygon& polygon, const char* what) {
   EXPECT_NEAR(sum, 1, 1e-5) << what;
 }
 
-// Expects that a polygon in a slanting plane is covered, for every first corner and in both orientations.
+// Expects that a polygon in a tilted plane is covered, from every first corner and in both orientations.
 void expect_covered_in_every_way(Polygon polygon, const char* what) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond(.3, -.5, .7, .2).normalized();
   for (Vec3& p : polygon) p = turn * p + Vec3(300, -20, 7);
@@ -73,7 +73,7 @@ Polygon spiral(int corners) {
   return polygon;
 }
 
-// A square with a hole. A seam of two equal edges connects the hole with the outline.
+// A square with a hole. A seam of two coincident edges connects the hole with the outline.
 const Polygon wall_with_a_hole = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {0, 0, 0},
                                   {3, 3, 0}, {3, 6, 0}, {6, 6, 0}, {6, 3, 0}, {3, 3, 0}};
 
@@ -98,7 +98,7 @@ TEST(Triangulate, CoversConcavePolygons) {
 
 TEST(Triangulate, CoversPolygonsWithHolesOnSeams) {
   expect_covered_in_every_way(wall_with_a_hole, "hole");
-  Polygon two = wall_with_a_hole;  // a second seam from the same corner of the outline
+  Polygon two = wall_with_a_hole;  // adds a second seam from the same corner of the outline
   two.insert(two.begin() + 5, {{1, 2, 0}, {1, 8, 0}, {2, 8, 0}, {1, 2, 0}, {0, 0, 0}});
   expect_covered_in_every_way(two, "two holes");
 }

@@ -1,4 +1,4 @@
-// Tests PTX files, whose scans have a matrix each.
+// Tests PTX files. Each of their scans has a matrix.
 #include <gtest/gtest.h>
 
 #include "support/read_text.h"
@@ -12,7 +12,7 @@ std::string header(int columns, int rows, const std::string& matrix) {
 
 const std::string identity = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
 
-// Turns x into y and y into -x, then moves by 10, 20, 30. Points are multiplied from the left.
+// Maps x to y and y to -x, then moves by (10, 20, 30). Points are row vectors.
 const std::string turned = "0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
 
 TEST(Ptx, ScansAreMovedByTheirMatrices) {

@@ -43,7 +43,7 @@ StreamedCloud streamed(std::vector<std::byte> bytes, const View& view = front, d
   return value_of(stream_front(source, "a.ply", view, points));
 }
 
-// Returns a sphere with noise around a smaller sphere, which must never show.
+// Returns a sphere with noise around a smaller sphere, which must never be visible.
 Cloud shells(std::size_t n) {
   Cloud cloud = test::sphere(n, 1);
   test::Random random(5);
@@ -67,7 +67,7 @@ TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
     if (p.z() > .6) sum_sq += (p.norm() - 1) * (p.norm() - 1), ++n;
   }
   EXPECT_LT(error, .03);
-  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // means reduce the scan's noise, which is .002
+  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // averaging reduces the scan's noise, which is 0.002
 }
 
 TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
@@ -80,8 +80,8 @@ TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
   EXPECT_EQ(streamed(bytes_of(text)).ignored_faces, 2U);
 }
 
-// If the colours of so many points were added in single precision, their mean would be 256, which becomes 0
-// as a byte.
+// If the colours of so many points were added up in single precision, their mean would be 256, which becomes
+// 0 as a byte.
 TEST(StreamFront, KeepsAColourThatManyPointsOfASquareHave) {
   std::vector<Vec3> points = test::sphere(600'000, 1).points;
   points.insert(points.end(), 400'000, Vec3(0, 0, 1));
@@ -177,7 +177,7 @@ TEST(StreamFront, ReadsLas) {
   EXPECT_EQ(it.format, "LAS");
   EXPECT_EQ(it.missing_points + it.ignored_faces, 0U);
   EXPECT_TRUE(it.remarks.empty());
-  // Noise far in front of the sphere would hide it.
+  // Noise far in front of the sphere would hide the sphere.
   std::string noise(26, '\0');
   noise = patched(patched(noise, 8, std::int32_t{8000}), 15, std::uint8_t{7});
   const std::string with_noise = patched(file, 107, static_cast<std::uint32_t>(sphere.size() + 1)) + noise;
@@ -202,9 +202,9 @@ TEST(StreamFront, ReadsLas) {
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // Without normals, a square of the grid that got no point of the sphere's front shows points of its back.
-  // In the middle of the sphere a square has about 5 front points on average, so a share exp(-5) of the
-  // squares there has none. The relief's own search for visible points removes the points of the back.
+  // Without normals, a cell of the grid without points of the sphere's front shows points of its back. Near
+  // the centre of the sphere a cell has about 5 front points on average, so a share exp(-5) of these cells
+  // has none. The relief's own search for visible points removes the points of the back.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 
@@ -235,7 +235,7 @@ TEST(StreamFront, BrokenFilesAreNamed) {
   EXPECT_EQ(stream_front(good, "a.ply", front, 10).error().kind, ErrorKind::option);
 }
 
-// Returns a LAS file with 400 points on a slope. Their coordinates are multiples of the scale.
+// Returns a LAS file with 400 points on a slope. The coordinates are multiples of the scale.
 std::string slope_las(double scale) {
   std::string file = patched(las(2).substr(0, 227), 107, std::uint32_t{400});
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -274,7 +274,7 @@ TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   ASSERT_TRUE(direct && by_stream);
   EXPECT_EQ(check_solid(by_stream->solid), "");
   EXPECT_NEAR(by_stream->report.height_mm, 5, .01);
-  // A grid of means has less of the steep rim, so the volumes differ a little.
+  // The averaged grid contains less of the steep rim, so the volumes differ a little.
   EXPECT_NEAR(volume_mm3(by_stream->solid) / volume_mm3(direct->solid), 1, .05);
 }
 

@@ -52,11 +52,12 @@ TEST(ReadSvg, SmoothCommandsMirrorTheLastControlPoint) {
 
 TEST(ReadSvg, ArcsAreEllipses) {
   EXPECT_NEAR(area_of(svg_of("M-3 0A3 2 0 0 1 3 0A3 2 0 0 1-3 0Z")), 6 * std::numbers::pi, .01);
-  // Of the two arcs over a chord as long as the radius, one covers a sixth of the disc without its triangle.
+  // A chord as long as the radius has two arcs. The smaller one cuts off a circular segment: a sixth of the
+  // disc without its triangle.
   const double segment = std::numbers::pi / 6 * 100 - std::sqrt(3.) / 4 * 100;
   EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 0 1 10 0Z")), segment, .05);
   EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 1 1 10 0Z")), 100 * std::numbers::pi - segment, .3);
-  // Radii that are too small grow until the arc reaches.
+  // If the radii are too small, they grow until the arc connects the ends.
   EXPECT_NEAR(area_of(svg_of("M0 0A1 1 0 0 1 10 0Z")), 12.5 * std::numbers::pi, .02);
 }
 

@@ -1,4 +1,4 @@
-// Tests pictures as textures, and the meshes of OBJ and glTF that have them.
+// Tests pictures as textures, and the OBJ and glTF meshes that use them.
 #include "io/texture.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// A picture of 4 x 4 pixels that all differ.
+// Returns the colours of a picture of 4 x 4 pixels that are all different.
 Colour colour_at(int x, int y) {
   return {static_cast<std::uint8_t>(60 * x), static_cast<std::uint8_t>(60 * y),
           static_cast<std::uint8_t>(9 * x + y)};
@@ -58,7 +58,8 @@ CloudFile read_with(const std::string& text, const std::string& name, const File
       }));
 }
 
-// Both triangles have the middle of the picture's lowest left pixel, second pixel and leftmost third row.
+// The corners of both triangles are at the centres of three pixels: the lower left pixel, its right neighbour
+// and its upper neighbour.
 const std::string textured_obj =
     "mtllib my scan.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 9\nvt .125 .125\nvt .375 .125\nvt .125 .375\n"
     "usemtl skin\nf 1/1 2/2 3/-1\nusemtl plain\nf 1/2 2/2 4/3\n";
@@ -92,7 +93,7 @@ TEST(ObjTextures, NumbersOfVerticesThatAreNotThereTakeNoMemory) {
             "a.obj, line 4: expected an index up to 1, the number of vertices, found 4000000000");
 }
 
-// The sample with texture coordinates for its four vertices, a material and a picture.
+// Returns the sample with texture coordinates for its four vertices, a material and a picture.
 std::string textured_gltf(const std::string& of_texture, const std::string& uri) {
   std::string buffer = gltf_buffer();
   for (const float value : {.125F, .125F, .375F, .125F, .125F, .375F, .875F, .875F}) buffer += raw(value);

@@ -1,4 +1,4 @@
-// Tests the document of 3MF files; tests/cli/archive_test.cpp reads it from the archive.
+// Tests the document of 3MF files; tests/cli/archive_test.cpp reads it from an archive.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -41,7 +41,8 @@ TEST(ThreeMf, AnItemIsTheMesh) {
   EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
 }
 
-// The first triangle has a colour in each corner, the second one of a material, the others the object's.
+// The first triangle has a colour at each corner, the second one the colour of a material, and the others the
+// object's colour.
 TEST(ThreeMf, VerticesHaveTheColoursOfTheirFirstCorners) {
   std::string mesh = tetrahedron_mesh();
   mesh = replaced(mesh, "v1=\"0\" v2=\"2\" v3=\"1\"",
@@ -66,7 +67,7 @@ TEST(ThreeMf, VerticesHaveTheColoursOfTheirFirstCorners) {
   EXPECT_TRUE(colours_in("pid=\"7\" pindex=\"1\"", item).empty());
 }
 
-// A component doubles and is moved by 1, 2, 3; its item then exchanges x and y, which mirrors it.
+// A component doubles its size and moves by (1, 2, 3). Its item then exchanges x and y, which mirrors it.
 TEST(ThreeMf, ItemsAndComponentsAreTransformed) {
   const std::string group =
       object("id=\"2\"",

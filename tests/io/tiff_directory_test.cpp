@@ -1,4 +1,5 @@
-// Tests what the tags of a TIFF say about its pictures: which of them counts, how it lies, and how large it is.
+// Tests the tags of a TIFF that decide which of its pictures counts, its orientation, and the size of its
+// pixels.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// Returns the picture of whole_tiff() with further tags: those of whole_tiff() are followed by the others, and
-// their numbers lie behind the picture.
+// A tag to add to whole_tiff(). The added tags follow those of whole_tiff(), and their numbers follow the
+// picture.
 struct ExtraTag {
   std::uint16_t tag, type;
   std::uint32_t count;
@@ -38,9 +39,10 @@ std::string with_tags(const std::vector<ExtraTag>& extra) {
   return file + data + numbers;
 }
 
-// The first row and the first column of the file are these sides of the picture, see tag 274 of TIFF 6.0.
+// The orientation says which edges of the picture are the first row and the first column of the file, see tag
+// 274 of TIFF 6.0.
 TEST(TiffDirectory, FollowsTheOrientation) {
-  const auto at = [](int x, int y) { return static_cast<float>(width * y + x); };  // of the stored picture
+  const auto at = [](int x, int y) { return static_cast<float>(width * y + x); };  // stored values
   const int last_x = width - 1, last_y = height - 1;
   const std::array<std::array<float, 3>, 8> corners = {{
       // top left, top right, bottom left
@@ -55,7 +57,7 @@ TEST(TiffDirectory, FollowsTheOrientation) {
   }};
   for (std::uint16_t orientation = 0; orientation <= 9; ++orientation) {
     std::string file = whole_tiff();
-    // The tag takes the place of SamplesPerPixel, which is 1 without it.
+    // The tag replaces SamplesPerPixel, which is then 1.
     file = patched(patched(file, 10 + 12 * 6, std::uint16_t{274}), 10 + 12 * 6 + 8, orientation);
     const auto image = value_of(read_depth_image(bytes_of(file), "d.tif")).values;
     const bool is_turned = orientation >= 5 && orientation <= 8;
@@ -93,7 +95,8 @@ TEST(TiffDirectory, TakesTheSizeOfPixelsFromGeoTiff) {
     return ExtraTag{34735, 3, 8, shorts({1, 1, 0, 1, key, 0, 1, value})};
   };
   EXPECT_LT((pixel_size_of({scale, keys(3076, 9002)}) - .3048 * Vec2(30, 20)).norm(), 1e-12);
-  // The matrix turns the picture by 90 degrees: columns go down, by 30, and rows to the right, by 20.
+  // The matrix rotates the picture by 90 degrees: the next column is 30 lower, and the next row is 20 farther
+  // to the right.
   const ExtraTag matrix{34264, 12, 16, doubles({0, 20, 0, 7, -30, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 1})};
   EXPECT_EQ(pixel_size_of({matrix}), Vec2(30, 20));
   EXPECT_EQ(pixel_size_of({{33550, 11, 3, raw(1.F) + raw(2.F) + raw(0.F)}}), Vec2(0, 0)) << "not doubles";
@@ -101,21 +104,21 @@ TEST(TiffDirectory, TakesTheSizeOfPixelsFromGeoTiff) {
   EXPECT_EQ(pixel_size_of({{33550, 12, 3, doubles({-1, 1, 0})}}), Vec2(0, 0));
 }
 
-// A degree of longitude is half as long at 60 degrees north as a degree of latitude, which is 111 km long.
+// At 60 degrees north, a degree of longitude is half as long as a degree of latitude, which is 111 km.
 TEST(TiffDirectory, ConvertsDegreesAtTheMiddleRow) {
   const ExtraTag scale{33550, 12, 3, doubles({.5, .5, 0})},
-      tie{33922, 12, 6, doubles({0, 0, 0, 10, 61, 0})},  // the upper edge; the middle row is 2 pixels below
+      tie{33922, 12, 6, doubles({0, 0, 0, 10, 61, 0})},  // the upper edge; the middle row is 2 pixels lower
       keys{34735, 3, 8, shorts({1, 1, 0, 1, 1024, 0, 1, 2})};
   const Vec2 size = pixel_size_of({scale, tie, keys});
   EXPECT_NEAR(size.x() / size.y(), .5, 1e-12);
   EXPECT_NEAR(size.y(), .5 * 111195, 1);
 }
 
-// Returns a file of the two pictures: the first one's directory leads to the second one's.
+// Returns a file with both pictures: the directory of the first refers to that of the second.
 std::string two_pictures(std::string first, const std::string& second) {
   const std::size_t end_of_tags = 10 + 12 * 10, begin = first.size();
   first = patched(first, end_of_tags, static_cast<std::uint32_t>(begin));
-  std::string moved = second.substr(8);  // without the head of a file
+  std::string moved = second.substr(8);  // without the header of a file
   const auto by = static_cast<std::uint32_t>(begin - 8);
   moved = patched(moved, 2 + 12 * 5 + 8, static_cast<std::uint32_t>(end_of_tags + 4 + by));
   return first + moved;
@@ -125,7 +128,7 @@ TEST(TiffDirectory, SkipsThumbnailsAndMasks) {
   const std::string whole = whole_tiff();
   const std::string other = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(100 + i); }));
   const auto first_value = [&](std::uint32_t kind_of_first, std::uint32_t kind_of_second) {
-    const auto with_kind = [](std::string file, std::uint32_t kind) {  // in place of SamplesPerPixel
+    const auto with_kind = [](std::string file, std::uint32_t kind) {  // replaces SamplesPerPixel
       return patched(patched(file, 10 + 12 * 6, std::uint16_t{254}), 10 + 12 * 6 + 8, kind);
     };
     const std::string file = two_pictures(with_kind(whole, kind_of_first), with_kind(other, kind_of_second));

@@ -21,7 +21,7 @@ std::vector<Vec3> points_of(std::string_view text) {
 
 const std::vector<Vec3f> xz = {Vec3f::UnitX(), Vec3f::UnitZ()};
 
-// Expects that each text gives the two points, with these normals and colours.
+// Expects that each text contains the two points, with these normals and colours.
 void expect_two_points(const std::vector<std::string>& texts, const std::vector<Vec3f>& normals,
                        const std::vector<Colour>& colours = {}) {
   for (const std::string& text : texts) {
@@ -84,7 +84,7 @@ TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
   EXPECT_NEAR(file.cloud.normals[1].norm(), 1, 1e-7);
 }
 
-// Each point's colour follows from its place, so a wrong row, column or scale would show.
+// The colour of each point is a function of its position, so a wrong row, column or scale would be noticed.
 TEST(Xyz, ColoursOfARampAreThoseOfItsPlaces) {
   std::string bytes, fractions, words;
   std::vector<Colour> expected;
@@ -143,7 +143,7 @@ TEST(Xyz, SevenColumnsOfPtsAreIntensityAndColour) {
       {{255, 0, 10}, {0, 0, 1}});
 }
 
-// One block per scan, each after its number of points.
+// There is one block per scan, and the number of its points precedes each block.
 TEST(Xyz, PtsMayHaveSeveralBlocks) {
   const auto file = relievo::file_of("2\n1 2 3 9\n4 5 6 9\n1\n7 8 9 9\n\n0\n", "a.pts");
   EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
@@ -153,7 +153,7 @@ TEST(Xyz, PtsMayHaveSeveralBlocks) {
             "a.pts, line 4: expected 4 columns as in line 2, found 1");
 }
 
-// Returns a table of 20 lines of three coordinates with fractions, after `before` and followed by `after`.
+// Returns a table of 20 lines with `before`, three coordinates that have fractions, and `after` in each.
 std::string table(const std::function<std::string(int)>& before, const std::string& after) {
   std::string text;
   for (int i = 0; i < 20; ++i)
@@ -172,7 +172,7 @@ TEST(Xyz, RowAndColumnOfAScannerAreNoCoordinates) {
     EXPECT_EQ(file.cloud.colours, plain.cloud.colours) << after;
     EXPECT_TRUE(file.format.ends_with(" after row and column")) << file.format;
   }
-  // Whole coordinates before a height with a normal or with a colour stay coordinates.
+  // Integer coordinates before a height with a normal or a colour must be read as coordinates.
   std::string with_normals, with_colours;
   for (int i = 0; i < 20; ++i) {
     with_normals += cat(i % 5, " ", i / 5, " ", i + .5, " 0.6 0 0.8\n");

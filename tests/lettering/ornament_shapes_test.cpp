@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A round plate of radius 30 around (30, 30), as a polygon that contains the circle.
+// Returns a round plate of radius 30 around (30, 30), as a polygon that contains the circle.
 OrnamentFrame coin() {
   OrnamentFrame frame;
   const int n = 720;
@@ -32,7 +32,7 @@ RaisedShape shape_of(const Ornament& ornament, const OrnamentFrame& frame = coin
   return ornament_shapes(std::array{ornament}, frame).value().at(0);
 }
 
-// The least and largest distance of a shape's corners from the middle.
+// Returns the smallest and the largest distance of a shape's corners from the centre.
 std::array<double, 2> radii_of(const RaisedShape& shape) {
   std::array<double, 2> radii = {1e9, 0};
   for (const std::vector<Vec2>& outline : shape.outlines)
@@ -48,7 +48,7 @@ Vec2 middle_of(const std::vector<Vec2>& outline) {
 }
 
 TEST(OrnamentShapes, LettersStandInTheMiddleOfTheMargin) {
-  // The margin is 5: capitals of 3 stand 1 from the rim.
+  // The margin is 5, so capitals of height 3 leave 1 to the rim.
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::top, "I")));
   EXPECT_NEAR(low, 26, .01);
   EXPECT_NEAR(high, 29, .02);
@@ -70,7 +70,7 @@ TEST(OrnamentShapes, LettersKeepClearOfBorders) {
 
 TEST(OrnamentShapes, LettersThatHangBelowTheLineMakeItRise) {
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::bottom, "Ip")));
-  EXPECT_NEAR(low - 25, 30 - high, .15);  // the ends of a line are farther out than its middle
+  EXPECT_NEAR(low - 25, 30 - high, .15);  // the ends of a line are farther from the centre than its middle
   EXPECT_LT(low, 25.8);
 }
 
@@ -80,7 +80,7 @@ TEST(OrnamentShapes, ArcsAreReadFromLeftToRightAndUpright) {
     ASSERT_EQ(shape.outlines.size(), 2U);
     EXPECT_LT(middle_of(shape.outlines[0]).x(), 30);
     EXPECT_GT(middle_of(shape.outlines[1]).x(), 30);
-    // The foot of the L is its widest part.
+    // The foot of the L reaches farthest to the right.
     Vec2 widest = shape.outlines[1][0];
     for (const Vec2& p : shape.outlines[1])
       if (p.x() > widest.x()) widest = p;

@@ -48,7 +48,7 @@ long FailingAllocation::counted() const {
 
 using relievo::test::fails;
 
-// These functions replace those of the C library in the whole process.
+// These functions replace those of the C library for the whole process.
 extern "C" {
 void* malloc(std::size_t size) {
   return fails(size) ? nullptr : __libc_malloc(size);

@@ -1,4 +1,4 @@
-// Makes allocations of the whole process fail: those of the library, of the libraries that it uses, and of
+// Makes allocations fail in the whole process: those of the library, of the libraries that it uses, and of
 // all threads.
 #pragma once
 
@@ -7,12 +7,12 @@
 namespace relievo::test {
 
 struct AllocationFault {
-  long first = 1;               // number of the first allocation that fails, from 1
+  long first = 1;               // the first allocation that fails, counted from 1
   long count = 1;               // number of consecutive allocations that fail
   std::size_t least_bytes = 0;  // smaller allocations are not counted and do not fail
 };
 
-// Lets allocations fail until this object is destroyed. Only one may exist at a time.
+// Makes allocations fail until this object is destroyed. Only one such object may exist at a time.
 class FailingAllocation {
  public:
   explicit FailingAllocation(const AllocationFault& fault);
@@ -20,7 +20,7 @@ class FailingAllocation {
   FailingAllocation& operator=(const FailingAllocation&) = delete;
   ~FailingAllocation();
 
-  // Returns the number of allocations since the construction.
+  // Returns the number of allocations since this object was constructed.
   long counted() const;
 };
 

@@ -1,8 +1,8 @@
 // Tests the studio, without HTTP and in one process, while memory runs out. If an allocation fails in any
 // thread, the request must get its usual answer or an error of kind memory. Nothing may stay busy, and the
-// same request must be answered as usual afterwards. Allocations of a few bytes do not fail here: the
+// same request must get its usual answer afterwards. Allocations of a few bytes do not fail here: the
 // destructors of JSON make some, and the program has a reserve for them. The environment variable ALLOCATIONS
-// sets how many allocations of each request fail in turn; all if it is 0.
+// is the number of allocations that fail in turn for each request; 0 means all.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using test::FailingAllocation;
 
-// The answer to a request; its text is "memory" if memory ran out.
+// The answer to a request. Its text is "memory" if memory ran out.
 struct Told {
   int status = 0;
   std::string text;
@@ -38,7 +38,7 @@ const Told out_of_memory{507, "memory"};
 
 constexpr std::size_t few_bytes = 4096;
 
-// Returns the text of an answer without the times and counts that differ each time.
+// Returns the text of an answer without times and counts, which differ each time.
 std::string without_times(const Answer& answer) {
   std::string text = answer.body;
   for (const auto& [name, value] : answer.headers) {
@@ -50,7 +50,7 @@ std::string without_times(const Answer& answer) {
   return text;
 }
 
-// A studio whose page has opened one scan and then sends other requests.
+// A studio whose page has opened one scan and sends further requests.
 class Studio {
  public:
   Studio() {
@@ -76,7 +76,7 @@ class Studio {
     return {answer.status, without_times(answer)};
   }
 
-  // Opens a scan and waits until its view is prepared. Each copy of a sample is another scan.
+  // Opens a scan, and waits until its view is prepared. Each copy of a sample counts as another scan.
   Told open(const std::string& sample, int copy) {
     const std::string scan = path(sample + std::to_string(copy));
     if (!fs::exists(scan)) fs::create_hard_link(path(sample), scan);
@@ -97,7 +97,7 @@ class Studio {
     return json;
   }
 
-  // Returns whether the studio is still at work after a minute.
+  // Returns whether the studio is still busy after a minute.
   bool is_stuck() {
     const auto engine = documents_.find(document_);
     for (int look = 0; look < 60000; ++look) {
@@ -130,8 +130,9 @@ class Studio {
   std::string document_;
 };
 
-// Returns which of a request's `all` allocations fail, one after the other. They are spread evenly. There are
-// about `usual` of them, or as many as the environment variable ALLOCATIONS says.
+// Returns the numbers of the allocations that fail one after the other, out of the `all` allocations of a
+// request. They are evenly spaced. There are about `usual` of them, or as many as the environment variable
+// ALLOCATIONS says.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");
   const long most = asked ? std::atol(asked) : usual;
@@ -149,7 +150,7 @@ class StudioMemory : public testing::TestWithParam<int> {
   }
   void TearDown() override { set_thread_count(0); }
 
-  // Makes a request without faults. Then repeats it, each time with other allocations that fail.
+  // Makes a request without faults, then repeats it, each time with another failing allocation.
   template <typename Request>
   void survives(const Request& request, long usual = 12) {
     const Told whole = request();
@@ -161,12 +162,12 @@ class StudioMemory : public testing::TestWithParam<int> {
       return none.counted();
     }();
     ASSERT_GT(all, 0);
-    for (const long count : {1, 1000000})  // allocation n fails, or all from n on
+    for (const long count : {1, 1000000})  // allocation n fails, or all allocations from n on
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 
-  // Returns the answer to a request while an allocation fails, which may also be one that the test needs to
-  // make the request.
+  // Returns the answer to a request while an allocation fails. It may also be an allocation that the test
+  // itself makes.
   template <typename Request>
   static Told with_fault(const test::AllocationFault& fault, const Request& request) {
     const FailingAllocation failing(fault);
@@ -271,7 +272,7 @@ TEST_P(StudioMemory, MakesPiecesAndFiles) {
     double rim = 2;
     survives(
         [&] {
-          rim = rim > 2 ? 2 : 2.5;  // so that the piece is made anew
+          rim = rim > 2 ? 2 : 2.5;  // forces a new piece
           Json request = picture_request({{"height", 2}, {"rim", rim}});
           request["format"] = format;
           request["pixels"] = 16;

@@ -1,4 +1,4 @@
-// Tests that turning copies no points of a scan, as scans may have many points.
+// Tests that turning does not copy the points of a scan, which may be many.
 #include <gtest/gtest.h>
 
 #include "memory/failing_allocation.h"
@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Estimated normals have no sign, so they are turned towards the viewer in each frame.
+// Estimated normals have no sign, so each frame orients them towards the viewer.
 TEST(TurningMemory, CopiesThePointsInNoFrame) {
   Cloud cloud = *make_sample("shell", {.points = 100000});
   cloud.normals.clear();

@@ -5,7 +5,7 @@
 namespace relievo::paper {
 namespace {
 
-// Equation (6) as it is printed, with alpha.
+// Computes equation (6) as printed in the paper, with alpha.
 double printed_weight(double k, double delta, double alpha, double beta) {
   return 1 - std::exp(-std::pow(std::abs(k) / (alpha * delta), beta));
 }

@@ -15,7 +15,7 @@ struct Chosen {
   double rho = std::sqrt(1.0 / 1000);
 };
 
-// No chosen point is in the region of another, and every point is in one.
+// No chosen point is in the region of another one, and every point is in a region.
 TEST(PaperControlPoints, AreGrownByTheRadiusOfSection42) {
   Chosen c;
   for (std::size_t i = 500; i < 600; ++i) c.is_boundary[i] = 1;
@@ -28,7 +28,7 @@ TEST(PaperControlPoints, AreGrownByTheRadiusOfSection42) {
     const bool is_chosen = std::ranges::find(chosen, i) != chosen.end();
     EXPECT_EQ(nearest >= radius, is_chosen) << i;
   }
-  EXPECT_EQ(chosen[0], 500U);  // the boundary is asked first
+  EXPECT_EQ(chosen[0], 500U);  // boundary points come first
   EXPECT_GT(chosen.size(), 40U);
   EXPECT_LT(chosen.size(), 110U);
 }

@@ -5,7 +5,8 @@
 namespace relievo::paper {
 namespace {
 
-// The height of a relief whose points all have |k| = delta, at the height 1 without compression.
+// Returns the height of a relief whose points all have |k| = delta, and whose height is 1 without
+// compression.
 double height_of(double alpha, double beta) {
   return 1 - std::exp(-std::pow(alpha, -beta));
 }
@@ -25,7 +26,7 @@ TEST(PaperHeightToOrder, IsMetToOnePercent) {
   }
 }
 
-// At half of the beta that was found no alpha from 0.001 to the largest number gives the height.
+// With half of the beta that was found, no alpha from 0.001 to the largest number gives the height.
 TEST(PaperHeightToOrder, HasTheSmallestBeta) {
   for (const double wanted : {.02, .3, .9}) {
     const double beta = adjust_to_height(wanted, height_of).beta;

@@ -26,8 +26,8 @@ Cloud ball_before_a_sheet(double distance = 2) {
   return test::joined(test::sheet(24000, 1.5, 0), test::moved(test::sphere(12000, .7), Vec3(0, 0, distance)));
 }
 
-// Section 4.1: high discontinuities vanish. Only normals count, so the relief is the same however far the ball is in
-// front of the sheet.
+// Section 4.1: large depth jumps vanish. Only normals matter, so the relief does not depend on the distance
+// of the ball from the sheet.
 TEST(PaperRelief, DoesNotDependOnTheHeightOfDepthJumps) {
   const ReliefModel near = prepared(ball_before_a_sheet(2)), far = prepared(ball_before_a_sheet(20));
   ASSERT_EQ(near.surface().points.size(), far.surface().points.size());
@@ -61,7 +61,7 @@ TEST(PaperRelief, IsFlatWithoutWeightAndLiesOnTheBaseAtItsBoundary) {
     }
 }
 
-// The second equation (9): the difference that gamma makes is gamma k h at each point inside.
+// The second equation (9): gamma changes the height of each inner point by gamma k h.
 TEST(PaperRelief, DetailIsProportionalToCurvature) {
   const ReliefModel model = prepared(ball_before_a_sheet());
   const Relief plain = model.make({{1, .01}, 0}), detailed = model.make({{1, .01}, .1});
@@ -72,7 +72,8 @@ TEST(PaperRelief, DetailIsProportionalToCurvature) {
     }
 }
 
-// At beta > 1 the ratio of waves differs from place to place: no constant ratio of the uncompressed heights comes as close.
+// With beta > 1, the ratio between the heights of the waves varies: no constant ratio of the uncompressed
+// heights comes as close.
 TEST(PaperRelief, OfControlPointsIsCloseToTheExactOne) {
   const Cloud cloud = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(4 * x) * std::cos(3 * y); },
@@ -126,7 +127,7 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
     options.base = std::make_shared<const std::vector<float>>(wave);
     Frame plain;
     FrameMaker(model).make(on_plane, plain);
-    for (int again = 0; again < 2; ++again) {  // the second time, the coefficients are known
+    for (int again = 0; again < 2; ++again) {  // in the second pass, the coefficients are known already
       maker.make(options, frame);
       EXPECT_TRUE(frame.is_height_met);
       EXPECT_NEAR(frame.height, .1, 1e-6);
@@ -139,7 +140,8 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
   }
 }
 
-// Section 3.5: the stages of three frames run at once, and give what one frame after the other gives.
+// Section 3.5: the stages of three frames run at the same time, and give the same result as frames made one
+// after the other.
 TEST(PaperRelief, OneStepAheadHasTheSameBits) {
   const std::array shapes{Shape{{1, .2}, .05}, Shape{{.5, 1}, 0}, Shape{{.7, 0}, .1}, Shape{{.2, 3}, .02}};
   for (const Mode mode : {Mode::exact, Mode::subspace}) {

@@ -10,7 +10,8 @@
 namespace relievo::paper {
 namespace {
 
-// The rule of section 3.2 by brute force: for each point, all others are asked whether they are in its cell.
+// Applies the rule of section 3.2 by brute force: for each point, tests for all other points whether they are
+// in its cell.
 TEST(PaperVisiblePoints, AreThoseNearTheHighestPointOfTheirCell) {
   const Cloud cloud = test::sphere(1500, 1);
   const double rho = .06;

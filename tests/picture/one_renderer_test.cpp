@@ -1,5 +1,5 @@
-// Previews of finished solids and live pictures of frames come from one renderer: the same solid in the same
-// view, light and material gives the same pixels.
+// Tests that previews of finished solids and live pictures of frames come from the same renderer: the same
+// solid with the same view, light and material gives the same pixels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double mm_per_unit = 32;
 
-// A model, heights and normals of a relief at its points, and the finished solid, whose first points are the
-// same.
+// A model, the heights and normals of a relief at its points, and the finished solid, whose first points are
+// the points of the relief.
 struct Bodies {
   std::shared_ptr<const ReliefModel> model =
       std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
@@ -64,7 +64,7 @@ Image8 live_picture(const RenderOptions& options) {
   return picture.image;
 }
 
-// Draws the finished solid where the live picture shows its plate.
+// Draws the finished solid at the position of the live picture's plate.
 Image8 picture_of_solid(const RenderOptions& options) {
   const SolidBody owner(bodies().solid);
   DrawCache cache;
@@ -93,7 +93,7 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
       }
 }
 
-// The renderer's cache must not change pictures, and impossible sizes give no picture.
+// The renderer's cache must not change pictures. An impossible size gives no picture.
 TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   SolidRenderer renderer(std::make_shared<const Solid>(bodies().solid));
   Picture first, other, again;
@@ -108,8 +108,8 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   EXPECT_TRUE(other.image.pixels.empty());
 }
 
-// The front view of a preview, apart from the wall behind the plate, equals the studio's picture at this size
-// and zoom.
+// Apart from the wall behind the plate, the front view of a preview equals the studio's picture with this
+// size and zoom.
 TEST(OneRenderer, PreviewShowsTheLivePicture) {
   const Image8 preview = render_preview(bodies().solid, {.longer_side_px = 300});
   RenderOptions options = options_for(Material::plaster, true, 0);
@@ -127,14 +127,14 @@ TEST(OneRenderer, PreviewShowsTheLivePicture) {
   for (int y = 0; y < live.image.height; ++y)
     for (int x = 0; x < live.image.width; ++x) {
       const std::size_t i = live.image.index(x, y);
-      if (live.image.pixels[i + 3] < 255) continue;  // there the preview shows its wall
+      if (live.image.pixels[i + 3] < 255) continue;  // the preview shows its wall here
       ++opaque;
       for (std::size_t c = 0; c < 3; ++c)
         if (const int by = std::abs(live.image.pixels[i + c] - preview.pixels[preview.index(x, y) + c]))
           ++different, largest = std::max(largest, by);
     }
-  // The zoom differs from the preview's scale in the last digit, so a colour between two levels can be
-  // rounded the other way.
+  // The zoom differs from the preview's scale in its last digit, so a colour between two levels may be
+  // rounded differently.
   EXPECT_LE(largest, 1);
   EXPECT_LT(different, opaque / 1000);
   EXPECT_GT(opaque, 60000U);

@@ -18,7 +18,7 @@ namespace {
 
 using test::flat_front, test::grid_front, test::plate_of, test::pyramid_front;
 
-// Returns the front as greys of 16 bits.
+// Returns the front as a picture of 16-bit grey levels.
 HeightMap map_of(const Solid& solid, int longer_side_px) {
   return grey_levels(make_heights_mm(solid, {.longer_side_px = longer_side_px}));
 }
@@ -30,7 +30,7 @@ std::uint16_t grey_at(const HeightMap& map, int column, int row) {
 // ---------------------------------------------------------------------------------------------- height map
 
 TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
-  // The pyramid's base is 40 x 20, with its middle at (25, 15), on a plate of 50 x 30.
+  // The base of the pyramid is 40 x 20, with its centre at (25, 15), on a plate of 50 x 30.
   const Solid solid = plate_of(pyramid_front({{0, 0}, {40, 0}, {40, 20}, {0, 20}}, 7), {5, 3});
   const auto height = [](double x, double y) {
     return std::max(0.0, 7 * (1 - std::max(std::abs(x - 25) / 20, std::abs(y - 15) / 10)));
@@ -52,7 +52,7 @@ TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
 }
 
 TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
-  // The groove and the ridge are wide enough to contain pixel centres.
+  // The groove and the ridge are wide enough to contain centres of pixels.
   const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
   const HeightMap map = map_of(plate_of(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
   const auto [low, high] = std::ranges::minmax(map.image.pixels);
@@ -77,7 +77,7 @@ TEST(HeightMap, BeginsAtTheGroundIfAsked) {
   EXPECT_NEAR(down.mm_per_grey, 4. / 255, 1e-9);
 }
 
-// The relief's valley is lower than the ground, and its middle is as high as the ground.
+// The valley in the relief is lower than the ground, and the centre of the relief is as high as the ground.
 TEST(HeightMap, OfTheReliefAloneHasTheGroundBesideIt) {
   const auto ring = [](double x, double y) { return std::hypot(x - 10, y - 10) < 4 ? -2. : 1.; };
   const Solid solid = plate_of(pyramid_front({{0, 0}, {20, 0}, {10, 20}}, -3), {5, 3});
@@ -114,7 +114,7 @@ TEST(HeightMap, NothingToDrawGivesNoPixels) {
 
 // ------------------------------------------------------------------------------------------------- preview
 
-// Returns the height of a hemisphere of radius 15 in the middle of a plate of 60 x 60.
+// Returns the height of a hemisphere of radius 15 at the centre of a plate of 60 x 60.
 double hemisphere(double x, double y) {
   return std::sqrt(std::max(0.0, 225 - (x - 25) * (x - 25) - (y - 25) * (y - 25)));
 }
@@ -123,7 +123,7 @@ Solid hemisphere_plate() {
   return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
-// Returns the mean of the three channels at the place (x, y) in the front view of a plate of the given size.
+// Returns the mean of the three channels at the point (x, y) in the front view of a plate of the given size.
 // All lengths are in millimetres.
 struct FrontView {
   const Image8& image;
@@ -199,8 +199,7 @@ TEST(Preview, NothingIsClipped) {
 }
 
 TEST(Preview, AShadowFallsAwayFromTheLight) {
-  // The ground beside a tower, which is 10 mm wide and 12 mm high, is compared on all sides at the same
-  // distance.
+  // The ground beside a tower of width 10 mm and height 12 mm is compared on all sides at the same distance.
   const auto tower = [](double x, double y) {
     return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
   };
@@ -221,7 +220,8 @@ TEST(Preview, NothingToDrawGivesNoPixels) {
   EXPECT_EQ(render_preview(hemisphere_plate(), {.longer_side_px = 1}).pixels.size(), 2U * 3);
 }
 
-// With a lamp straight in front, straight behind or none, no side is lit more than the opposite one.
+// With the lamp exactly in front, exactly behind, or without a lamp, no side is brighter than the opposite
+// one.
 TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
   const Solid solid = hemisphere_plate();
   for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 0)}) {
@@ -243,7 +243,7 @@ TEST(Preview, ALampBehindGivesNoLight) {
   };
   EXPECT_EQ(top({0, 0, -1}), top({0, 0, 0}));
   EXPECT_GT(top({0, 0, 1}), top({0, 0, 0}) + 20);
-  EXPECT_GT(top({0, 0, 0}), 10);  // the sky remains
+  EXPECT_GT(top({0, 0, 0}), 10);  // skylight remains
 }
 
 TEST(Preview, ALampBesideThePlateLightsOneSide) {
@@ -255,8 +255,8 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
   }
 }
 
-// Shadows are computed from the front. There the sides of a half cylinder are seen almost edge on: beside
-// each edge, 2 % of its width lean by 74 degrees or more. So these strips have no shadows.
+// Shadows are computed in the front view, where the sides of a half cylinder are seen almost edge on: along
+// each edge, strips of 2 % of its width lean by 74 degrees or more. So these strips have no shadows.
 TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
   ReliefOptions options;
   options.height_mm = 4;

@@ -1,4 +1,4 @@
-// Tests that only material which a tool leaves standing is coloured.
+// Tests that material is coloured only where a tool leaves it.
 #include "picture/reach_tint.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@ namespace relievo {
 namespace {
 
 // Returns the reach of a tool on a front of 20 mm x 10 mm, in samples of 1 mm. On the right half, the tool
-// leaves 1 mm standing in the top row and .1 mm below.
+// leaves 1 mm of material in the top row and 0.1 mm below.
 std::shared_ptr<const ToolReach> reach() {
   ToolReach reach;
   reach.mm_per_sample = 1;

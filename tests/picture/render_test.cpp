@@ -12,13 +12,13 @@
 namespace relievo {
 namespace {
 
-// Returns the model of a half ball, which is 2 wide and 2 high in the picture plane.
+// Returns the model of a hemisphere that is 2 wide and 2 high in the view plane.
 std::shared_ptr<const ReliefModel> ball() {
   static const auto model = std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
   return model;
 }
 
-// A relief of the ball. field() sets its heights by a function of the place.
+// A relief of the ball. field() makes one from a function of the position.
 struct Field {
   std::vector<float> heights;
   std::vector<Vec3f> normals;
@@ -67,7 +67,7 @@ std::size_t opaque_pixels(const Picture& picture) {
   return count;
 }
 
-// The rectangle around the pixels of the plate.
+// The bounding box of the plate's pixels.
 struct PlatePixels {
   Vec2 low = Vec2::Constant(1e9), high = Vec2::Constant(-1e9);
   Vec2 centre() const { return (low + high) / 2; }
@@ -150,8 +150,8 @@ TEST(Render, KeepsNothingOfEarlierPictures) {
   EXPECT_EQ(after.image.pixels, picture(other, small()).image.pixels);
 }
 
-// Pictures from a turned camera draw all triangles anew; pictures from the front look them up. For a camera
-// that is hardly turned, both must look the same.
+// If the camera is rotated, all triangles are drawn again; in the front view, they are looked up. For a
+// camera that is hardly rotated, both must look the same.
 TEST(Render, OrbitBeginsAtTheFront) {
   RenderOptions turned = small();
   turned.camera.pitch_deg = 1e-7;
@@ -185,7 +185,7 @@ TEST(Render, ZoomsAroundTheMiddle) {
   EXPECT_DOUBLE_EQ(half.pixels_per_mm, whole.pixels_per_mm / 2);
   EXPECT_LT((plate_in(half).centre() - Vec2(120, 100)).norm(), 1);
   EXPECT_LT((plate_in(half).size() - plate_in(whole).size() / 2).norm(), 2);
-  options.camera.zoom = 60;  // deep in the middle of the plate
+  options.camera.zoom = 60;  // the picture is inside the plate
   EXPECT_EQ(opaque_pixels(picture(bumps(), options)), 240U * 200U);
 }
 
@@ -205,8 +205,8 @@ TEST(Render, OrbitsAtTheScaleOfTheFrontAsLongAsThePlateFits) {
   }
 }
 
-// `pan` is the place on the plate that is in the middle of the picture, so the plate moves the other way.
-// Rows run downwards.
+// `pan` is the point of the plate at the centre of the picture, so the plate moves in the opposite direction.
+// Rows of the picture run downwards.
 TEST(Render, PansByMillimetresOfThePlate) {
   RenderOptions options = small();
   options.camera.zoom = .5;
@@ -221,7 +221,7 @@ TEST(Render, PansByMillimetresOfThePlate) {
     for (int column = 80; column < 160; ++column)
       difference += std::abs(red(after, column - right, row + up) - red(before, column, row));
   EXPECT_LT(difference / (80 * 80), 1);
-  options.camera.pan = {1000, 0};  // far beside the plate
+  options.camera.pan = {1000, 0};  // far outside the plate
   EXPECT_EQ(opaque_pixels(picture(bumps(), options)), 0U);
 }
 
@@ -283,7 +283,7 @@ TEST(CloudRenderer, ShowsABallAsADisc) {
   const double radius = 3 * made.pixels_per_mm;
   const double share = static_cast<double>(opaque_pixels(made)) / (std::numbers::pi * radius * radius);
   EXPECT_GT(share, .99);
-  EXPECT_LT(share, 1.1);  // points are drawn as discs, and those at the rim reach beyond it
+  EXPECT_LT(share, 1.1);  // points are drawn as discs, which extend beyond the rim
   EXPECT_EQ(made.image.pixels[3], 0);
   EXPECT_GT(red(made, 85, 65), red(made, 125, 105));  // the lamp is at the upper left
 }

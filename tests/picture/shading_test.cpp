@@ -32,7 +32,7 @@ TEST(Room, IsBrightestWhereTheLampIs) {
     for (float y = -1; y <= 1; y += .125F) {
       const float light = room({x, y});
       EXPECT_GT(light, 0);
-      EXPECT_LE(light, at_lamp * 1.03F) << x << " " << y;  // walls are brighter above the lamp
+      EXPECT_LE(light, at_lamp * 1.03F) << x << " " << y;  // slightly brighter above the lamp
     }
 }
 
@@ -72,7 +72,7 @@ TEST(Shading, NothingIsClippedOnLevelGround) {
       }
 }
 
-// The patches of patina repeat every 64 mm, also across the middle of the plate.
+// The pattern of patina repeats every 64 mm, also across the centre of the plate.
 TEST(Shading, PatinaHasNoSeamInTheMiddle) {
   Lit place = level_at(0, 0), again = place;
   for (const float x : {-1.F, 0.F, 5.5F, -.95F, 5.47F}) {

@@ -1,4 +1,4 @@
-// Checks that every real scan that is at hand becomes a valid solid with the height that was asked for.
+// Checks that every available real scan becomes a valid solid of the requested height.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 using test::has_shared, test::missing_scan, test::shared_bytes, test::shared_data;
 
-// Returns the scans' paths within the folder. Returns "none" if there are no scans, so that one test reports
-// what is skipped.
+// Returns the scans' paths within the folder; "none" if there are no scans, so that one test reports that it
+// was skipped.
 std::vector<std::string> scan_names() {
   std::vector<std::string> names;
   for (const fs::path& folder : {shared_data(), shared_data() / "original"})
@@ -61,8 +61,8 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
   EXPECT_GT(made.report.visible_points, .2 * static_cast<double>(file.cloud.size()));
-  // Only two of these scans show a table. Statues on plinths, busts, and range images of a single figure show
-  // none.
+  // Only two of these scans show a table. Statues on plinths, busts, and depth images of a single figure do
+  // not.
   const bool has_table =
       path.filename() == "kinect_milk_table.pcd" || path.filename() == "figurines_scene.pcd";
   EXPECT_EQ(made.report.plane.has_value(), has_table);
@@ -72,8 +72,8 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   }
 }
 
-// One scan shows three cartons on a wide table, whose farthest corner the camera has bent up by 3 tolerances.
-// The other shows figurines on a board.
+// One scan shows three cartons on a wide table; its farthest corner is bent up by 3 tolerances because of
+// camera errors. The other scan shows figurines on a board.
 TEST(Data, TablesAreLeftOut) {
   for (const auto& [name, share] :
        {std::pair("original/kinect_milk_table.pcd", .77), std::pair("original/figurines_scene.pcd", .25)}) {
@@ -87,15 +87,15 @@ TEST(Data, TablesAreLeftOut) {
     ASSERT_TRUE(with.plane && without.plane);
     EXPECT_EQ(with.plane->kind, PlaneKind::table);
     EXPECT_NEAR(with.plane->share, share, .03);
-    EXPECT_LT(Box::of(without.points).max.x(), .6);  // everything farther right belongs to the table
+    EXPECT_LT(Box::of(without.points).max.x(), .6);  // all points farther to the right belong to the table
     EXPECT_LT(static_cast<double>(without.visible_points),
               1.03 * (1 - share) * static_cast<double>(with.visible_points));
   }
 }
 
-// The list that comes with the scans states their fronts. Most face +Z with Y upwards; two face -Y with Z
-// upwards. For the bimba without normals, the list states a front between +X and +Z. best_side() tries only
-// sides along the axes and finds +Z, 45 degrees away.
+// The list that comes with the scans states their front sides. Most face +Z with Y upwards; two face -Y with
+// Z upwards. For the bimba without normals, the stated front is between +X and +Z. best_side() tries only
+// sides along the axes and finds +Z, which is 45 degrees away.
 TEST_P(RealScan, IsShownFromItsToldFront) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");

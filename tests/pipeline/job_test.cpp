@@ -1,4 +1,5 @@
-// A job and its live model make the same solids, frames and pictures as the functions that they call.
+// Tests that a job and its live model make the same solids, frames and pictures as the functions that they
+// call.
 #include "relievo/job.h"
 
 #include <gtest/gtest.h>

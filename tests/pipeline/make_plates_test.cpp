@@ -1,4 +1,4 @@
-// Tests reliefs on plates with rims, from cloud to solid.
+// Tests reliefs on plates with rims, from the cloud to the solid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ ReliefOptions coin_options() {
   return options;
 }
 
-// Returns how high the highest corner of the plate's edge is above the ground.
+// Returns the height of the highest corner of the plate's edge above the ground.
 double rim_height(const MadeRelief& relief) {
   const Solid& solid = relief.solid;
   const Box box = box_of(solid);
@@ -49,7 +49,7 @@ TEST(MakePlates, ARimIsAsHighAsTheReliefIfItsBevelFits) {
     options.rim_mm = width;
     EXPECT_NEAR(rim_height(made(options)), .8, 1e-3) << width;
   }
-  options.rim_mm = .15;  // the bevel is .3 times as wide as the rim is high
+  options.rim_mm = .15;  // the bevel's width is 0.3 times the height of the rim
   EXPECT_NEAR(rim_height(made(options)), .5, 1e-12);
   options.rim_bevel_mm = .1;
   EXPECT_NEAR(rim_height(made(options)), .8, 1e-3);

@@ -80,8 +80,8 @@ TEST(MakeRelief, SolvesForControlPointsInProportionToTheNumberAsked) {
   }
 }
 
-// Expects that a relief in a plate of that size is as large as the margin allows: one point touches the
-// margin, and no point lies beyond it.
+// Expects that a relief on a plate of that size is as large as the margin allows: one point touches the
+// margin, and no point is beyond it.
 void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const Vec2& size) {
   const auto made = value_of(make_relief(model, options));
   EXPECT_EQ(check_solid(made.solid), "");
@@ -91,14 +91,14 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
   ReliefOptions larger = options;
   larger.width_mm = width * 1.001;
   expect_error(make_relief(model, larger), "width: expected ");
-  // The plate that is fitted around a relief of this width is as large as `size` in one direction, and no
-  // larger in the other.
+  // A plate that is fitted around a relief of this width has the same size as `size` in one direction, and is
+  // not larger in the other.
   ReliefOptions free = options;
   free.width_mm = width;
   free.diameter_mm.reset();
   free.plate_mm.reset();
   const Vec2 share = box_of(make_relief(model, free)->solid).size().head<2>().cwiseQuotient(size);
-  if (options.outline == Outline::ellipse) return;  // the smaller ellipse has axes of another ratio
+  if (options.outline == Outline::ellipse) return;  // the smaller ellipse has another ratio of axes
   EXPECT_NEAR(share.maxCoeff(), 1, 1e-3) << name;
 }
 
@@ -122,12 +122,12 @@ TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   const auto made = make_relief(*model, options);
   EXPECT_NEAR(box_of(made->solid).size().x(), 80, 1e-9);
   EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
-  options.form = Form::die;  // a border as wide as the rim and its bevel lies around the rim's groove
+  options.form = Form::die;  // around the rim's groove is a border, as wide as the rim and its bevel together
   const Vec3 die = box_of(make_relief(*model, options)->solid).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);
 }
 
-// Returns the heights at which a vertical line crosses the solid, by trying every triangle.
+// Returns the heights at which a vertical line crosses the solid. Tests every triangle.
 std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   std::vector<double> heights;
   for (const Triangle& t : solid.triangles) {
@@ -143,7 +143,7 @@ std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   return heights;
 }
 
-// The figure is scanned only from -Y, with Z upwards, so it has no other side.
+// The figure is scanned only from -Y, with Z upwards, so it has no other sides.
 TEST(MakeRelief, ShowsTheBestSideWhereThatIsAskedFor) {
   Cloud standing;
   const Cloud whole = figure();
@@ -201,7 +201,7 @@ TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
   EXPECT_FALSE(paper->report.height_usual_mm);
 }
 
-// The dome is too shallow for a height of a twentieth of its width, with or without a draft angle.
+// The dome is too shallow for the usual height of a twentieth of its width, with or without a draft angle.
 TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
   Cloud shallow = test::sphere(20000, 1);
   for (Vec3& p : shallow.points) p.z() *= .02;
@@ -230,7 +230,7 @@ TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
   EXPECT_LT(highest, .9 * free);
   options.height_mm = .999 * highest;
   EXPECT_NEAR(value_of(make_relief(*model, options)).report.height_mm, .999 * highest, 1e-3);
-  EXPECT_EQ(*highest_with_draft(*model, options), highest);  // whatever height is asked for
+  EXPECT_EQ(*highest_with_draft(*model, options), highest);  // whatever height was requested
   options.height_mm = 1.001 * highest;
   expect_error(make_relief(*model, options), "draft: expected ");
 }
@@ -258,7 +258,7 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
   options.height_mm = 2;
   options.rim_mm = 3;
   options.draft_deg = 20;
-  for (const double share : {.9, 1.1}) {  // times the bevel that leans by the draft angle
+  for (const double share : {.9, 1.1}) {  // relative to the bevel that has the draft angle
     options.rim_bevel_mm = share * 2 * std::tan(20 * std::numbers::pi / 180);
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
     const auto made = make_relief(*model, options);
@@ -281,7 +281,7 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
   }
 }
 
-// The relief's box moves by the whole shift. No part of it comes nearer to the plate's edge than the margin.
+// The relief's bounding box moves by the whole shift, and stays inside the margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
   ReliefOptions options;
@@ -325,8 +325,8 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-// Two sheets, one before the other, have no slopes. The paper's method gives them no height; by default the step
-// between them takes all of it.
+// Two level sheets, one in front of the other, have no slopes. The paper's method gives them no height; by
+// default the step between them gets all of it.
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;
@@ -369,8 +369,8 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
 }
 
-// The bits must be the same with and without the processor's instructions for wide vectors. For other
-// compilers and targets, scripts/compare-builds allows differences of 1e-5 of the height.
+// The bits must be the same with and without the processor's wide vector instructions. For other compilers
+// and targets, scripts/compare-builds allows differences of 1e-5 of the height.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
   for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
     ReliefOptions options;
@@ -386,7 +386,7 @@ TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
   ReliefOptions options;
   options.saturation = 1;
   options.tone = *parse_tone_curve("0.5,0");
-  // The curve makes all slopes flat, which is refused.
+  // The curve flattens all slopes, which is refused.
   expect_error(make_relief(figure(), options), ErrorKind::geometry);
 }
 

@@ -79,7 +79,7 @@ TEST(ParseOptions, EachBecomesItsValue) {
   EXPECT_EQ(others->outline, Outline::circle);
 }
 
-// Returns whether every text is a value of the option: a text to be set, or the name of a file.
+// Returns whether any text is a value of the option: a text to be set, or the name of a file.
 bool is_any_text(const OptionRow& option) {
   return option.name == "text" || option.name == "font" || option.name == "ornaments";
 }
@@ -147,7 +147,7 @@ TEST(OptionTable, HasNamesOfTheirOwnHelpAndADefault) {
   }
 }
 
-// All numbers of NumericOptions are in the table, so every number that users set is checked.
+// Every number in NumericOptions must be in the table, so that all numbers that users set are checked.
 TEST(OptionTable, HasARowForEachNumber) {
   std::size_t bytes = 0;
   for (const OptionRow& option : option_table()) {

@@ -70,7 +70,7 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   options.diameter_mm = 80;
   options.outline = Outline::circle;
   EXPECT_EQ(complaint(options), "");
-  options.rim_mm = 39;  // besides a margin of 1 mm
+  options.rim_mm = 39;  // with a margin of 1 mm
   EXPECT_EQ(complaint(options), "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
   options = {};
   options.rim_mm = options.rim_bevel_mm = 2;

@@ -28,10 +28,10 @@ TEST(PlaceModels, TurnsScalesAndMirrorsAboutTheMiddleOfTheBox) {
   EXPECT_TRUE(image({{0, 0, 90}}, {1, 0, 3}).isApprox(Vec3(0, 1, 3), tiny));
   EXPECT_TRUE(image({{0, 90, 0}}, {0, 2, 1}).isApprox(Vec3(1, 2, 0), tiny));
   EXPECT_TRUE(image({{90, 0, 0}}, {1, 1, 0}).isApprox(Vec3(1, 0, 1), tiny));
-  // The turn about x comes first and takes y to z. Then the turn about z keeps z.
+  // The rotation about x comes first and maps y to z. The rotation about z then leaves z unchanged.
   EXPECT_TRUE(image({{90, 0, 90}}, {1, 1, 0}).isApprox(Vec3(0, 1, 1), tiny));
   EXPECT_TRUE(image({Vec3::Zero(), Vec3(10, 20, 30), 2}, {1, 2, 3}).isApprox(Vec3(12, 24, 36), tiny));
-  // The mirror comes before the turn: it takes x to -x, and the turn takes -x to -y.
+  // Mirroring comes before the rotation: it maps x to -x, and the rotation maps -x to -y.
   EXPECT_TRUE(image({{0, 0, 90}, {}, 1, true}, {1, 0, 3}).isApprox(Vec3(0, -1, 3), tiny));
 }
 

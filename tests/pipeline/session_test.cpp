@@ -97,7 +97,7 @@ TEST(Session, CanBeCancelledWhileItPrepares) {
   EXPECT_EQ(session.model(), nullptr);
 }
 
-// If work rarely checks whether it is cancelled, the user must not wait for it, and its result must not
+// If work rarely checks whether it is cancelled, the user need not wait for it, and its result must not
 // appear later.
 TEST(Session, SaysAtOnceThatItIsCancelled) {
   Session session;
@@ -178,7 +178,7 @@ TEST(Session, ANewerOpeningReplacesAnOlder) {
   first.ready = second.ready = third.ready = count;
   session.open(first);
   stuck.has_begun.acquire();
-  session.open(second);  // cancels the first preparation; the second is never begun
+  session.open(second);  // cancels the first preparation; the second never begins
   session.open(third);
   ASSERT_TRUE(session.wait_until_idle(60s));
   ASSERT_NE(session.model(), nullptr);

@@ -1,5 +1,5 @@
 // Tests the solid of a shape that is smooth except at its silhouette and at one depth jump: a button with a
-// smaller one before it.
+// smaller button in front of it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -54,7 +54,7 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-// Returns the difference between the highest and the lowest point of the front.
+// Returns the height difference between the highest and the lowest point of the front.
 double height_of_front(const Solid& solid) {
   std::vector<double> heights;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
@@ -69,18 +69,18 @@ MadeRelief made_of(const Cloud& cloud, ReliefOptions options = {}) {
   return make_relief(cloud, options).value();
 }
 
-// A scan with that many points, and bounds of the angles between the facets of its solid.
+// The number of points of a scan, and bounds of the angles between the facets of its solid.
 struct ScanSize {
   std::size_t points;
-  double most_deg, rare_deg;  // bounds of 99 % and 99.9 % of the angles
+  double most_deg, rare_deg;  // bounds that hold for 99 % and 99.9 % of the angles
 };
 
 class SmoothSolid : public testing::TestWithParam<ScanSize> {};
 
-// From one point to the next, the normal at the small button's edge turns by 14 degrees if there are 20,000
-// points, and by 3 if there are 250,000. The step at the jump has the height that is asked, not the one that the slopes
-// beside it would have, which bends the rows next to it. A wide boundary weight bends the surface by 13 degrees all along the
-// silhouette.
+// At the small button's edge, the normal turns by 14 degrees from one point to the next if there are 20,000
+// points, and by 3 degrees if there are 250,000. The step at the jump has the requested height. That differs
+// from the height of the slopes beside it, so the rows next to the jump bend. A wide boundary weight bends
+// the surface by 13 degrees along the whole silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
@@ -88,7 +88,7 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   EXPECT_LT(quantile(angles, .999), GetParam().rare_deg);
 }
 
-// The limit takes the rounding from the edges, which leaves a crease around each button.
+// The limit removes the rounding at the edges, which leaves a crease around each button.
 TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
   for (const Form form : {Form::relief, Form::die}) {
     ReliefOptions options;
@@ -105,7 +105,7 @@ TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
 INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,
                          testing::Values(ScanSize{20000, 5, 9}, ScanSize{100000, 2.6, 6},
                                          ScanSize{250000, 2.8, 11}));
-// This takes long, so it runs only with --gtest_also_run_disabled_tests.
+// This test takes long, so it runs only with --gtest_also_run_disabled_tests.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2.4, 20}));
 
 }  // namespace

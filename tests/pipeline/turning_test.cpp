@@ -52,10 +52,10 @@ TurnedRelief prepared(const MeasuredCloud& measured, const View& view) {
   return {std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1};
 }
 
-// The similarity of the picture of a coarse relief to that of the relief of all points, in the same view.
+// Similarities between the picture of a turned relief and that of the relief of all points, in the same view.
 struct Similarities {
-  double turned = 0;  // with the height correction of another view, as while a model is turned
-  double first = 0;   // without a model before it, as when a scan has just been opened
+  double turned = 0;  // with the height correction of another view, as during a turn
+  double first = 0;   // without an earlier model, as just after a scan was opened
 };
 
 Similarities similarities(const Cloud& cloud, const char* from, const char* to) {
@@ -91,8 +91,8 @@ TEST(Turntable, LooksLikeTheFullRelief) {
   EXPECT_GT(found.first, .9);
 }
 
-// Points that differ by less than half a cell would look as good, but the same call must give the same relief
-// each time.
+// Differences of less than half a cell would not be visible, but the same call must always give the same
+// relief.
 TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto measured = MeasuredCloud::measure(test::torus(30'000, 1, .4), {}).value();
   const Turntable table(*measured);
@@ -113,8 +113,8 @@ TEST(Turntable, HasAboutAsManyPointsAsItSays) {
   }
 }
 
-// Turns a sphere of radius 1 after a model with a support plane at that height. Returns the diameter of the
-// part of the sphere that is left.
+// Turns a sphere of radius 1, whose former model has a support plane at that height. Returns the diameter of
+// the part of the sphere that is left.
 double diameter_before_plane(const Turntable& table, const MeasuredCloud& measured, double height) {
   Surface surface = find_surface(measured, {}).value();
   surface.plane = SupportPlane{PlaneKind::background, Vec3::UnitZ(), height - surface.centre.z(), .01, .3};

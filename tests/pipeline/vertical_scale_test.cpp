@@ -16,12 +16,12 @@ namespace {
 constexpr int columns = 61, rows = 41;
 constexpr double mm_per_value = .05;
 
-// The heights of a map, in which the tiles are windows.
+// Returns the height at a point of a map. Tiles are windows of this map.
 double terrain(double column, double row) {
   return 60 + 30 * std::sin(.1 * column) + 12 * std::cos(.17 * row);
 }
 
-// Returns the tile whose first column is that column of the map.
+// Returns the tile that begins at the given column of the map.
 Cloud tile(int first_column, DepthValues values = DepthValues::height) {
   DepthOptions options;
   options.values = values;
@@ -33,7 +33,7 @@ Cloud tile(int first_column, DepthValues values = DepthValues::height) {
   return value_of(depth_cloud(image, options)).cloud;
 }
 
-// Returns the options of tiles with a pixel of 1 mm.
+// Returns the options of tiles with pixels of 1 mm.
 ReliefOptions tile_options() {
   ReliefOptions options;
   options.width_mm = columns;
@@ -46,7 +46,7 @@ MadeRelief relief_of_tile(int first_column, const ReliefOptions& options) {
   return value_of(make_relief(tile(first_column), options));
 }
 
-// Expects that the upper points of the wall at that x have the heights of that column of the map.
+// Expects that the upper points of the wall at that x have the heights of the given column of the map.
 void expect_edge(const MadeRelief& made, double x, int column, double ground) {
   int found = 0;
   for (const Vec3& p : made.solid.points) {
@@ -54,7 +54,7 @@ void expect_edge(const MadeRelief& made, double x, int column, double ground) {
     if (std::abs(p.x() - x) > .005 || height < .05) continue;
     const double row = rows - .5 - (p.y() - .01);
     if (row < 0 || row > rows - 1) continue;  // corners of the plate
-    // Neighbouring pixels differ by up to .15 mm across the edge, and by .1 mm along it.
+    // Between neighbouring pixels, heights differ by up to 0.15 mm across the edge and by 0.1 mm along it.
     EXPECT_NEAR(height, mm_per_value * (terrain(column, row) - ground), .05) << row;
     ++found;
   }
@@ -62,7 +62,7 @@ void expect_edge(const MadeRelief& made, double x, int column, double ground) {
 }
 
 TEST(VerticalScale, MakesTilesFitEdgeToEdge) {
-  const double inset = .01 + .01 * columns / rows;  // margin, and width of the wall
+  const double inset = .01 + .01 * columns / rows;  // the margin and the width of the wall
   for (const std::optional<double> ground : {std::optional<double>(), std::optional(-20.)}) {
     ReliefOptions options = tile_options();
     options.ground_value = ground;
@@ -90,18 +90,18 @@ TEST(VerticalScale, LeavesTheSeaLevel) {
   EXPECT_EQ(flooded.error().kind, ErrorKind::geometry);
 }
 
-// Depths grow away from the viewer: the deepest lies on the ground.
+// Depths increase away from the viewer, so the largest depth is on the ground.
 TEST(VerticalScale, OfDepthsIsTheirDifference) {
   const Cloud depths = tile(0, DepthValues::depth);
   const auto made = value_of(make_relief(depths, tile_options()));
   EXPECT_NEAR(made.report.height_mm, mm_per_value * (102 - 18), .05);
 }
 
-// A scan's values are its own lengths, so that a scale of one to one keeps its proportions.
+// The values of a scan are its own lengths, so a scale of 1 keeps its proportions.
 TEST(VerticalScale, OfAScanIsThatOfItsLengths) {
   ReliefOptions options;
   options.width_mm = 40;
-  options.mm_per_value = 20;  // the sphere's radius is 1
+  options.mm_per_value = 20;  // the radius of the sphere is 1
   const auto made = value_of(make_relief(test::sphere(20000, 1), options));
   EXPECT_NEAR(made.report.height_mm, 20, .5);
 }

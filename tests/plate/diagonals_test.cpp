@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// A square grid of points on a roof. Its ridge runs along the diagonal from the lower left or, if `direction`
-// is -1, from the upper left.
+// A square grid of points on a roof. Its ridge runs along the diagonal from the lower left corner or, if
+// `direction` is -1, from the upper left corner.
 struct Roof {
   std::vector<Vec2> points;
   std::vector<Vec2f> slopes;
@@ -31,7 +31,7 @@ struct Roof {
     mesh = delaunay(points);
   }
 
-  // Returns the largest vertical distance between the roof and the middles of the mesh's edges.
+  // Returns the largest vertical distance between the roof and the midpoints of the mesh's edges.
   double error(double direction) const {
     double most = 0;
     for (const Triangle& t : mesh.triangles)
@@ -46,7 +46,7 @@ struct Roof {
 };
 
 TEST(Diagonals, FollowARidge) {
-  // For at least one direction of the ridge, edges of the Delaunay triangulation cross it.
+  // For at least one direction of the ridge, edges of the Delaunay triangulation cross the ridge.
   EXPECT_GT(std::max(Roof(1).error(1), Roof(-1).error(-1)), .05);
   for (const double direction : {1., -1.}) {
     Roof roof(direction);

@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-// Returns a cloud that is not symmetric: a ball with a smaller one at its upper right.
+// Returns an asymmetric cloud: a ball with a smaller ball at its upper right.
 Cloud balls() {
   Cloud cloud = test::sphere(12000, 1);
   const Cloud small = test::sphere(6000, .5, 9);
@@ -45,7 +45,7 @@ HeightFieldMesh lithophane_of(const Cloud& cloud) {
   return lithophane(*find_surface(cloud, *parse_view("front")), 10, 4);
 }
 
-// Returns a ball with the colour grey(p) at each point p.
+// Returns a ball whose colour at each point p is grey(p).
 template <typename F>
 Cloud grey_ball(F grey) {
   Cloud cloud = test::sphere(20000, 1);
@@ -56,7 +56,7 @@ Cloud grey_ball(F grey) {
   return cloud;
 }
 
-// Returns a grey picture of pixels with the values grey(column, row), as flat points.
+// Returns a grey picture as flat points. Its values are grey(column, row).
 template <typename F>
 Cloud picture(int width, int height, F grey) {
   DepthImage image{filled_image(width, height, 0.F), 1, "test"};
@@ -87,7 +87,7 @@ TEST(Forms, AMirrorSwapsLeftAndRight) {
 TEST(Forms, TheReliefFitsIntoItsDie) {
   const MadeRelief relief = made(Form::relief), die = made(Form::die);
   const double width = box_of(relief.solid).max.x();
-  // Turned about the y axis, the die lies on the relief without a gap.
+  // Rotated about the y axis, the die fits on the relief without a gap.
   const double sum = relief.solid.points[0].z() + die.solid.points[0].z();
   for (std::size_t i = 0; i < relief.solid.points.size() - 8; i += 89) {
     EXPECT_NEAR(die.solid.points[i].x(), width - relief.solid.points[i].x(), 1e-9);
@@ -99,9 +99,9 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const MadeRelief it = made(Form::lithophane);
   const Box box = box_of(it.solid);
-  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate below the relief is thin, so that light passes
+  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is so thin that light passes
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
-  // The lamp is at the upper left: over the ball's upper left the plate is thinner than over its lower right.
+  // The lamp is at the upper left: the plate is thinner at the ball's upper left than at its lower right.
   const HeightFieldMesh front = lithophane_of(test::sphere(20000, 1));
   EXPECT_LT(height_around(front, {-3, 3}, 1), .1);
   EXPECT_GT(height_around(front, {5, -5}, 1), 1);
@@ -110,8 +110,8 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
 
 TEST(Forms, ColoursDarkenALithophane) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) { return p.y() > 0 ? 255 : 200; }));
-  // Grey 200 must let 57.8 % of the light of white pass. For this, the plate is thicker there than at white,
-  // by 4 ln(1 / .578) / ln 10 = .95 mm.
+  // Grey 200 must transmit 57.8 % of the light that white transmits. So the plate must be thicker there, by 4
+  // ln(1 / 0.578) / ln 10 = 0.95 mm.
   EXPECT_NEAR(height_around(front, {-1, -.5}, .4) - height_around(front, {-1, .5}, .4), .95, .15);
 }
 
@@ -148,7 +148,8 @@ TEST(Forms, ColoursReachThePlate) {
   EXPECT_EQ(back.mesh.triangles.size(), relief.solid.triangles.size());
 }
 
-// Of a picture, every pixel counts: no highlight is cut, no dark tenth black, and no shading added.
+// Every pixel of a picture counts: no highlights are cut, the darkest tenth is not black, and no shading is
+// added.
 TEST(Lithophane, OfAPictureIsLinearInEveryPixel) {
   constexpr int width = 40, height = 30;
   const auto grey = [](int c, int r) { return (37 * c + 101 * r) % 256; };

@@ -17,8 +17,8 @@ namespace {
 
 using test::grid_front, test::plate_of;
 
-// Expects that the field has the front's heights above the front's lowest point, and 0 beside the front. The
-// expected heights are found by trying all triangles.
+// Expects that the field has the heights of the front above its lowest point, and 0 outside the front.
+// Computes the expected heights by testing all triangles.
 void expect_heights_of(const Solid& solid) {
   const HeightField field = measure_height_field(solid, {97});
   ASSERT_FALSE(field.z.empty());
@@ -36,7 +36,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// The field once smoothed flat bevels like these, and folds, by up to .7 mm.
+// Earlier versions smoothed flat bevels such as these, and folds, by up to 0.7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {
@@ -82,7 +82,7 @@ TEST(HeightField, IsTheTrianglesHeightOfAllForms) {
     }
 }
 
-// The wall is so steep that a rasteriser which rounds corners to fractions of a pixel could put it on the
+// The wall is so steep that a rasteriser that rounds corners to fractions of a pixel could put it on the
 // wrong side of a pixel's centre.
 TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   const auto wall = [](double x, double) { return x < 10 ? 3. : 0.; };

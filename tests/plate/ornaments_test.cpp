@@ -49,7 +49,7 @@ double highest(const Solid& solid) {
   return most;
 }
 
-// Returns the steepest rise of the front's triangles; the rim rises by 3.33.
+// Returns the steepest slope of the front's triangles. The slope of the rim is 3.33.
 double steepest(const Solid& solid) {
   double most = 0;
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
@@ -74,7 +74,7 @@ TEST(Ornaments, MakeAClosedSolidWithLettersOfTheirHeight) {
 }
 
 TEST(Ornaments, AddTheVolumeOfTheirShapes) {
-  // A square of 4 with walls of slope 2 and height 0.5 is a frustum.
+  // A square of side 4 whose walls have slope 2 and height 0.5 is a frustum.
   Ornament square = ornament(OrnamentKind::drawing);
   square.outlines = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   square.size_mm = 4;
@@ -86,7 +86,7 @@ TEST(Ornaments, AddTheVolumeOfTheirShapes) {
   const double frustum = .5 / 3 * (low + high + std::sqrt(low * high));
   const double without = volume_mm3(plate_of(figure(), coin({})));
   EXPECT_NEAR(volume_mm3(plate_of(figure(), options)) - without, frustum, 1e-4);
-  // Sunk, the same is missing, and the plate is thicker by its depth.
+  // A sunk drawing removes the same volume, and the plate is thicker by its depth.
   options.ornaments[0].height_mm = -.5;
   const Solid sunk = plate_of(figure(), options);
   EXPECT_EQ(check_solid(sunk), "");

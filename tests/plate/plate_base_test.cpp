@@ -24,7 +24,7 @@ double bump(double x, double y) {
   return to_middle < 8 ? 1 + std::cos(to_middle * std::numbers::pi / 8) : 0;
 }
 
-// Returns a hill in the middle of flat ground.
+// Returns a hill at the centre of flat ground.
 HeightFieldMesh hill() {
   HeightFieldMesh front = test::grid_front({30, 20, 30, 20}, bump);
   for (const Triangle& t : front.triangles)
@@ -32,7 +32,7 @@ HeightFieldMesh hill() {
   return front;
 }
 
-// Returns the same hill as the Delaunay triangulation of scattered points. It ends in flat ground, too.
+// Returns the same hill as a Delaunay triangulation of scattered points, also with flat ground around it.
 HeightFieldMesh scattered_hill() {
   test::Random random(7);
   std::vector<Vec3> points;
@@ -52,7 +52,7 @@ PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectang
   return options;
 }
 
-// Calls f at seven points of each front triangle: its corners, the middles of its sides and one inside.
+// Calls f at seven points of each front triangle: its corners, the midpoints of its sides, and one inside.
 void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     const auto& [a, b, c] = solid.triangles[t];
@@ -63,7 +63,7 @@ void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   }
 }
 
-// Finds heights of a plate's front: tries the triangles whose boxes meet the place's cell in a grid.
+// Finds heights of a plate's front. A grid lists the triangles whose bounding boxes meet each cell.
 class Heights {
  public:
   explicit Heights(const Solid& solid) : solid_(solid), cells_(80 * 80) {
@@ -76,7 +76,7 @@ class Heights {
     }
   }
 
-  // Returns the height at a place, NaN beside the front.
+  // Returns the height at a point; NaN outside the front.
   double at(const Vec2& place) const {
     for (const Index t : cells_[static_cast<std::size_t>(80 * cell(place.y()) + cell(place.x()))]) {
       const auto& [a, b, c] = solid_.triangles[t];
@@ -97,7 +97,7 @@ class Heights {
 
 // ------------------------------------------------------------------------------------------------------ shape
 
-// The relief minus its base is the relief on the plane, everywhere: on hill, ground and rim.
+// The relief minus its base must be the relief on the plane, everywhere: on the hill, the ground and the rim.
 TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
   for (const HeightFieldMesh& front : {scattered_hill()})
     for (const Outline outline : {Outline::rectangle, Outline::circle})
@@ -119,7 +119,7 @@ TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
           ++seen;
         });
         EXPECT_GT(seen, 6 * solid.front_triangles) << shape;
-        EXPECT_LT(worst, .011) << shape;  // half a percent of 2 mm
+        EXPECT_LT(worst, .011) << shape;  // 0.5 % of 2 mm
         EXPECT_LE(solid.error_mm, .01) << shape;
       }
 }
@@ -200,7 +200,8 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
       EXPECT_EQ(check_solid(solid), "") << shape;
       EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
       EXPECT_LE(solid.error_mm, .034) << shape;
-      // Each surface may bend between points of the other, so they are compared at the points of both.
+      // Each surface may bend between points of the other surface, so they are compared at the points of
+      // both.
       double worst = 0;
       for (const auto& [one, other] : {std::pair(&solid, &full), std::pair(&full, &solid)}) {
         const Heights heights(*other);

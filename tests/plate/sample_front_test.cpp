@@ -19,8 +19,7 @@ double dome(const Vec2& p) {
   return 2 - .02 * (p - Vec2(side / 2, side / 2)).squaredNorm();
 }
 
-// Returns a front over random points in a square, and over its corners, with the heights that height(p)
-// returns.
+// Returns a front over random points in a square and over its corners. Its heights are height(p).
 template <typename F>
 HeightFieldMesh front_of(F height, std::size_t n = 4000) {
   std::vector<Vec2> plane = random_points(n, 21);
@@ -39,7 +38,7 @@ std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-// A square of the sampling grid has one sample with a tolerance of .01, and four with .004.
+// With a tolerance of 0.01, a cell of the sampling grid has one sample; with 0.004, it has four.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float angle = .03F, none = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the slopes of a grid of 64 x 64 cells.
+// Returns a grid of 64 x 64 cells with the given slopes.
 template <typename Slope>
 Image<Vec2f> grid_of(Slope slope) {
   Image<Vec2f> slopes = filled_image(64, 64, Vec2f(Vec2f::Zero()));
@@ -20,12 +20,12 @@ Image<Vec2f> grid_of(Slope slope) {
   return slopes;
 }
 
-// Returns the slopes of a cylinder along y whose normal turns by the angle `turn` from cell to cell.
+// Returns the slopes of a cylinder along y. Its normal turns by the angle `turn` from cell to cell.
 Image<Vec2f> cylinder(float turn) {
   return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
 }
 
-// Returns the number of squares over each cell.
+// Returns the number of squares that cover each cell.
 Image<int> cover(const std::vector<SampleSquare>& squares) {
   Image<int> covered = filled_image(64, 64, 0);
   for (const SampleSquare& s : squares)
@@ -51,7 +51,7 @@ TEST(SampleSquares, CoverEachCellWithASlopeOnce) {
 TEST(SampleSquares, AreLargeOnAPlane) {
   const std::vector<SampleSquare> squares = sample_squares(cylinder(0), angle);
   const auto large = std::ranges::count(squares, largest_square, &SampleSquare::side);
-  EXPECT_EQ(large, 16);  // smaller squares lie around these, at the edge of the grid
+  EXPECT_EQ(large, 16);  // smaller squares surround these at the edge of the grid
   EXPECT_EQ(quartered(squares), 0);
 }
 
@@ -72,12 +72,12 @@ TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
     return Vec2f(std::tan(.05F * static_cast<float>(x - 32)) + .02F * static_cast<float>(x % 2), 0);
   });
   EXPECT_LT(quartered(sample_squares(grain, angle)), 64 * 10);
-  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // such large turns count as creases
+  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // such large angles count as creases
 }
 
 TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {
-  // The slopes of a cone turn about its axis without becoming steeper. This turns the normals of a steep cone
-  // more than those of a flat one, so the steep cone needs smaller squares.
+  // Around a cone, the slope keeps its steepness but changes its direction. This turns the normals of a steep
+  // cone more than those of a flat one, so the steep cone needs smaller squares.
   const auto cone = [](float steepness) {
     return grid_of([&](int x, int y) {
       return Vec2f(steepness *

@@ -83,7 +83,7 @@ TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
 
 TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
   EXPECT_TRUE(rc::check([] {
-    // The corners lie on an ellipse at random angles.
+    // The corners are at random angles on an ellipse.
     auto angles = *rc::gen::suchThat(
         rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 3600)), [](const std::vector<int>& a) {
           return a.size() >= 3 && std::ranges::max(a) - std::ranges::min(a) > 1800;
@@ -100,8 +100,8 @@ TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
     const Solid solid = plate_of(fan_front(polygon), {*rc::gen::element(0.01, 1.0, 50.0), 2});
     RC_ASSERT(check_solid(solid) == "");
     const Vec3 size = used_box(solid).max;
-    // All triangles have a positive area, and their areas add up to the rectangle's, so they neither overlap
-    // nor leave gaps.
+    // All triangles have a positive area, and their areas add up to that of the rectangle, so they neither
+    // overlap nor leave gaps.
     const double area = area_from_above(solid);
     RC_ASSERT(std::abs(area - size.x() * size.y()) < 1e-9 * area);
   }));
@@ -184,7 +184,7 @@ TEST(CheckSolid, NamesWhatIsBroken) {
 }
 
 TEST(CheckSolid, RejectsTwoSolidsThatShareAnEdgeFourTimes) {
-  // The solid is the same closed body twice, the second time inside out, so four triangles share each edge.
+  // The solid consists of the same closed body twice, once inside out, so four triangles share each edge.
   Solid solid = bumpy_plate();
   const std::vector<Triangle> once = solid.triangles;
   for (const Triangle& t : once) solid.triangles.push_back({t[1], t[0], t[2]});
@@ -202,7 +202,7 @@ TEST(Volume, DoesNotDependOnThePlace) {
 
 // ------------------------------------------------------------------------------------------------- writers
 
-// Reads numbers from the start of bytes, in the formats' byte order.
+// Reads numbers from the start of bytes, in the byte order of the formats.
 struct Reader {
   std::span<const std::byte> rest;
   template <typename T>
@@ -284,7 +284,7 @@ std::array<T, 3> take_three(std::string_view& text) {
 
 TEST(WriteObj, HoldsEveryPointAndTriangleToTheLastBit) {
   Solid solid = bumpy_plate();
-  solid.points[3] = {-1.17549435e-38, 3.40282347e38, -1.23456789e-7};  // the longest numbers
+  solid.points[3] = {-1.17549435e-38, 3.40282347e38, -1.23456789e-7};  // numbers with the longest texts
   const std::vector<std::byte> bytes = write_obj(solid);
   std::string_view text = as_text(bytes);
   EXPECT_TRUE(text.starts_with("# relievo"));
@@ -329,8 +329,8 @@ TEST(InUnit, ScalesAndSeparates) {
   EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
 }
 
-// Two points of a needle differ in a file in millimetres. If their coordinates are only divided by 25.4, they
-// may be equal in a file in inches.
+// Two points of a needle are different in a file in millimetres. If their coordinates are only divided by
+// 25.4, they may be equal in a file in inches.
 TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {

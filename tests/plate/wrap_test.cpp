@@ -92,7 +92,7 @@ TEST(Wrap, AConeLeansAsAsked) {
   EXPECT_LT(wrap.min_radius_mm(), 25);
 }
 
-// The map keeps the orientation everywhere, and heights are at right angles to the bent ground.
+// The map preserves orientation everywhere, and heights are perpendicular to the bent ground.
 TEST(Wrap, HeightsStandUprightAndNothingIsMirrored) {
   for (const char* body : bodies) {
     const Wrap wrap = around(body);
@@ -140,7 +140,7 @@ TEST(WrapPlate, IsWatertightForEveryBodyAndOutline) {
     }
 }
 
-// The shell's front and back keep their radii, even between the corners of triangles.
+// The front and the back of the shell keep their radii, even between the corners of triangles.
 TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
   const HeightFieldMesh front = test::flat_front({56, 36, 4, 4});
   const PlateOptions options = plate_around("cylinder:diameter=60");
@@ -166,7 +166,7 @@ TEST(WrapPlate, AFullTurnIsARing) {
     const Solid ring = wrapped(options);
     EXPECT_EQ(check_solid(ring), "") << body;
     EXPECT_EQ(test::complaint_of_admesh(ring), "") << body;
-    // A ring has the topology of a torus: points - edges + triangles = 0.
+    // A ring has the topology of a torus, so points - edges + triangles = 0.
     const auto points = static_cast<long>(ring.points.size()),
                triangles = static_cast<long>(ring.triangles.size());
     EXPECT_EQ(points - triangles / 2, 0) << body;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int width = 30, height = 20;
 
-// Returns a mask of all pixels, except those within `margin` of the rim or in a hole.
+// Returns a mask of all pixels except those in the hole or within `margin` of the edge.
 PixelMask measured(int margin, bool has_hole = false) {
   Image8 is_measured = filled_image(width, height, std::uint8_t{0});
   for (int y = margin; y < height - margin; ++y)
@@ -34,7 +34,7 @@ TEST(PixelMask, ListsItsPixels) {
   for (const Index i : where.pixels) ASSERT_TRUE(where.mask[i]);
 }
 
-// Rows run downwards, so y decreases from row to row. The divergence is .3 + .2.
+// Rows of the picture run downwards, so y decreases from row to row. The divergence is 0.3 + 0.2.
 TEST(Divergence, IsThatOfALinearField) {
   const PixelMask where = measured(1, true);
   const Image<float> sum = divergence(image([](int x, int y) { return .3 * x + 7 * y; }),
@@ -42,7 +42,7 @@ TEST(Divergence, IsThatOfALinearField) {
   for (Index i = 0; i < sum.size(); ++i) ASSERT_NEAR(sum[i], where.mask[i] ? .5 : 0, 1e-4) << i;
 }
 
-// Pixels in the hole and at the rim are 0, but they do not count.
+// Pixels in the hole and at the edge are 0 but do not count.
 TEST(MaskedGaussian, KeepsAConstant) {
   const PixelMask where = measured(2, true);
   Image<float> values = image([&](int x, int y) { return where.mask.at(x, y); });
@@ -93,7 +93,7 @@ TEST(OrderKept, CountsPairs) {
   EXPECT_EQ(order_kept({}, {}, {}), 0);
 }
 
-// Near pairs see a slope that rises everywhere but at one cliff; random pairs see the cliff.
+// For near pairs, the slope rises everywhere except at one cliff. For random pairs, the cliff dominates.
 TEST(NearOrderKept, CountsNearPairsAlone) {
   constexpr int size = 400;
   Image8 inside = filled_image<std::uint8_t>(size, size, 0);
@@ -105,9 +105,9 @@ TEST(NearOrderKept, CountsNearPairsAlone) {
       z.at(x, y) = static_cast<float>(x < size / 2 ? x : x - size / 2);
     }
   const PixelMask where(inside);
-  // A pair across the cliff loses its order. The share of such pairs is the mean distance of a pair along x over
-  // the width, 400. That distance is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2), over the .91 of the pairs
-  // that are more than 4 apart along x, because nearer ones do not count.
+  // A pair across the cliff loses its order. The share of such pairs is the mean distance of a pair along x
+  // divided by the width, 400. That distance is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2), divided by
+  // the 0.91 of the pairs that are more than 4 apart along x, because nearer pairs do not count.
   EXPECT_NEAR(near_order_kept(z, depth, where), 1 - .0499, .003);
   EXPECT_NEAR(order_kept(z, depth, where), .75, .01);
   EXPECT_EQ(near_order_kept(depth, depth, where), 1);

@@ -13,7 +13,7 @@ namespace {
 
 using test::surface_of;
 
-// Returns the height of bumps of several sizes on a square of side 2.
+// Returns the height of bumps of different sizes on a square of side 2.
 double bumps(double x, double y) {
   return .3 * std::sin(3 * x) * std::cos(2 * y) + .02 * std::sin(25 * x) * std::sin(20 * y);
 }
@@ -50,11 +50,11 @@ TEST(Measures, OfTheModelItselfAreTheBest) {
   EXPECT_EQ(ReliefMetrics(bumpy()).shading(depths(bumpy())), m.shading);
 }
 
-// The expected angle is the mean tilt of the points. They are uniform in x and y, so this is also the mean
+// The expected angle is the mean tilt of the points. Since they are uniform in x and y, this is also the mean
 // over the picture.
 TEST(Measures, AngleOfALevelReliefIsTheMeanTilt) {
   std::vector<double> level(bumpy().points.size(), 0.0);
-  level[0] = 1e-6;  // so that the relief has a height
+  level[0] = 1e-6;  // gives the relief a height
   double sum = 0;
   for (const Vec3f& n : bumpy().normals) sum += std::acos(static_cast<double>(n.z()));
   const double mean_deg = sum / static_cast<double>(level.size()) * 180 / std::numbers::pi;
@@ -117,7 +117,7 @@ TEST(Measures, JumpStepIsWhatIsLeftOfAJump) {
 }
 
 // All points except those of the boundary have the same height. So there is a step at the silhouette and no
-// step inside, even where the front sheet extends beyond the other one.
+// step inside, even where the front sheet extends beyond the other sheet.
 TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   Cloud front = test::sheet(10000, .5, 3, 9);
   for (Vec3& p : front.points) p.x() += 1;
@@ -130,8 +130,8 @@ TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   EXPECT_EQ(m.jump_step, 0);
 }
 
-// Pixels within the safe distance of the silhouette are not measured. The points are so dense that no
-// triangle of the step reaches beyond this distance.
+// Pixels near the silhouette are not measured. The points are so dense that no triangle of the step extends
+// beyond this zone.
 TEST(Measures, AStepAtTheSilhouetteIsNoDetail) {
   Cloud grid;
   test::Random random(8);

@@ -20,7 +20,7 @@ const Surface& disc() {
   return surface;
 }
 
-// Returns heights that rise inwards from 0 at radius 1; the slope is a function of the azimuth.
+// Returns heights that rise inwards from 0 at radius 1. The slope is a function of the azimuth.
 template <typename Slope>
 std::vector<double> rising(const Surface& surface, Slope slope) {
   std::vector<double> z;
@@ -37,8 +37,9 @@ TEST(SurfaceMeasures, AConeHasNoFray) {
   EXPECT_EQ(measures.fray(rising(disc(), [](double) { return .5; })).jump_deg, 0);
 }
 
-// The tilt is a sine along the rim, and a triangle is a tenth of a wave long. Fray is measured from the
-// moving mean of the tilt over 25 triangles, which is a sine with 1 / (25 sin(pi / 10)) times the amplitude.
+// The tilt is a sine along the rim, and a triangle is a tenth of a wavelength long. Fray is the deviation of
+// the tilt from its moving mean over 25 triangles. That mean is a sine with 1 / (25 sin(pi / 10)) times the
+// amplitude.
 TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   const double rims = 2 * pi / (.75 * disc().rho), amplitude = .1;
   const int waves = static_cast<int>(rims / 10);
@@ -50,7 +51,7 @@ TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   EXPECT_NEAR(fray, rest * amplitude / std::sqrt(2) * 180 / pi, .2);
 }
 
-// A slow change of the tilt does not count as fray.
+// Slow changes of the tilt do not count as fray.
 TEST(SurfaceMeasures, FrayLeavesOutTheSmoothCourse) {
   const SurfaceMeasures measures(disc());
   EXPECT_LT(measures.fray(rising(disc(), [](double angle) { return .5 + .1 * std::sin(3 * angle); }))
@@ -63,7 +64,7 @@ TEST(SurfaceMeasures, FrayAtAJumpGrowsWithNoise) {
   const SurfaceMeasures measures(sheets);
   std::vector<double> z;
   for (const Vec3& p : sheets.points) z.push_back(.2 * (p + sheets.centre).head<2>().norm());
-  EXPECT_GT(measures.fray(z).jump_deg, 0);  // due to the chords of the circle
+  EXPECT_GT(measures.fray(z).jump_deg, 0);  // since the circle consists of chords
   EXPECT_LT(measures.fray(z).jump_deg, .5);
   test::Random random(5);
   std::vector<double> noisy = z;
@@ -72,7 +73,7 @@ TEST(SurfaceMeasures, FrayAtAJumpGrowsWithNoise) {
 }
 
 // Between neighbouring triangles on a ball, the normal turns by the distance of their centres divided by the
-// ball's radius.
+// radius.
 TEST(SurfaceMeasures, FacetAngleIsThatOfTheTriangles) {
   const Surface cap = surface_of(test::sheet(40000, .5, 0));
   const SurfaceMeasures measures(cap);
@@ -83,7 +84,7 @@ TEST(SurfaceMeasures, FacetAngleIsThatOfTheTriangles) {
   }
   EXPECT_LT(measures.facet_angle_deg(plane), 1e-3);
   const double of_rho = measures.facet_angle_deg(ball) * pi / 180 * 2 / cap.rho;
-  EXPECT_GT(of_rho, .8);  // it would be .58 for equilateral triangles with sides of rho
+  EXPECT_GT(of_rho, .8);  // for equilateral triangles with sides of rho it would be 0.58
   EXPECT_LT(of_rho, 2.5);
 }
 

@@ -29,7 +29,7 @@ TEST(AimedSlope, HasTheShadingAndKeepsWhatIsAcrossTheLight) {
     if (aimed == s) continue;
     ++changed;
     EXPECT_NEAR(shading_of(aimed, l), wanted, 1e-9);
-    // No slope nearer to s along the light has this shading.
+    // No slope that is nearer to s along the light has this shading.
     const Vec2 along = Vec2(l.head<2>()).normalized();
     const double distance = (aimed - s).norm();
     for (double t = -.97; t < .98; t += .01) {
@@ -42,7 +42,7 @@ TEST(AimedSlope, HasTheShadingAndKeepsWhatIsAcrossTheLight) {
 }
 
 TEST(AimedSlope, StaysWhereNoSlopeHasTheShading) {
-  // Across a slope of 3, no slope along the light is brighter than sqrt(l_z^2 / 10 + h^2).
+  // Where the slope across the light is 3, no slope along the light is brighter than sqrt(l_z^2 / 10 + h^2).
   const Vec3 l = direction_of({0, 60});
   EXPECT_EQ(aimed_slope<double>({.3, 3}, l, .9), Vec2(.3, 3));
 }
@@ -74,7 +74,8 @@ TEST(Light, IsParsed) {
     EXPECT_FALSE(parse_light(text)) << text;
 }
 
-// Returns the correlation of the local contrasts of a relief and of its model under a light.
+// Returns the correlation between the local contrasts of a relief and those of its model, under the same
+// light.
 double agreement(const ReliefModel& model, const Shape& shape, const LightDirection& light) {
   const Relief relief = value_of(model.make_at_height(.15, shape, 1));
   Surface made = model.surface();

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A surface with all that baselines need of it.
+// A surface with the system and the metrics that baselines need.
 struct Seen {
   Surface surface;
   HeightSystem system;
@@ -39,7 +39,7 @@ TEST(BaselineGrid, HasTheHeightAskedAndLiesOnTheBase) {
   }
 }
 
-// The fixed parameters of the methods are in the grid.
+// The grid includes the fixed parameters of the methods.
 TEST(BaselineGrid, IsAtLeastAsGoodAsTheFixedParameters) {
   const Seen seen(test::bumps_behind_a_ring(8000));
   const auto& [surface, system, metrics] = seen;

@@ -14,14 +14,14 @@
 namespace relievo {
 namespace {
 
-// Returns a roof whose sides have the given slope and whose ridge runs along y.
+// Returns a roof with sides of the given slope. Its ridge runs along y.
 Cloud roof(double slope, std::size_t n = 30000) {
   return test::height_field(
       n, 1, [=](double x, double) { return -slope * std::abs(x); },
       [=](double x, double) { return Vec2(x > 0 ? -slope : slope, 0); });
 }
 
-// Returns how much the difference between the heights and f varies away from the rim, as a fraction of the
+// Returns the range of the difference between the heights and f away from the rim, as a fraction of the
 // relief's height.
 template <typename F>
 double misfit(const Surface& surface, const Relief& relief, F f) {
@@ -44,8 +44,8 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   }
 }
 
-// All points of a level face have the same depth, and four points are all on the boundary. So no method gives
-// either of them a height.
+// All points of a level face have the same depth, and all points of a cloud of four are on the boundary. So
+// no method gives either cloud a height.
 TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
   Cloud four;
   four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
@@ -89,9 +89,9 @@ TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
   EXPECT_EQ(attenuated(Vec2::Zero(), 5), Vec2(Vec2::Zero()));
 }
 
-// The expected heights are made as by Weyrich et al.: attenuated gradients are integrated, by another
-// solver than the library's, and the result is scaled. A sphere has no jumps, near which edges would have
-// weights.
+// The expected heights are computed as by Weyrich et al.: attenuated gradients are integrated, with another
+// solver than that of the library, and the result is scaled. A sphere has no depth jumps, so all edges have
+// the same weight.
 TEST(Gradient, IntegratesAttenuatedGradients) {
   const ReliefModel model = test::prepared(test::sphere(20000, 1));
   const GradientOptions options{.attenuation = 3, .steepest_kept = 50, .band_weights = {1}};
@@ -110,7 +110,7 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
 }
 
-// All slopes are equal, so attenuation only scales the relief. Normals beside the outline and the ridge are
+// All slopes are equal, so attenuation only scales the relief. Beside the outline and the ridge normals are
 // interpolated, so their slopes are equal only to about three digits.
 TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
   const ReliefModel model = test::prepared(roof(.5));
@@ -153,7 +153,7 @@ TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
   EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);
 }
 
-// The cloud has two gentle slopes. Equalisation must shrink the empty range of depths between them.
+// The cloud consists of two gentle slopes. Equalisation must shrink the empty range of depths between them.
 TEST(Equalise, ShrinksDepthsThatNothingHas) {
   const Cloud cloud = test::joined(
       test::height_field(
@@ -184,7 +184,7 @@ TEST(BaseAndDetail, WithoutAmplificationIsLinear) {
   EXPECT_LE(test::largest_difference(base.heights, linear.heights), 1e-9);
 }
 
-// The surface is a fine wave on a coarse one. The Gaussian leaves the coarse wave in the base, so only the
+// The surface is a fine wave on a coarse wave. The Gaussian leaves the coarse wave in the base, so only the
 // fine wave is amplified.
 TEST(BaseAndDetail, AmplifiesWhatIsFine) {
   const auto z = [](double x, double) { return .2 * std::cos(3 * x) + .004 * std::cos(60 * x); };

@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// Returns a hill of that height around (x, 0) over a square, at that depth.
+// Returns a hill of the given height on a square around the origin, at the depth z.
 Cloud hill(double height, double half, double z, std::uint64_t seed) {
   const auto f = [=](double x, double y) { return height * std::exp(-8 * (x * x + y * y) / (half * half)); };
   return test::height_field(
@@ -26,8 +26,8 @@ std::vector<double> mimicking(const Surface& surface, double height) {
   return value_of(mimicking_heights(surface, height));
 }
 
-// Enough height leaves a model as it is whose silhouette is level. The solver stops when the energy is almost
-// the least, so level parts may stand a little off the lower bound.
+// If the silhouette of a model is level and the height is large enough, the relief equals the model. The
+// solver stops when the energy is almost minimal, so level parts may be slightly above the lower bound.
 TEST(Mimicking, WithEnoughHeightIsTheModel) {
   const Surface surface = test::surface_of(hill(.4, 1, 0, 5));
   std::vector<double> expected;
@@ -48,7 +48,7 @@ TEST(Mimicking, UsesTheHeightAndNoMore) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// Pieces in front of others take all of the height, however far in front they are.
+// Pieces in front of others use the whole height, however far in front they are.
 TEST(Mimicking, MovesPiecesFreely) {
   std::vector<std::vector<double>> heights;
   for (const double distance : {1.0, 3.0}) {
@@ -68,7 +68,7 @@ TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-// Heights that reach no bound are those of (9).
+// Heights that do not reach a bound are those of (9).
 TEST(Bounded, WithEnoughHeightSolvesTheEquations) {
   const Surface surface = test::surface_of(test::sphere(20000, 1));
   const HeightSystem system =

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Returns a cloud that is white but for what is_dark(point).
+// Returns a cloud that is dark where is_dark(point), and white elsewhere.
 template <typename IsDark>
 Cloud coloured(Cloud cloud, IsDark is_dark) {
   for (const Vec3& p : cloud.points)
@@ -75,7 +75,7 @@ TEST(SinkLines, KeepTheHeightIfTheTopIsOnALine) {
   const std::vector<float> lines{1, 0, .5F};
   std::vector<double> z{1, .7, .4};
   sink_lines<double>(lines, .2, z);
-  // Scaled by 1.2 first: 1.2 - .2, .84, .48 - .1.
+  // The heights are first multiplied by 1.2: 1.2 - 0.2, 0.84, 0.48 - 0.1.
   EXPECT_NEAR(z[0], 1, 1e-6);
   EXPECT_NEAR(z[1], .84, 1e-6);
   EXPECT_NEAR(z[2], .38, 1e-6);

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// Points in the plane, and their distances from the nearest boundary point. ring() scatters them over a ring,
+// Points in the plane and their distances from the nearest boundary point. ring() scatters them over a ring,
 // more densely on the left.
 struct Figure {
   std::vector<Vec2> points;

@@ -1,4 +1,4 @@
-// Measures the steps that reliefs keep at depth jumps between two parts (section 4.1 of the paper).
+// Measures the steps that reliefs have at depth jumps between two parts (section 4.1 of the paper).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ struct Scene {
   Cloud cloud;
 };
 
-// Both parts are tilted or round: level parts would show no step whatever a method does. The sheet has so
-// many points.
+// Both parts are tilted or round, since level parts would show no step with any method. The sheet has
+// `points` points.
 std::vector<Scene> scenes(std::size_t points) {
   const auto before = [](const Cloud& back, const Cloud& front) {
     return test::joined(back, test::moved(front, Vec3(0, 0, 3)));
@@ -30,8 +30,8 @@ std::vector<Scene> scenes(std::size_t points) {
           {"hemisphere before a sheet", before(sheet, test::sphere(points, .5))}};
 }
 
-// The steps along the edges across deep depth jumps, as shares of the relief's height. An edge is inverted
-// if its front end is below its back end by more than 3 % of the height.
+// The steps along edges across deep depth jumps, as fractions of the relief's height. An edge is inverted if
+// its front end is lower than its back end by more than 3 % of the height.
 struct Steps {
   double mean = 0, most = 0, inverted = 0;
 };
@@ -54,7 +54,7 @@ Steps steps_of(const Surface& surface, const Relief& relief) {
   return {sum / edges, most, inverted / edges};
 }
 
-// A jump leaves no more than a rise between neighbours, so it fades as the points become denser.
+// A jump only leaves a height difference between neighbours, which decreases as the points become denser.
 TEST(DepthJumps, VanishByThePapersMethod) {
   const View view = View().for_paper();
   const auto steps_in = [&](const Cloud& cloud) {
@@ -71,7 +71,7 @@ TEST(DepthJumps, VanishByThePapersMethod) {
   }
 }
 
-// These are the bounds that the other methods really reach. Layered reliefs keep steps on purpose.
+// The bounds are values that the other methods reach. Layered reliefs keep steps on purpose.
 TEST(DepthJumps, LeaveBoundedStepsByOtherMethods) {
   for (const auto& [name, cloud] : scenes(15000)) {
     const ReliefModel model = test::prepared(cloud);

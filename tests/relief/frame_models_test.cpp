@@ -1,4 +1,4 @@
-// Tests frames of the generated samples, and of real scans where these are at hand.
+// Tests frames of the generated samples, and of real scans if these are available.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const std::string scan_names[] = {"armadillo",     "bimba",
                                   "nefertiti",     "scene_menagerie_front",
                                   "squirrel"};
 
-// Makes the cloud of a sample or reads a scan. If the scan is missing, the test is skipped.
+// Makes the cloud of a sample, or reads a scan. If the scan is missing, the test is skipped.
 class FrameOfModel : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -40,7 +40,7 @@ class FrameOfModel : public testing::TestWithParam<std::string> {
   Cloud cloud_;
 };
 
-// Frames are made in single precision, exact reliefs in double precision.
+// Frames are computed in single precision, exact reliefs in double precision.
 TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);

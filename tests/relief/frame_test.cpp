@@ -81,7 +81,8 @@ TEST(Frame, AreCompressedAsTheirShapeSays) {
   }
 }
 
-// Expects that a locked height stays while other options change. The heights are `shares` of the diagonal.
+// Expects that a locked height stays the same while other options change. `shares` are the heights as
+// fractions of the diagonal.
 void expect_locked_heights(const ReliefModel& m, Style style, std::span<const double> shares) {
   FrameMaker maker(m);
   Frame frame;
@@ -139,7 +140,7 @@ TEST(Frame, FollowsASliderInOneSolveWhereHeightsMayDiffer) {
 }
 
 TEST(Frame, TellsThatAHeightIsOutOfReach) {
-  const ReliefModel smooth = test::prepared(test::sphere(30000, 1));  // without depth jumps
+  const ReliefModel smooth = test::prepared(test::sphere(30000, 1));  // has no depth jumps
   FrameMaker maker(smooth);
   Frame frame;
   FrameOptions options{Shape{}};
@@ -153,7 +154,7 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
   EXPECT_LT(frame.height, highest);
 }
 
-// A wider boundary makes the rim less steep. The inside becomes lower with the rim, but keeps its slopes.
+// A wider boundary makes the rim less steep. The inner part becomes lower with the rim, but keeps its slopes.
 TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
   FrameOptions options{Shape{}};
   const Frame narrow = frame_of(options);

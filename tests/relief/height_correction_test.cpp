@@ -14,14 +14,14 @@ namespace {
 
 using test::surface_of;
 
-// Returns a level strip along y, so long that far from its ends only x matters.
+// Returns a level strip along y. It is so long that far from its ends, all values depend only on x.
 Surface strip(double half_width) {
   Cloud cloud = test::sheet(60000, 1, 0);
   for (Vec3& p : cloud.points) p.x() *= half_width;
   return surface_of(cloud);
 }
 
-// Returns the height of bumps on a square of side 2: 0 at the rim, .3 at most.
+// Returns the height of bumps on a square of side 2: 0 at the edge, and at most 0.3.
 double bump(double x, double y) {
   return (1 - x * x) * (1 - y * y) * (.15 + .15 * std::sin(9 * x) * std::sin(7 * y));
 }
@@ -49,8 +49,8 @@ std::vector<Real> corrected(const Surface& surface, std::vector<Real> heights, d
   return heights;
 }
 
-// The correction lifts the middle, where the heights are below the base. The less stiff its ties on the
-// silhouette are, the more it is lifted there, too.
+// The correction lifts the centre, where the heights are below the base. The less stiff it is at the
+// silhouette, the more the silhouette is lifted, too.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
   const HeightCorrection correction(surface);
@@ -68,7 +68,7 @@ TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   }
 }
 
-// A dome seen from its axis is the same in all directions. So must be its correction, although the silhouette
+// A dome seen along its axis is rotationally symmetric. So must be its correction, although the silhouette
 // crosses the lattice at all angles.
 TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
@@ -121,8 +121,8 @@ TEST(HeightCorrection, KeepsHeightsBetweenTheBaseAndTheirHeight) {
   }
 }
 
-// With fewer points, the lattice's cells are wider, and cells without a point nearby are bridged. The heights
-// must stay about the same, although wide cells round the distances of the pairs.
+// With fewer points, the cells of the lattice are wider, and cells without nearby points are bridged. The
+// heights must stay about the same, although wide cells round the distances of near pairs.
 TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   const auto mean = [](std::size_t points) {
     const Surface surface = bumpy(points);
@@ -136,7 +136,7 @@ TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   EXPECT_NEAR(mean(2500) / whole, 1, .17);
 }
 
-// If the heights and the limit are doubled, the corrected heights must double, too.
+// If the heights and the limit are doubled, the corrected heights must double.
 TEST(HeightCorrection, IsProportionalToHeights) {
   const Surface surface = bumpy();
   std::vector<double> z = depths(surface), twice = z;
@@ -160,8 +160,8 @@ TEST(HeightCorrection, KeepsFineDetail) {
   EXPECT_NEAR(product / square, 1, .03);
 }
 
-// A small sheet lies before a large one, and both have the same heights. The correction sets the near sheet
-// above the far one at their common edge; it leaves a level surface alone.
+// A small sheet is in front of a large one, and both have the same heights. The correction raises the near
+// sheet above the far one at their common edge. It does not change a level surface.
 TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
@@ -177,7 +177,7 @@ TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
     ASSERT_NEAR(height, .05, 1e-4);
 }
 
-// The field is pulled up to the planes at the silhouette, even where all heights are 0.
+// At the silhouette, the field is pulled up to the planes, even if all heights are 0.
 TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
   const HeightCorrection correction(surface);
@@ -197,8 +197,7 @@ TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   }
 }
 
-// The correction lifts the nearer sheet. It bends at the jump where this sheet ends, and hardly anywhere
-// else.
+// The correction lifts the nearer sheet. It bends at the jump where this sheet ends, and hardly elsewhere.
 TEST(HeightCorrection, IsHingedAtJumps) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
@@ -216,7 +215,7 @@ TEST(HeightCorrection, IsHingedAtJumps) {
           most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
     return most;
   };
-  // The ratio is 3.6 with rows of points beside the jump. With scattered points only, it was above 4.
+  // The ratio is 3.6 with rows of points beside the jump. With scattered points only, it would be above 4.
   EXPECT_GT(bend(18, 21), 3 * bend(5, 15));
   EXPECT_GT(bend(18, 21), 3 * bend(24, 34));
 }
@@ -228,7 +227,7 @@ TEST(HeightCorrection, IsTheSameInSinglePrecision) {
   EXPECT_LE(test::largest_difference(single, exact), 2e-6);
 }
 
-// The boundary stays at 0, and the height is exactly the one asked for.
+// The boundary stays at 0, and the relief has exactly the requested height.
 TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const Surface surface = bumpy();
   const HeightCorrection correction(surface);

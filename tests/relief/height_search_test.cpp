@@ -7,9 +7,10 @@
 namespace relievo {
 namespace {
 
-// Returns the height 5 (1 - exp(-u)), which grows with u like the height of a relief, and counts the calls.
+// Returns the height 5 (1 - exp(-u)), which grows with u as the height of a relief does, and counts the
+// calls.
 struct Growth {
-  double last = 0;  // height of the last call
+  double last = 0;  // height at the last call
   int calls = 0;
 
   double operator()(double log_u) {
@@ -34,13 +35,13 @@ TEST(HeightSearch, EndsWithTheHighestWhereTheHeightIsOutOfReach) {
   HeightSearch::Track track;
   EXPECT_FALSE(HeightSearch(5.1, 1e-5).track(track, tracked));
   EXPECT_EQ(tracked.last, 5);
-  EXPECT_EQ(track.log_u, 0);  // the next search starts from where the last one succeeded
+  EXPECT_EQ(track.log_u, 0);  // the next search starts from the last success
   EXPECT_FALSE(HeightSearch(5.1, .003).climb(0, 4.5, climbed));
   EXPECT_EQ(climbed.last, Growth()(4.5));
 }
 
-// The height jumps at u = infinity if level points get their whole slope only there. A search for a height
-// within this jump ends above it.
+// If level points get their whole slope only at u = infinity, the height jumps there. A search for a height
+// within this jump ends above the jump.
 TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   double last = 0;
   const auto leaping = [&](double log_u) {
@@ -56,8 +57,8 @@ TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   EXPECT_FALSE(HeightSearch(6, 1e-5).bracket(leaping));
 }
 
-// If some slopes are kept whole, all heights may be greater than the height asked for. The search then ends
-// at the lowest of them.
+// If some slopes are not compressed, all heights may be greater than the requested one. The search then ends
+// at the lowest height.
 TEST(HeightSearch, EndsAboveAHeightThatIsBelowAll) {
   double last = 0;
   const auto high = [&](double x) { return last = 4.1 + 1 / (1 + std::exp(-x)); };
@@ -77,7 +78,7 @@ TEST(HeightSearch, TracksSmallChangesInTwoCalls) {
   }
 }
 
-// Once the search has learnt how the height grows, a change as small as the tolerance takes one call.
+// Once the search knows how the height grows, a change within the tolerance takes one call.
 TEST(HeightSearch, TracksWithinATolerance) {
   HeightSearch::Track track;
   int calls = 0, heights = 0;
@@ -111,8 +112,8 @@ TEST(HeightSearch, ClimbsToWhatIsNotTooLow) {
   }
 }
 
-// A caller whose relief failed ends the search by returning the height asked for. No further call must
-// follow.
+// If a caller's relief failed, it ends the search by returning the requested height. There must be no further
+// call.
 TEST(HeightSearch, EndsEarlyWhenItIsGivenTheHeight) {
   for (const int failing : {1, 2, 3}) {
     int calls = 0;

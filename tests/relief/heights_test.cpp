@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// Random points in a disc of radius 1. The first `rim` points lie on its circle and are the boundary.
+// Random points in a disc of radius 1. The first `rim` points lie on its circle and form the boundary.
 struct DiscCase {
   std::vector<Vec2> points;
   Triangulation mesh;
@@ -40,7 +40,7 @@ struct DiscCase {
   HeightSystem system(const std::vector<float>& weights = {}) const {
     return HeightSystem::build(points, mesh, boundary, weights).value();
   }
-  // Returns random weights from .1 to 1, one per point.
+  // Returns random weights between 0.1 and 1, one per point.
   std::vector<float> uneven() const {
     test::Random random(7);
     std::vector<float> weights;
@@ -62,8 +62,8 @@ std::vector<double> heights_of(const HeightSystem& system, const std::vector<Vec
   return z;
 }
 
-// Along an edge, a quadratic function rises exactly by the mean of the slopes at both ends. So the heights
-// are those of the paraboloid, up to rounding and for any weights of edges.
+// Along an edge, the rise of a quadratic function is exactly the mean of the slopes at both ends. So the
+// heights are those of the paraboloid up to rounding, for any weights of edges.
 TEST(Heights, OfAParaboloidAreExact) {
   const DiscCase disc(5000);
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
@@ -88,7 +88,7 @@ TEST(Heights, InSinglePrecisionAgreeWithDouble) {
   EXPECT_LE(test::largest_difference(z, truth), 1e-5 * (highest - lowest));
 }
 
-// Expects the heights of an independent solution of equation (9), and returns them.
+// Expects that the heights equal an independent solution of equation (9). Returns the heights.
 std::vector<double> expect_least_squares(const DiscCase& disc, const std::vector<float>& weights) {
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(p.y() + .3, p.x() * p.x()); });
   std::vector<double> z = heights_of(disc.system(weights), slopes);
@@ -108,7 +108,7 @@ TEST(Heights, MinimiseEquationNine) {
   EXPECT_EQ(expect_least_squares(disc, disc.uneven()), uneven) << "walls have no weights of their own";
 }
 
-// Two discs side by side. The triangles that join both discs are marked as outside.
+// Two separate discs. The triangles between them are marked as outside.
 struct TwoDiscs {
   std::vector<Vec2> points;
   Triangulation mesh;
@@ -157,8 +157,9 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
 }
 
-// The memory of a matrix does not include a pattern that it shares with another matrix. So less memory shows
-// that the pattern is shared. Boundary points, which have no unknown, stand first, then last.
+// The memory of a matrix does not include a pattern that it shares with another matrix, so smaller memory
+// proves that the pattern is shared. Boundary points have no unknown; the test puts them first, and then
+// last.
 TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
   for (const bool is_boundary_last : {false, true}) {
     DiscCase disc(500);

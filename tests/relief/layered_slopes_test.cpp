@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Points of all kinds: level ones, steep ones, and ones beyond the steepest slope that is allowed.
+// Points of all kinds: level, steep, and steeper than the steepest allowed slope.
 struct Points {
   std::vector<Vec3f> normals;
   std::vector<float> k, boundary_weight;
@@ -33,7 +33,7 @@ struct Points {
 };
 
 // Compares slopes that are computed eight at a time, with and without AVX2, with slopes computed one by one.
-// The number of points is no multiple of eight.
+// The number of points is not a multiple of eight.
 void expect_slopes_of_single_points(const Shape& shape) {
   const Points points(10003);
   const LayeredStyle style(shape);

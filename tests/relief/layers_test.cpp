@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using test::surface_of;
 
-// Returns a wave of that length along x with slopes up to 0.2, on a square of side 2.
+// Returns a wave of that wavelength along x with slopes up to 0.2, on a square of side 2.
 Surface wavy(double length) {
   const double k = 2 * std::numbers::pi / length, a = .2 / k;
   return surface_of(test::height_field(
@@ -76,8 +76,7 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
   EXPECT_LT(kept(2), 2 * rounding);
 }
 
-// -(n_x, n_y) points in the direction in which the surface rises. faded_xy() returns this vector times
-// 1 / (1 + (slope / 12)^8).
+// -(n_x, n_y) points uphill. faded_xy() returns this vector times 1 / (1 + (slope / 12)^8).
 TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
   for (const double slope : {0.0, .5, 3.0, 12.0, 24.0}) {
     const Vec3 normal = Vec3(-.6 * slope, .8 * slope, 1).normalized();
@@ -144,12 +143,12 @@ TEST(LayerWeights, OfAShapeAreThoseOfItsHeightShare) {
   EXPECT_FLOAT_EQ(weights.coarse, of_layer(20.5));
   EXPECT_FLOAT_EQ(weights.broad, of_layer(55));
   EXPECT_FLOAT_EQ(weights.height_share, .6F);
-  shape.height_share.reset();  // the usual one applies then
+  shape.height_share.reset();  // the default then applies
   EXPECT_FLOAT_EQ(layer_weights(shape).height_share, static_cast<float>(1 - .6 * std::exp(-.2 * 1.5)));
 }
 
-// With weights of 1, the slope is that of the surface. With other weights, it is the slope of the normal
-// whose x and y are weighted.
+// With weights of 1, the slope is that of the surface. Other weights multiply x and y of the normal, and the
+// slope is that of the new normal.
 TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   PointLayers layers;
   layers.fine = Vec2f(.3F, 0);

@@ -29,7 +29,7 @@ Mesh box(const Vec3& least, const Vec3& most) {
   return mesh;
 }
 
-// Returns the letter T in bars of level faces.
+// Returns the letter T, made of two bars with level faces.
 Mesh letter(const Vec3& at, double size) {
   const Vec3 thick(0, 0, .1 * size);
   return test::joined(box(at + Vec3(-.5, .7, 0) * size, at + Vec3(.5, 1, 0) * size + thick),
@@ -61,13 +61,13 @@ LiveModel prepared(const Scene& scene) {
   return value_of(prepare(job));
 }
 
-constexpr double height = .2;  // of the whole relief, in the units of the scene
+constexpr double height = .2;  // height of the whole relief, in the units of the scene
 
 Relief relief_of(const LiveModel& live, double total = height) {
   return value_of(live.model().make_at_height(total, layered_shape(), 1));
 }
 
-// Returns the highest of the heights where `is_wanted` holds for a point of the surface.
+// Returns the largest height at the points of the surface for which `is_wanted` returns true.
 template <typename F>
 double highest(const Relief& relief, F is_wanted) {
   double most = 0;
@@ -116,7 +116,7 @@ TEST(OwnHeights, OtherModelsKeepTheirHeights) {
     }
 }
 
-// The surface of the head behind the letter is not seen, but it goes on evenly around the letter.
+// The surface of the head behind the letter is not visible, but around the letter it continues evenly.
 TEST(OwnHeights, ALetterBeforeAHeadStandsThatHighOverIt) {
   const double share = .25;
   const LiveModel live = prepared(letter_before_head(share));

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// The depths of three square terraces, seen from above. Each terrace is half as wide as the one below it, and
-// the two steps have different heights.
+// The depths of three square terraces, as seen from above. Each terrace is half as wide as the one below it,
+// and the two steps have different heights.
 constexpr std::array<double, 3> depths = {0, .3, .7};
 
 std::size_t terrace_of(const Vec3& p) {
@@ -37,8 +37,8 @@ Shape plain(double steps = 0) {
   return shape;
 }
 
-// Returns the largest error of the heights, except within 2.5 sampling distances of the terraces' edges,
-// which the points do not locate any better.
+// Returns the largest error of the heights. Ignores points within 2.5 sampling distances of the terraces'
+// edges, because the points do not determine the position of these edges more exactly.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -50,7 +50,8 @@ double largest_error(const ReliefModel& model, std::span<const double> heights, 
   return worst;
 }
 
-// The least squares ask for the differences of the terraces' depths, which heights can meet exactly.
+// The least squares equations contain the differences between the terraces' depths, which heights can satisfy
+// exactly.
 TEST(StepHeights, OfTerracesAreTheirDepths) {
   const ReliefModel model = test::prepared(terraces(20000));
   const StepHeights& steps = model.steps();
@@ -89,7 +90,7 @@ TEST(Steps, TakeNothingWhereSlopesReachTheHeight) {
   EXPECT_NEAR(relief.heights[0], model.make(relief.shape).heights[0], 1e-6);
 }
 
-// If steps take the fraction S of the height h, the heights are those of the slopes plus the step heights
+// If steps get the fraction S of the height h, the heights are those of the slopes plus the step heights
 // times S h / span.
 TEST(Steps, TakeTheShareAskedFor) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
@@ -108,7 +109,7 @@ TEST(Steps, TakeTheShareAskedFor) {
 TEST(Steps, TakeTheShareOfAFreeHeightToo) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   const Relief slopes = model.make(plain()), relief = model.make(plain(.4));
-  // Slopes and steps are both highest in the middle.
+  // Slopes and steps are both highest at the centre.
   EXPECT_NEAR(relief.height, slopes.height / .6, .02 * relief.height);
 }
 
@@ -137,8 +138,7 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
 }
 
-// If steps take a part of the height, the height correction is still made. The terraces must keep their
-// order.
+// Even if steps get a part of the height, the heights are corrected. The terraces must keep their order.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();

@@ -42,7 +42,7 @@ double profile(double distance, double radius) {
   return x < 1 ? (1 - x * x) * (1 - x * x) : 0;
 }
 
-// Returns the place of a point of the surface in the scan's coordinates.
+// Returns the position of a point of the surface in the scan's coordinates.
 Vec3 place_of(const Surface& surface, Index i) {
   return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
 }
@@ -97,7 +97,8 @@ TEST(StrokeMask, IsEmptyWhereTheViewShowsNothingOfTheLine) {
 }
 
 TEST(StrokeMask, DoesNotReachAcrossADepthJump) {
-  // A square before another: they are near each other in the view plane alone, or within the radius.
+  // One square is 0.25 in front of another. Points of both are within the radius of 0.5, but the stroke must
+  // stay on the nearer square.
   Cloud cloud = test::height_field(
       40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; }, [](double, double) { return Vec2(0, 0); });
   const Surface surface = surface_of(cloud);
@@ -152,7 +153,7 @@ TEST(StrokeFields, LevelToTheMean) {
   }
 }
 
-// Two solves of half the variance each pass 1 / (1 + sigma^2 k^2 / 4)^2 of a wave of that length.
+// Two blurs with half of the variance each multiply a wave of wave number k by 1 / (1 + sigma^2 k^2 / 4)^2.
 TEST(StrokeFields, BlurWavesAsTheirTransferFunctionSays) {
   const Surface surface = square(80000);
   for (const auto& [brush, sigma, sign] :
@@ -218,7 +219,7 @@ TEST(StrokeFields, AgreeInBothPrecisions) {
   for (std::size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(quick[i], exact[i], 1e-6);
 }
 
-// Returns the layered shape with strokes beside the highest point of bumps.
+// Returns the layered shape with these strokes.
 Shape painted(const Strokes& strokes) {
   Shape shape = layered_shape();
   shape.strokes.list = std::make_shared<const Strokes>(strokes);
@@ -270,7 +271,7 @@ TEST(StrokesOfReliefs, AreThoseOfFrames) {
   EXPECT_NEAR(frame.height, relief.height, 1e-4 * relief.height);
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
     EXPECT_NEAR(frame.heights[i], relief.heights[i], 2e-3 * relief.height);
-  // Without strokes the frame is that of a model on which nothing was painted.
+  // Without strokes, the frame must be that of a model that never had any.
   frames.make(options_of(layered_shape()), frame);
   Frame plain;
   FrameMaker(model).make(options_of(layered_shape()), plain);

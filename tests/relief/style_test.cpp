@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Three points, the first on the boundary.
+// Three points, of which the first is on the boundary.
 const std::vector<Vec3f> normals{{.6F, 0, .8F}, {0, -.6F, .8F}, {.36F, .48F, .8F}};
 const std::vector<float> k{1, -.5F, .25F}, w_b{0, 1, 1};
 
@@ -46,7 +46,7 @@ TEST(LayeredStyle, RaisesHeightsToTheirShare) {
   EXPECT_EQ(z, (std::vector<double>{0, 4, 10}));
 }
 
-// Both precisions use the same formulas, so the slopes of frames are those of the exact relief.
+// Both precisions use the same formulas, so the slopes of frames equal those of the exact relief.
 TEST(Styles, GiveTheSameSlopesInSinglePrecision) {
   std::vector<PointLayers> layers(3);
   for (std::size_t i = 0; i < 3; ++i) layers[i].fine = Vec2f(-normals[i].head<2>());

@@ -44,8 +44,8 @@ float span_of(const std::vector<float>& heights) {
   return *high - *low;
 }
 
-// Returns the largest root mean square error of several reliefs, as a fraction of their heights. The reliefs
-// are high to very low, and compressed evenly or unevenly.
+// Returns the largest root mean square error of several reliefs, as a fraction of their heights. Their
+// heights range from large to very small, and their compression is even or uneven.
 double worst_error(const Surface& surface, const SubspaceModel& subspace,
                    std::initializer_list<double> betas = {0, .01, 1}) {
   const ReliefModel exact = ReliefModel::prepare(surface).value();
@@ -96,8 +96,8 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// The first error is 1.02 % with rows of points beside the outlines. With scattered points only, it was below
-// 1 %.
+// The first error is 1.02 % with rows of points beside the outlines. With scattered points only, it would be
+// below 1 %.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
   const Surface surface = surface_of(bumps_behind_a_ring());
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .012);
@@ -109,8 +109,8 @@ TEST(Subspace, IsCloseToTheExactReliefOfASphere) {
   EXPECT_LT(worst_error(surface, subspace_of(surface, 1000)), .01);
 }
 
-// If every point is a control point and slopes are not averaged, the only approximation is the spline of the
-// offset (see SubspaceModel).
+// If every point is a control point and slopes are not averaged, only the spline of the offset is approximate
+// (see SubspaceModel).
 TEST(Subspace, IsTheExactReliefWhereAllPointsAreControlPoints) {
   const Surface surface = surface_of(test::sphere(10000, 1));
   SubspaceOptions options;
@@ -126,7 +126,7 @@ TEST_P(SubspaceSample, IsCloseToTheExactRelief) {
   const Surface surface = surface_of(make_sample(GetParam(), {150000}).value());
   const SubspaceModel subspace = subspace_of(surface, 8000);
   EXPECT_LT(worst_error(surface, subspace), .02);
-  EXPECT_LT(worst_error(surface, subspace, {5}), .027);  // the weights then change most from point to point
+  EXPECT_LT(worst_error(surface, subspace, {5}), .027);  // neighbouring weights differ most at this beta
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SubspaceSample, testing::Values("still_life", "green_man", "shell"),
@@ -178,14 +178,14 @@ TEST(Subspace, CanBeCancelled) {
                ErrorKind::cancelled);
 }
 
-// Returns about `count` control points of a surface, and the mesh over them.
+// Returns about `count` control points of a surface, and their mesh.
 std::pair<ControlPoints, ControlMesh> control_mesh(const Surface& surface, std::size_t count) {
   const ControlPoints control =
       grow_control_points(in_plane(surface.points), surface.boundary.distance, {count});
   return {control, mesh_control_points(surface, control)};
 }
 
-// The hole of the torus is left outside, and the triangles inside cover the rest.
+// The triangles inside must not cover the hole of the torus, but must cover everything else.
 TEST(ControlMesh, LeavesHolesOut) {
   const Surface surface = surface_of(test::torus(60000, 1.5, .5));
   const auto [control, mesh] = control_mesh(surface, 1000);
@@ -204,7 +204,7 @@ TEST(ControlMesh, HoldsItsPointsOnTheSurfacesBoundary) {
   for (std::size_t c = 0; c < control.boundary_points; ++c) ASSERT_TRUE(mesh.boundary.is_boundary[c]);
 }
 
-// The samples are spread evenly over the area, although three of four points are in the left half.
+// The samples are evenly distributed over the area, although three of four points are in the left half.
 TEST(RegionSamples, StandForEqualAreas) {
   test::Random random(5);
   Cloud crowded;
@@ -214,7 +214,7 @@ TEST(RegionSamples, StandForEqualAreas) {
     test::add(crowded, {x, random.uniform(-1, 1), 0}, {0, 0, 1});
   }
   const Surface surface = surface_of(crowded);
-  // There is only one control point, so all points belong to its region.
+  // There is only one control point, so its region contains all points.
   const ControlPoints control{{0}, 0, 10};
   const std::vector<Index> samples = sample_regions(surface, control, 1000);
   ASSERT_EQ(samples.size(), 1000U);

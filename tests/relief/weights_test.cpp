@@ -61,7 +61,7 @@ TEST(Compression, LeavesAlphaOpenAtBetaZero) {
   for (const double u : {0.0, .5, 1.0, 2.0, infinity}) EXPECT_TRUE(std::isnan((Compression{u, 0}.alpha())));
 }
 
-// For every u, the factor of the saturation is (6) at u = 1, divided by the value of (6) where |k| = delta.
+// For every u, the factor of the saturation is (6) at u = 1, divided by the value of (6) at |k| = delta.
 TEST(Saturation, IsEquationSixWithoutItsHeight) {
   for (const double u : {.2, 1.0, 6.0})
     for (const double beta : {0.0, .5, 2.0})
@@ -95,8 +95,8 @@ TEST(BoundaryWeight, IsEquationSeven) {
   EXPECT_EQ(boundary_weight(infinity, rho), 1);
 }
 
-// n~ of equation (5) is normal to the compressed surface. At a weight of 0 that surface is level; at 1 it is
-// the original surface.
+// The vector n~ of equation (5) is normal to the compressed surface. With weight 0 that surface is level;
+// with weight 1 it is the original surface.
 TEST(CompressedSlope, IsEquationFive) {
   const Vec3 normal = Vec3(.6, -.5, .4).normalized();
   for (const double w : {0., .1, .5, .9, 1.}) {

@@ -30,7 +30,7 @@ struct FlatCase {
 
 TEST(Boundary, OfASquareIsItsRimOnePointThick) {
   const FlatCase square(test::sheet(40000, 1, 0));
-  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points do not reach the rim
+  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points do not reach the edge
   const double rho = square.rho;
   std::size_t count = 0;
   for (std::size_t i = 0; i < square.points.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(Boundary, OfASquareIsItsRimOnePointThick) {
     ++count;
     EXPECT_GT(square.points[i].cwiseAbs().maxCoeff(), 1 - 4 * rho);
   }
-  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // at most 1.5 points per rho; the rim is 8 long
+  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // at most 1.5 points per rho; the edge is 8 long
 }
 
 TEST(Boundary, OfARingHasTheInnerHole) {

@@ -16,8 +16,8 @@ struct Statistics {
   double mean = 0, deviation = 0;
 };
 
-// Returns the mean and the deviation of the errors of mean_curvature() at the points for which `is_counted`
-// is true.
+// Returns the mean and the standard deviation of the errors of mean_curvature(), at the points for which
+// `is_counted` returns true.
 template <typename Truth, typename IsCounted>
 Statistics errors(const Cloud& cloud, Truth truth, IsCounted is_counted, const CurvatureOptions& options) {
   std::vector<Index> queries;
@@ -160,8 +160,8 @@ TEST(Curvature, EndsEarlyWhenCancelled) {
             (std::vector<double>{0, 0, 0}));
 }
 
-// A triangular lattice in the view plane with an area of rho^2 per point; rho is 1. All its normals are
-// level.
+// A triangular lattice in the view plane with rho = 1, so the area per point is 1. All normals point to the
+// viewer.
 struct Lattice {
   static constexpr Index side = 31, middle = side * side / 2;
   static constexpr double spacing_sq = 2 * std::numbers::inv_sqrt3;
@@ -182,7 +182,7 @@ struct Lattice {
     return average_in_plane(values, points, normals, mesh, 1);
   }
 
-  // Returns the average of a value that is 1 at the middle and 0 elsewhere.
+  // Averages a value that is 1 at the central point and 0 elsewhere.
   std::vector<double> spread_from_the_middle() const {
     std::vector<double> one(points.size(), 0);
     one[middle] = 1;
@@ -190,9 +190,8 @@ struct Lattice {
   }
 };
 
-// One pass gives each of the six neighbours w = exp(-a^2 / rho^2) times the weight of the point itself,
-// where a is their distance. So its mean square distance is 6 w a^2 / (1 + 6 w), and that of three passes
-// is three times as much.
+// One pass gives each of the six neighbours at distance a the weight w = exp(-a^2 / rho^2), relative to the
+// weight of the point itself. So the mean square distance is 6 w a^2 / (1 + 6 w); three passes triple it.
 TEST(AverageInPlane, SpreadsAValueByTheWidthOfThreePasses) {
   const Lattice lattice;
   const std::vector<double> spread = lattice.spread_from_the_middle();
@@ -211,7 +210,7 @@ TEST(AverageInPlane, KeepsWhatIsTheSameEverywhere) {
     EXPECT_NEAR(k, -.7, 1e-12);
 }
 
-// At a depth jump, values of two surfaces alternate at random.
+// At a depth jump, values from two surfaces alternate at random.
 TEST(AverageInPlane, LevelsValuesThatAlternate) {
   test::Random random(3);
   const Lattice lattice;
@@ -222,7 +221,7 @@ TEST(AverageInPlane, LevelsValuesThatAlternate) {
   EXPECT_LT(std::sqrt(square), .3);
 }
 
-// A point counts by its area in the view plane, so one that is seen edge on does not count.
+// The weight of a point is its area in the view plane, which is 0 for a point that is seen edge on.
 TEST(AverageInPlane, LeavesOutWhatIsSeenEdgeOn) {
   Lattice lattice;
   lattice.normals[Lattice::middle] = Vec3f::UnitX();
@@ -236,7 +235,7 @@ TEST(Normalise, ClipsAtThe99thPercentile) {
   EXPECT_EQ(n.unit, 989);
   EXPECT_EQ(n.k[999], -1);
   EXPECT_FLOAT_EQ(n.k[500], 500 / 989.F);
-  EXPECT_NEAR(n.delta, 1 / std::sqrt(12), .01);  // |k| is spread evenly over [0, 1]
+  EXPECT_NEAR(n.delta, 1 / std::sqrt(12), .01);  // |k| is uniform in [0, 1]
 }
 
 TEST(Normalise, OfAFlatSurfaceIsZero) {

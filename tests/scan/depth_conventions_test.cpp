@@ -1,5 +1,5 @@
-// Depth images in the conventions of different programs: how they store depths, what they write where nothing
-// is, and what is behind the figure.
+// Tests depth images in the conventions of different programs, which differ in how they store depths, in the
+// value where nothing was measured, and in the background behind the figure.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr int side = 200;
 constexpr double nothing = std::numeric_limits<double>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the depth of a bust of ellipsoids seen along parallel rays, in metres; `nothing` beside it.
+// Returns the depth in metres of a bust of ellipsoids, seen along parallel rays; `nothing` outside the bust.
 double bust(int column, int row) {
   struct Ellipsoid {
     double x, y, z, rx, ry, rz;
@@ -34,13 +34,13 @@ double bust(int column, int row) {
   return nearest;
 }
 
-// A way to store depths in metres.
+// A way to store depths that are in metres.
 struct Convention {
   std::string_view name;
   DepthValues kind;
-  double step;                          // 1 for whole numbers, 0 for fractions
-  std::function<double(double)> value;  // the value that is stored for a depth
-  std::vector<float> missing;           // the values that may be stored where nothing is
+  double step;                          // 1 for integers, 0 for fractions
+  std::function<double(double)> value;  // returns the stored value of a depth
+  std::vector<float> missing;           // values that may mean that nothing was measured
 };
 
 std::vector<Convention> conventions() {
@@ -60,8 +60,8 @@ std::vector<Convention> conventions() {
           {"8-bit disparity", inverse, 1, parts(500, true), {0, 255}}};
 }
 
-// Returns an image of the figure, with a wall that lies that far behind 3 m and is slightly askew, or without
-// one if it is `nothing`.
+// Returns an image of the figure. Behind it is a slightly tilted wall, at the distance `wall` behind 3 m; no
+// wall if that is `nothing`.
 DepthImage picture(const Convention& how, double wall, float missing,
                    const std::function<double(int, int)>& figure = bust) {
   DepthImage image{{side, side, 1, {}}, how.step, "test"};
@@ -82,8 +82,8 @@ std::vector<std::uint8_t> pixels_of(const Cloud& cloud) {
   return is_used;
 }
 
-// Returns the share of the figure's pixels that have points, or a negative number if there are points more than
-// two pixels away from it.
+// Returns the fraction of the figure's pixels that have points. Returns a negative number if there are points
+// more than two pixels outside the figure.
 double share_used(const DepthCloud& made) {
   const std::vector<std::uint8_t> is_used = pixels_of(made.cloud);
   const auto is_figure = [](int c, int r) {
@@ -170,7 +170,7 @@ TEST(DepthConventions, UnknownHeightsOfTerrainAreMissing) {
   }
 }
 
-// A gap of less than the range of all other values does not make the largest value a marker.
+// If the largest value is separated from the others by less than their range, it is a depth and not a marker.
 TEST(DepthConventions, ALargestValueThatOthersLeadUpToIsADepth) {
   DepthImage image{{side, side, 1, {}}, 1, "test"};
   for (int i = 0; i < side * side; ++i) image.values.pixels.push_back(static_cast<float>(56 + i % side));
@@ -183,11 +183,11 @@ TEST(DepthConventions, WithoutAJumpNothingIsBackground) {
         return 5 - .01 * std::min({c, r, side - 1 - c, side - 1 - r});
       },                                       // a pyramid
       [](int c, int) { return 1 + .01 * c; },  // a slope
-      [](int c, int r) {                       // half a ball that lies on a plane
+      [](int c, int r) {                       // half a ball on a plane
         return 3 - std::sqrt(
                        std::max(0.0, .36 - std::pow((c - 100) / 100.0, 2) - std::pow((r - 100) / 100.0, 2)));
       },
-      [](int c, int r) {  // a wall and a floor, on which a column stands
+      [](int c, int r) {  // a wall, and a floor with a column on it
         const double ground = r < 120 ? 4 : 4 - .02 * (r - 120);
         return c > 80 && c < 110 && r > 40 && r < 150 ? std::min(ground, 3.4) : ground;
       }};
@@ -215,7 +215,7 @@ TEST(DepthConventions, BackgroundIsKeptIfAskedAndInHeightsUnlessAsked) {
   EXPECT_GE(share_used(value_of(depth_cloud(picture(heights, 1, 0), options))), .98);
 }
 
-// The column stands on the floor, so no jump surrounds it.
+// The column stands on the floor, so there is no jump all around it.
 TEST(DepthConventions, FarDepthsAreTakenOutIfAsked) {
   const Convention metres = conventions().front();
   const auto column = [](int c, int r) { return c > 80 && c < 110 && r > 40 ? 2 + .001 * c : 4 - .0001 * r; };
@@ -225,7 +225,8 @@ TEST(DepthConventions, FarDepthsAreTakenOutIfAsked) {
   EXPECT_EQ(made.cloud.size(), 29U * 159U);
 }
 
-// Returns a disc at 200 before a wall at 60, with an outline that is blurred over `blur` pixels on each side.
+// Returns a disc with value 200 in front of a wall with value 60. The outline is blurred over `blur` pixels
+// on each side.
 DepthImage blurred_disc(double blur) {
   DepthImage image{{side, side, 1, {}}, 1, "test"};
   for (int i = 0; i < side * side; ++i) {
@@ -236,7 +237,7 @@ DepthImage blurred_disc(double blur) {
   return image;
 }
 
-// Returns the number of points whose height is neither the disc's nor the wall's.
+// Returns the number of points whose height is neither that of the disc nor that of the wall.
 std::size_t points_between(const Cloud& cloud) {
   const auto [low, high] = std::ranges::minmax(cloud.points, {}, [](const Vec3& p) { return p.z(); });
   return static_cast<std::size_t>(std::ranges::count_if(cloud.points, [&](const Vec3& p) {
@@ -279,7 +280,7 @@ TEST(DepthConventions, RoundSidesAreNoBlur) {
   }
 }
 
-// The walls of letters in a height map are steep over one or two pixels.
+// In a height map, the walls of letters are steep over one or two pixels.
 TEST(DepthConventions, WallsOfLettersAreSurface) {
   DepthImage image{{side, side, 1, {}}, 0, "test"};
   for (int i = 0; i < side * side; ++i) {

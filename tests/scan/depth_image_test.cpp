@@ -57,11 +57,11 @@ std::size_t pixel_of(const Vec3& p) {
 }
 
 struct Errors {
-  double height = 0, angle_deg = 0;  // root mean square error; mean error
+  double height = 0, angle_deg = 0;  // height: root mean square error; angle_deg: mean error
 };
 
 // Returns the errors of the cloud's heights and normals, compared with hills(). A common offset of all
-// heights is no error.
+// heights does not count.
 Errors errors_of(const Cloud& cloud, double scale) {
   Errors sum;
   double shift = 0;
@@ -96,7 +96,7 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   const double scale = .5 * width / high, step = .5 * width / 255;  // in pixels
   const Errors smooth = errors_of(made.cloud, scale);
 
-  // Makes the same cloud without smoothing, in which rounded heights are steps. The formula for normals is
+  // This is the same cloud without smoothing, in which rounded heights form steps. The formula for normals is
   // the same.
   Cloud raw = made.cloud;
   const auto value = [&](int c, int r) {
@@ -150,7 +150,7 @@ TEST(DepthCloud, NoiseIsMeasuredAndTakenAway) {
 }
 
 TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
-  // A ray (u, v, 1) meets the plane n . p = 1 at the depth 1 / n . (u, v, 1).
+  // A ray (u, v, 1) meets the plane n . p = 1 at the depth 1 / (n . (u, v, 1)).
   const DepthCamera camera{300, 300, 119.5, 89.5};
   const Vec3 n = Vec3(.3, -.2, 1);
   const auto ray = [&](double c, double r) {
@@ -163,14 +163,14 @@ TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
   for (std::size_t k = 0; k < made->cloud.size(); k += 31) {
     const auto i = static_cast<int>(pixel_of(made->cloud.points[k]));
     const Vec3 r = ray(i % width, i / width);
-    // z is -f log(depth), with the focal length f. So the slope of z per pixel is (n.x, n.y) / (n . ray).
+    // z is -f log(depth) with the focal length f, so the slope of z per pixel is (n.x, n.y) / (n . ray).
     const Vec3f expected = Vec3(-n.x() / n.dot(r), n.y() / n.dot(r), 1).normalized().cast<float>();
     EXPECT_LT(angle_deg(made->cloud.normals[k], expected), .3) << k;
   }
 }
 
 TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
-  // The scene is a ball in front of a wall, stored as depth and as inverse depth.
+  // A ball in front of a wall is stored as depth and as inverse depth.
   const auto depth = [](int c, int r) {
     const double x = (c - 120) / 60.0, y = (r - 90) / 60.0, d = 1 - x * x - y * y;
     return 4 - (d > 0 ? .5 * std::sqrt(d) : 0);
@@ -216,8 +216,8 @@ TEST(DepthCloud, RefusesWhatItCannotUse) {
   EXPECT_EQ(depth_cloud(image_of(hills, 0), {}, &progress).error().kind, ErrorKind::cancelled);
 }
 
-// The normals of a hollow point inwards, like those of a model that is inside out. As they face the viewer,
-// they must not be flipped.
+// The normals of a hollow point inwards, like those of a model that is inside out. Since they face the
+// viewer, they must not be flipped.
 TEST(DepthCloud, OfAHollowBecomesARelief) {
   const auto hollow = depth_cloud(image_of([](int c, int r) { return 1 - hills(c, r); }, 0), as_heights());
   ASSERT_TRUE(hollow);
@@ -228,7 +228,7 @@ TEST(DepthCloud, OfAHollowBecomesARelief) {
   EXPECT_GT(made.report.visible_points, .95 * width * height);
 }
 
-// The points at each side of a picture lie on one line, as files store them or but for rounding.
+// The points at each edge of a picture are on one line, exactly or up to rounding.
 TEST(DepthCloud, MakesSolidsThatDoNotCutThemselves) {
   DepthImage image{{48, 36, 1, {}}, 0, "test"};
   for (int i = 0; i < 48 * 36; ++i)

@@ -1,4 +1,4 @@
-// Tests that thin teeth of outlines go, and nothing else.
+// Tests that only thin teeth of outlines are removed.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Returns a grid whose known points are written as '#'.
+// Returns a grid in which '#' marks the known points.
 BoundedGrid grid_of(const std::vector<std::string>& rows) {
   BoundedGrid grid{static_cast<int>(rows[0].size()), static_cast<int>(rows.size()), {}, {}, {}, {}, {}};
   for (const std::string& row : rows)
@@ -46,7 +46,8 @@ TEST(DropTeeth, TheEdgeOfTheImageIsNoOutline) {
   EXPECT_EQ(grid.is_known, grid_of({"##..", "##..", "....", "...."}).is_known);
 }
 
-// Returns whether a square of 3 x 3 points that contains the point is known, as far as it is in the grid.
+// Returns whether the point belongs to a square of 3 x 3 known points. Points outside the grid count as
+// known.
 bool is_in_square(const BoundedGrid& grid, int column, int row) {
   const auto is_unknown = [&](int c, int r) {
     const bool is_there = c >= 0 && r >= 0 && c < grid.width && r < grid.height;

@@ -11,22 +11,22 @@ namespace {
 
 using test::surface_of;
 
-constexpr double half = 1;  // half the side of the clouds
+constexpr double half = 1;  // half of the side length of the clouds
 const Vec2 across = Vec2(3, 4).normalized();
 
-// Returns a valley or a roof along the line through the origin that is perpendicular to `across`.
+// Returns a valley or a roof. Its edge is the line through the origin that is perpendicular to `across`.
 Cloud fold(std::size_t n, double slope) {
   return test::height_field(
       n, half, [=](double x, double y) { return slope * std::abs(across.dot(Vec2(x, y))); },
       [=](double x, double y) -> Vec2 { return (across.dot(Vec2(x, y)) > 0 ? slope : -slope) * across; });
 }
 
-// The points of walls, far from the silhouette, where nothing but the tested line is.
+// The points of walls far from the silhouette, where only the tested line has walls.
 struct Walls {
   std::size_t count = 0;
-  double farthest = 0;  // distance from the line through the origin, in rho
-  double near = 0;      // share of the points nearer to this line than 0.6 rho
-  double length = 0;    // between the outermost points along this line, in rho
+  double farthest = 0;  // largest distance from the line through the origin, in rho
+  double near = 0;      // fraction of the points nearer to the line than 0.6 rho
+  double length = 0;    // distance between the outermost points along the line, in rho
 };
 
 Walls walls_of(const Surface& surface) {
@@ -50,7 +50,7 @@ TEST(InnerLines, FollowAValleyAndARoof) {
   for (const double slope : {.8, -.8}) {
     const Surface surface = surface_of(fold(20000, slope));
     const Walls walls = walls_of(surface);
-    const double length = 2 * .9 * half / .8 / surface.rho;  // of the line where walls are looked for
+    const double length = 2 * .9 * half / .8 / surface.rho;  // length of the line where walls are searched
     EXPECT_GT(walls.near, .95) << slope;
     EXPECT_LT(walls.farthest, 2) << slope;
     EXPECT_GT(walls.length, .9 * length) << slope;
@@ -87,7 +87,7 @@ TEST(InnerLines, AreNotOnSmoothSurfaces) {
   }
 }
 
-// The wall of a jump that becomes lower and ends inside the surface goes on until the step is gone.
+// A jump may become lower and end inside the surface. Its wall must continue until the step is gone.
 TEST(InnerLines, ContinueAJumpToItsEnd) {
   const auto step = [](double y) { return std::max(0.0, .3 * (y + .5)); };
   const Cloud flap = test::height_field(
@@ -100,7 +100,7 @@ TEST(InnerLines, ContinueAJumpToItsEnd) {
     const Vec2 at = (surface.points[i] + surface.centre).head<2>();
     if (surface.boundary.wall_side[i] == WallSide::none || at.cwiseAbs().maxCoeff() > .9 * half) continue;
     lowest = std::min(lowest, at.y());
-    // Points behind the edge are hidden up to 2 rho away, so that the curve lies a little behind it.
+    // Points behind the edge are hidden up to a distance of 2 rho, so the curve is slightly behind the edge.
     near += at.x() > -2 * surface.rho && at.x() < .6 * surface.rho, ++count;
   }
   EXPECT_GT(near, .9 * count);

@@ -13,8 +13,8 @@ std::shared_ptr<const MeasuredCloud> measured(const Cloud& cloud, const View& vi
   return MeasuredCloud::measure(cloud, view).value();
 }
 
-// A cloud that is measured once for all views must give the same surfaces, up to rounding, as clouds that are
-// measured for one view each.
+// A cloud that is measured once for all views must give the same surfaces, up to rounding, as a cloud that is
+// measured again for each view.
 TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
   const Cloud cloud = test::torus(20'000, 1, .4);
   const auto once = measured(cloud);
@@ -46,8 +46,7 @@ TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
   EXPECT_EQ(std::ranges::count(points, few - sphere->centre()), 4);
 }
 
-// The coordinates are as large as those of UTM, up to millions of metres. Single precision rounds them to .5
-// m.
+// The coordinates are as large as UTM coordinates: millions of metres. Single precision rounds them to 0.5 m.
 TEST(MeasuredCloud, RefusesCoordinatesThatRoundingHasSpoilt) {
   const Vec3 origin(500'000, 5'400'000, 100);
   Cloud exact = test::sphere(20'000, 2), rounded;

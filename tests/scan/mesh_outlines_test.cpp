@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The surface of a mesh's samples. Its points are relative to `centre`.
+// The surface of points that were sampled on a mesh. The points are relative to `centre`.
 struct MeshSurface {
   Surface surface;
   Vec3 centre;  // in view coordinates
@@ -30,8 +30,7 @@ struct MeshSurface {
   Vec2 place(Index i) const { return (surface.points[i] + centre).head<2>(); }
   double rho() const { return surface.rho; }
 
-  // Calls f(from, to) for each side of a triangle inside the outline that is no side of another such
-  // triangle.
+  // Calls f(from, to) for each edge of a triangle inside the outline that belongs to no other such triangle.
   template <typename F>
   void each_boundary_edge(F&& f) const {
     std::vector<std::array<Index, 2>> sides;
@@ -45,7 +44,8 @@ struct MeshSurface {
       if (!std::ranges::binary_search(sides, std::array<Index, 2>{b, a})) f(a, b);
   }
 
-  // Returns the largest |offset(place)| of the boundary's points and of the middles of its edges, in rho.
+  // Returns the largest |offset(position)| at the points of the boundary and the midpoints of its edges, in
+  // rho.
   template <typename Offset>
   double farthest(Offset offset) const {
     double most = 0;
@@ -98,7 +98,7 @@ TEST_P(MeshOutlines, OfATorusAreAtTheTubesRadiusFromAnEllipse) {
 constexpr int teeth = 12;
 constexpr double root = .8, tip = 1;
 
-// Returns the distance of a place from the outline of the gear.
+// Returns the distance of a point from the outline of the gear.
 double distance_from_gear(const Vec2& p) {
   const double sector = pi / teeth, angle = std::atan2(p.y(), p.x()) + 2 * pi;
   const bool is_tooth = std::fmod(std::floor(angle / sector), 2) == 0;
@@ -139,11 +139,11 @@ TEST_P(MeshOutlines, LeaveNotchesOpen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, MeshOutlines, testing::Values(20000, 100000));
-// This takes minutes, so it runs only with --gtest_also_run_disabled_tests.
+// This test takes minutes, so it runs only with --gtest_also_run_disabled_tests.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, MeshOutlines, testing::Values(1000000));
 
 TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
-  // A square covers the left half of a rectangle behind it.
+  // A square hides the left half of a rectangle behind it.
   const auto square = [](double left, double z) {
     return Mesh{{{left, -1, z}, {left + 2, -1, z}, {left + 2, 1, z}, {left, 1, z}}, {{0, 1, 2}, {0, 2, 3}}};
   };

@@ -20,8 +20,9 @@ struct NoisyCloud {
   std::vector<Vec3f> truth;
 };
 
-// Moves the points along their normals by Gaussian noise, whose deviation `noise` is in sampling distances.
-// The normals are then estimated from the moved points; only their signs are taken from the true normals.
+// Moves the points along their normals by Gaussian noise; `noise` is its standard deviation in sampling
+// distances. The normals are then estimated from the moved points; only their signs are those of the true
+// normals.
 NoisyCloud with_noise(Cloud cloud, double noise) {
   test::Random random(11);
   const double rho = measure_spacing(cloud).rho;
@@ -61,8 +62,8 @@ TEST(MeasureNoise, IsZeroOnCleanShapes) {
 }
 
 TEST(MeasureNoise, FindsTheDeviationThatWasAdded) {
-  // measure_noise() measures in sampling distances of the noisy cloud. These are longer than those of the
-  // clean cloud, and grow with the noise.
+  // measure_noise() measures in sampling distances of the noisy cloud. These are larger than those of the
+  // clean cloud, and increase with the noise.
   for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)})
     for (const double noise : {.15, .3, .5}) {
       const NoisyCloud noisy = with_noise(clean, noise);
@@ -99,7 +100,7 @@ TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {
 }
 
 TEST(RemoveNoise, KeepsTheRadiusOfASphereWithoutNoise) {
-  // If the filter fitted constants, it would move the points inwards by about rho^2 / 2, which is 3e-4 here.
+  // A filter that fits constants would move the points inwards by about rho^2 / 2, which is 3e-4 here.
   Cloud cloud = test::sphere(20000, 1);
   const std::vector<Vec3f> truth = cloud.normals;
   remove_noise(cloud, measure_spacing(cloud), .5);

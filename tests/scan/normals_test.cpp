@@ -36,7 +36,7 @@ TEST(TurnToViewer, LeavesNoNormalFacingAway) {
   for (const Vec3f& n : sphere.normals) EXPECT_GE(n.z(), 0);
 }
 
-// The estimated normals of a sphere must have the signs of the true ones, also beyond the silhouette.
+// The estimated normals of a sphere must have the same signs as the true ones, even on its back.
 TEST(TurnToViewer, GoesOnRoundAnEdge) {
   const Cloud truth = test::sphere(20000, 1);
   Cloud cloud{truth.points, {}};

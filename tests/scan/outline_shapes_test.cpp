@@ -1,5 +1,4 @@
-// Compares outlines of clouds with their closed forms: shapes with sharp corners, with a hole, and with
-// noise.
+// Compares outlines of clouds with closed forms, for shapes with sharp corners, with a hole, and with noise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +28,7 @@ SeenOutline outline_of(const Cloud& cloud, const View& view) {
   return outline;
 }
 
-// Statistics of the distances of places from a curve, in rho.
+// Statistics of the distances of points from a curve, in rho.
 struct Deviation {
   double mean = 0, scatter = 0, farthest = 0;
 };
@@ -49,8 +48,8 @@ Deviation deviation(const SeenOutline& outline, Offset offset) {
   return result;
 }
 
-// The number of points of a scan, and the deviation of its noise along the normals, in rho. Scans with noise
-// have no normals.
+// The number of points of a scan, and the standard deviation of its noise along the normals, in rho. Scans
+// with noise have no normals.
 struct ScanKind {
   std::size_t points = 0;
   double noise = 0;
@@ -65,8 +64,8 @@ class OutlinesOfShapes : public testing::TestWithParam<ScanKind> {
 };
 
 TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
-  // A ball whose centre moves along a circle covers a torus. The circle is seen as an ellipse, so both
-  // outlines of the torus are at the ball's radius from this ellipse.
+  // A ball whose centre moves along a circle covers a torus. In the view the circle is an ellipse, so both
+  // outlines of the torus have the ball's radius as their distance from this ellipse.
   const SeenOutline outline =
       outline_of(scan(test::torus(GetParam().points, 2, .5)), *view_towards({0, -1, 1}));
   const auto inner = std::ranges::count_if(
@@ -96,7 +95,8 @@ Cloud gear(std::size_t n) {
 }
 
 TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
-  // With scattered points, the outline on each side of a corner is uncertain by half a sampling distance.
+  // The points are scattered, so the position of the outline on each side of a corner is uncertain by half a
+  // sampling distance.
   const SeenOutline outline = outline_of(scan(gear(GetParam().points)), View{});
   std::vector<double> off;
   for (int k = 0; k < 2 * teeth; ++k)
@@ -115,12 +115,12 @@ TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
 INSTANTIATE_TEST_SUITE_P(Clean, OutlinesOfShapes, testing::Values(ScanKind{20000}, ScanKind{100000}));
 INSTANTIATE_TEST_SUITE_P(Noisy, OutlinesOfShapes,
                          testing::Values(ScanKind{20000, .15}, ScanKind{100000, .15}));
-// This takes minutes, so it runs only with --gtest_also_run_disabled_tests.
+// This test takes minutes, so it runs only with --gtest_also_run_disabled_tests.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, OutlinesOfShapes,
                          testing::Values(ScanKind{1000000}, ScanKind{1000000, .15}));
 
 TEST(NoisyOutlines, AreTooWideUnlessNoiseIsRemoved) {
-  // The outermost points of a noisy cloud lie outside the true silhouette.
+  // The outermost points of a noisy cloud are outside the true silhouette.
   const Cloud clean = test::button(50000, 1, .15);
   const double rho = measure_spacing(clean).rho;
   const Cloud noisy = test::without_normals(test::noisy(clean, .5 * rho, 0));

@@ -13,12 +13,12 @@ namespace {
 
 using test::surface_of;
 
-// Returns a button of radius 1.15, and before it a button of half that size.
+// Returns a button of radius 1.15 with a button of half that size in front of it.
 Cloud two_buttons(std::size_t n) {
   return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
-// Returns, for the surface points i for which holds(i) is true, their distances from the model's z axis.
+// Returns the distances from the model's z axis of the surface points i for which holds(i) is true.
 template <typename Condition>
 std::vector<double> radii(const Surface& surface, Condition holds) {
   std::vector<double> found;
@@ -28,7 +28,7 @@ std::vector<double> radii(const Surface& surface, Condition holds) {
 }
 
 struct Spread {
-  double mean = 0, deviation = 0, farthest = 0;  // of differences from a given radius, in rho
+  double mean = 0, deviation = 0, farthest = 0;  // of the differences from a given radius, in rho
 };
 
 Spread spread(const std::vector<double>& radii, double radius, double rho) {
@@ -90,7 +90,7 @@ TEST(Outlines, OfANoisyScanStayNear) {
   EXPECT_LT(s.deviation, .1);
 }
 
-// Returns the longest side of the triangles inside the outline, in the view plane and in rho.
+// Returns the longest edge of the triangles inside the outline, measured in the view plane and in rho.
 double longest_side(const Surface& surface) {
   double longest = 0;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -101,7 +101,7 @@ double longest_side(const Surface& surface) {
   return longest / surface.rho;
 }
 
-// Returns a square on a regular grid, with points moved by up to a third of the spacing.
+// Returns points of a square on a regular grid, displaced by up to a third of the spacing.
 Cloud jittered_square(int per_side, double half) {
   test::Random random(17);
   Cloud cloud;
@@ -134,13 +134,13 @@ TEST(Outlines, OfASphereHaveNoJump) {
 TEST(Outlines, LeaveNoGapInside) {
   const Cloud cloud = test::button(60000, 1, .15);
   const double rho = surface_of(cloud).rho;
-  // The hole is narrow enough to be closed.
+  // The hole is so narrow that it must be closed.
   const auto is_beside = [&](const Vec3& p) { return (p.head<2>() - Vec2(.3, .2)).norm() > 4.5 * rho; };
   EXPECT_LT(longest_side(surface_of(test::where(cloud, is_beside))), 3.5);
 }
 
 TEST(Outlines, OfASliverHaveNoGap) {
-  // A second sheet covers the first one except for a sliver, in which there is at most one row of points.
+  // A second sheet covers the first sheet except for a sliver, in which there is at most one row of points.
   for (const double width : {.3, .6, 1.}) {
     Cloud cloud = jittered_square(200, 1);
     const double rho = surface_of(cloud).rho;
@@ -152,7 +152,7 @@ TEST(Outlines, OfASliverHaveNoGap) {
   }
 }
 
-// Returns the width of the triangles that are parts of the surface.
+// Returns the width of the bounding box of the triangles inside the boundary.
 double width(const Surface& surface) {
   Box box;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
@@ -161,7 +161,7 @@ double width(const Surface& surface) {
   return box.size().x();
 }
 
-// From the left: a sphere, the button, which is larger, and a sphere that is smaller. None is a crumb.
+// From left to right: a sphere, the larger button, and a smaller sphere. None of them is a crumb.
 TEST(Outlines, LeaveOutAllButTheLargestPieces) {
   const Cloud button = test::button(40000, 1, .15);
   const Cloud cloud = test::joined(test::joined(button, test::moved(test::sphere(6000, .4), {-1.8, 0, 0})),
@@ -180,7 +180,7 @@ TEST(Outlines, LeaveOutAllButTheLargestPieces) {
 TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
   const Cloud button = test::button(40000, 1, .15);
   const double rho = surface_of(button).rho;
-  const Cloud crumb = test::sphere(200, .03);  // its area is 0.07 % of the button's, and 13 rho^2 or more
+  const Cloud crumb = test::sphere(200, .03);  // has 0.07 % of the button's area, and at least 13 rho^2
   const Cloud cloud = test::joined(button, test::moved(crumb, {1.6, 0, 0}));
   View view;
   view.has_crumbs = true;

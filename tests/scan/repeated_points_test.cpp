@@ -14,14 +14,14 @@ namespace {
 
 using test::surface_of;
 
-constexpr double size = 2.8;  // the size of the torus
+constexpr double size = 2.8;  // width of the torus
 const Cloud& single() {
   static const Cloud cloud = test::torus(20'000, 1, .4);
   return cloud;
 }
 
-// In the cloud that repeated() returns, each point with y < up_to appears `copies` times, and every other
-// point once. All are moved by Gaussian noise.
+// Describes the cloud that repeated() returns: each point with y < up_to appears `copies` times, and every
+// other point once. All are moved by Gaussian noise.
 struct Repeats {
   std::size_t copies = 1;
   double jitter = 0;  // standard deviation of the noise, as a fraction of `size`
@@ -44,7 +44,7 @@ Cloud repeated(const Cloud& cloud, const Repeats& repeats) {
   return all;
 }
 
-// Returns the largest distance of a surface's points from the torus.
+// Returns the largest distance of the surface's points from the torus.
 double farthest_from_torus(const Surface& surface) {
   double farthest = 0;
   for (const Vec3& p : surface.points)
@@ -52,9 +52,9 @@ double farthest_from_torus(const Surface& surface) {
   return farthest;
 }
 
-// Returns the largest difference of points or normals of two surfaces; infinity if they have different
-// numbers of points. It is not 0 for points in another order, because sums over neighbours are then rounded
-// differently.
+// Returns the largest difference between the points or normals of two surfaces; infinity if they have
+// different numbers of points. If the points were in another order, the difference is not exactly 0, because
+// sums over neighbours are rounded differently.
 double farthest_apart(const Surface& a, const Surface& b) {
   if (a.points.size() != b.points.size()) return std::numeric_limits<double>::infinity();
   double farthest = 0;
@@ -134,8 +134,8 @@ TEST(RepeatedPoints, AreNotSeenAmongScatteredOnes) {
   }
 }
 
-// Marching cubes put up to three vertices near a corner of the grid. Such vertices must not count as repeated
-// points.
+// Marching cubes create up to three vertices near a corner of the grid. Such vertices must not count as
+// repeated points.
 TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   test::Random random(3);
   Cloud mesh;
@@ -149,7 +149,7 @@ TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   EXPECT_EQ(without_repeated_points(mesh).size(), mesh.size());
 }
 
-// Each patch has 30 points. The patches are too far from each other to be connected.
+// Each patch has 30 points. The patches are so far apart that they are not connected.
 TEST(LostFigure, IsRefused) {
   Cloud shreds;
   for (int row = 0; row < 300; ++row)

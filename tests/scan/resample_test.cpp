@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// A plane is the same between any points; outside the triangles the height is 0.
+// Interpolating a plane between any points gives the same plane. Outside the triangles the height is 0.
 TEST(Resample, GivesTheHeightsOfTrianglesAtOtherPoints) {
   const Surface from = test::surface_of(test::sheet(4000, 1, 0)),
                 to = test::surface_of(test::sheet(3000, 1.2, 0, 9));

@@ -10,9 +10,9 @@ namespace {
 
 using Values = std::vector<SideInterpolation::Value>;
 
-constexpr double rho = .1, spacing = .5;  // spacing of a row's points, in rho
+constexpr double rho = .1, spacing = .5;  // spacing: distance between the points of a row, in rho
 
-// Returns `count` points along the x axis.
+// Returns `count` points along the x axis as a row.
 std::vector<RowPoint> row(std::size_t count, Index number) {
   std::vector<RowPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
@@ -22,7 +22,7 @@ std::vector<RowPoint> row(std::size_t count, Index number) {
   return points;
 }
 
-// Returns values whose depths rise by half a rho per rho.
+// Returns values with depths that increase by rho / 2 per rho.
 Values slope(const std::vector<RowPoint>& points) {
   Values values;
   for (const RowPoint& p : points) {

@@ -16,7 +16,8 @@
 namespace relievo {
 namespace {
 
-// The height of a scanned thing over its ground at (x, y) in [-1, 1]^2; not a number where nothing was scanned.
+// Returns the height of a scanned object above its ground at (x, y) in [-1, 1]^2; NaN where nothing was
+// scanned.
 using Height = std::function<double(double, double)>;
 
 struct Scan {
@@ -40,7 +41,7 @@ double slab(Vec2 at, Vec2 half, double x, double y) {
   return rising(half.x() - std::abs(x - at.x())) * rising(half.y() - std::abs(y - at.y()));
 }
 
-// Five letters of bars, 1 high.
+// Returns the height of five letters, made of bars of height 1.
 double letters(double x, double y) {
   constexpr double size = .14;
   double z = 0;
@@ -53,7 +54,7 @@ double letters(double x, double y) {
   return z;
 }
 
-// A head with a nose and shoulders, about 1 high.
+// Returns the height of a head with a nose and shoulders, which is about 1 high.
 double head(double x, double y) {
   return std::max({hump({0, .2}, {.25, .35}, 1, x, y) + hump({0, .15}, {.05, .1}, .3, x, y),
                    hump({0, -.15}, {.12, .3}, .6, x, y), hump({0, -.5}, {.55, .22}, .8, x, y)});
@@ -150,7 +151,7 @@ Height scaled(double factor, Height f) {
   return [=](double x, double y) { return factor * f(x, y); };
 }
 
-// Returns 22 things that are scanned from one side: coins, plaques, faces, busts, ornaments.
+// Returns 22 objects that are scanned from one side: coins, plaques, faces, busts and ornaments.
 std::vector<Scan> one_sided_scans() {
   const auto low_dome = [](double x, double y) { return .2 * (1 - x * x - y * y); };
   return {{"coin", coin(.06, .1)},
@@ -177,7 +178,7 @@ std::vector<Scan> one_sided_scans() {
           {"steps", plate(1, .7, steps)}};
 }
 
-// Returns points on a thing, turned and without normals.
+// Returns points on an object, rotated and without normals.
 Cloud scanned(const Scan& scan, const Mat3& turn, std::uint64_t seed) {
   test::Random random(seed);
   Cloud cloud;
@@ -210,7 +211,7 @@ TEST(ScannedSide, IsTheFrontOfScansAlongAnAxis) {
 }
 
 TEST(ScannedSide, IsNeverTheHollowBackWhateverTheAttitude) {
-  const double least_cosine = std::cos(26 * std::numbers::pi / 180);  // 25 degrees are the limit for an axis
+  const double least_cosine = std::cos(26 * std::numbers::pi / 180);  // 25 degrees is the limit for an axis
   std::uint64_t seed = 0;
   for (const Scan& scan : one_sided_scans())
     for (int i = 0; i < 3; ++i) {
@@ -239,8 +240,8 @@ TEST(ScannedSide, BustsStandOnTheirBroadFoot) {
   EXPECT_GT(side_of(scan, turn, 1).up.dot(turn.col(1)), .95);
 }
 
-// Returns the side of the bust at a distance of 3 before a camera at the origin. The rows of `to_camera` are
-// the axes of the camera in the frame of the bust.
+// Returns the side of the bust at that distance from a camera at the origin. The rows of `to_camera` are the
+// axes of the camera in the coordinates of the bust.
 Side seen_by_camera(const Mat3& to_camera, double distance) {
   Cloud cloud = scanned({"bust", bust}, to_camera, 1);
   for (Vec3& p : cloud.points) p.z() += distance;

@@ -8,8 +8,8 @@
 namespace relievo {
 namespace {
 
-// Returns a wall of points 0.01 apart with a square window, and the part of a wall at depth z that is visible
-// through the window.
+// Returns a wall of points 0.01 apart with a square window, and that part of a wall at depth z that is
+// visible through the window.
 Cloud window(double half_width, double z) {
   test::Random random(3);
   Cloud cloud;
@@ -32,13 +32,13 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   const auto seen = [](double half_width, double z) {
     return points_at(*find_surface(window(half_width, z), View{}), z);
   };
-  EXPECT_EQ(seen(.035, -.5), 0U);  // about 49 points are there
+  EXPECT_EQ(seen(.035, -.5), 0U);  // there are about 49 points
   EXPECT_GT(seen(.1, -.5), 200U);
-  EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall is visible
+  EXPECT_GT(seen(.035, .5), 20U);  // a stud in front of a wall is visible
 }
 
-// A patch lies behind a wall and beside its edge, across a gap of 3.5 spacings. The patch is so steep that,
-// continued across the gap, it would reach the wall. So the depths do not show the gap.
+// A patch is behind a wall and beside its edge, across a gap of 3.5 spacings. The patch is so steep that its
+// continuation across the gap would reach the wall, so the gap cannot be recognised by depth.
 TEST(SmallPatches, BeyondAGapAreLeftOut) {
   Cloud cloud = window(0, 0);
   const double edge = .495, step = .01;

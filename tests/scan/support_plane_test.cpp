@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-constexpr double noise = .01;  // standard deviation of the planes' points
+constexpr double noise = .01;  // standard deviation of the points' distances from their plane
 
 // Adds a square of side 2 * half around the origin, perpendicular to `normal`, with noise along the normal.
 void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half) {
@@ -46,8 +46,8 @@ Surface surface_of(const Cloud& cloud, bool has_plane = true) {
   return find_surface(cloud, view).value();
 }
 
-// Returns the fraction of the visible points that lie on the plane. The plane's points are visible unless the
-// sphere hides them.
+// Returns the fraction of the visible points that are on the plane. The sphere hides some points of the
+// plane; all others are visible.
 double visible_share(const Cloud& cloud, const Vec3& centre) {
   std::size_t plane = 0, sphere = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -96,13 +96,13 @@ TEST(SupportPlane, IsLeftOutUnlessTheViewHasIt) {
   Box box;
   for (const Vec3& p : without.points) {
     box.extend(p);
-    EXPECT_NEAR((p - centre).norm(), 1, .06);  // points on outlines are placed between those of the scan
+    EXPECT_NEAR((p - centre).norm(), 1, .06);  // points on outlines are between those of the scan
   }
   EXPECT_NEAR(box.size().x(), 2, 2 * without.rho);
 }
 
-// The ridge beside the sphere has other normals than the plane, but is too low for a figure. So it is left
-// out with the plane.
+// The ridge beside the sphere has different normals from the plane, but is too low to be a figure. So it is
+// left out with the plane.
 TEST(SupportPlane, IsLeftOutWithItsRidges) {
   const Vec3 normal = tilted(50), up = normal.cross(Vec3::UnitX());
   Cloud cloud = sphere_before(normal);
@@ -117,8 +117,8 @@ TEST(SupportPlane, IsLeftOutWithItsRidges) {
   for (const Vec3& p : without.points) EXPECT_NEAR((p - centre).norm(), 1, .06);
 }
 
-// With the table, a small ball beside the sphere is always kept. Without the table, the ball is left out as
-// debris, unless it has enough points compared with the largest piece.
+// If the table is kept, a small ball beside the sphere is always kept. If the table is left out, the ball is
+// left out as debris, unless it has enough points compared with the largest piece.
 TEST(SupportPlane, IsLeftOutWithDebris) {
   const Vec3 normal = tilted(50), place = 1.7 * Vec3::UnitX() + .5 * normal;
   for (const std::size_t points : {500, 4000}) {
@@ -141,7 +141,7 @@ TEST(SupportPlane, LeavesThePointsOfTheFigureThatStandOnIt) {
   EXPECT_TRUE(plane.takes({0, -.2, 0}, Vec3f(0, 0, 1)));
 }
 
-// Returns a cube of side 2, turned.
+// Returns a rotated cube of side 2.
 Cloud cube(const Eigen::AngleAxisd& turn) {
   Cloud cloud = test::cube(40000, 3);
   for (Vec3& p : cloud.points) p = turn * p;
@@ -160,8 +160,8 @@ TEST(SupportPlane, IsNoFaceOfASolid) {
   EXPECT_FALSE(surface_of(test::torus(20000, 2, .5)).plane);
 }
 
-// The ground of a plaque is no support plane. Letters rise above it by a fiftieth of the plaque's width, a
-// relief by a twentieth.
+// The ground of a plaque is not a support plane. Letters rise above it by 1/50 of the plaque's width, a
+// relief by 1/20.
 TEST(SupportPlane, IsNoPlaquesGround) {
   EXPECT_FALSE(surface_of(test::sheet(20000, 1, 0, 5)).plane);
   for (const double half : {.1, .3, .7})

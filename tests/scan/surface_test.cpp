@@ -37,7 +37,7 @@ TEST(Surface, RefusesNumbersThatAreNone) {
   EXPECT_TRUE(failure(cloud).contains("found 999"));
 }
 
-// Most points lie in a hundredth of the sheet. Its whole area of 4 must be covered all the same, except at
+// Most points are in a hundredth of the sheet. Nevertheless its whole area of 4 must be covered, except at
 // its edge.
 TEST(Surface, CoversSparsePartsToo) {
   const Surface surface =
@@ -54,8 +54,8 @@ TEST(Surface, RefusesACloudThatFacesAway) {
   EXPECT_TRUE(message.contains("--view back or --view auto")) << message;
 }
 
-// A camera at the origin, with its axes y down and z away, has scanned the near half of a ball and a little of
-// what lies beyond. From the front, only that little would be left.
+// A camera at the origin, with its y axis down and its z axis away from the viewer, has scanned the near half
+// of a ball and a little of the other half. In the front view, only that little would be left.
 TEST(Surface, NamesTheSideThatWasScanned) {
   const auto is_scanned = [](const Vec3& p) { return p.z() < .2; };
   Cloud scan = test::where(test::sphere(20'000, 1), is_scanned);

@@ -20,14 +20,14 @@ TEST(TurnedSurface, LiesOnTheSphere) {
   ASSERT_GT(sphere.surface.points.size(), 3'000U);
   for (std::size_t i = 0; i < sphere.surface.points.size(); ++i) {
     const Vec3& p = sphere.surface.points[i];
-    if (p.head<2>().norm() > .9) continue;  // nearly edge on, where depth changes much in a cell
+    if (p.head<2>().norm() > .9) continue;  // nearly edge on, where the depth within a cell varies much
     EXPECT_NEAR(p.norm(), 1, .02);
     EXPECT_GT(sphere.surface.normals[i].cast<double>().dot(p.normalized()), .998);
   }
 }
 
-// The smaller sheet hides the middle of the larger one behind it. So the covered area is that of the larger
-// sheet.
+// The smaller sheet hides the central part of the larger sheet behind it, so the covered area is that of the
+// larger sheet.
 TEST(FrontCells, ShowsWhatIsInFront) {
   const TurnedSurface sheets =
       turned(test::joined(test::sheet(40'000, 1, 0, 5), test::sheet(20'000, .5, .7, 6)));
@@ -82,8 +82,8 @@ FrontCells random_front(unsigned seed) {
   return front;
 }
 
-// Returns the size of each cell's component, which is found by walking from cell to cell. A component is a
-// connected set of cells that are all covered or all uncovered.
+// Returns the size of each cell's component. A component is a connected set of cells that are all covered or
+// all uncovered; it is found by walking from cell to cell.
 std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   const Image<Vec3f>& normal = front.normal;
   std::vector<std::size_t> sizes;
@@ -107,7 +107,7 @@ std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   return sizes;
 }
 
-// Expects that the covered cells are those for which is_covered() is true, and that `covered` is their
+// Expects that the covered cells are those for which is_covered() returns true, and that `covered` is their
 // number.
 template <typename F>
 void expect_covered(const FrontCells& front, F&& is_covered) {

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The slab has one carved face, which is its best view.
+// One face of the slab is carved. This face is its best view.
 TEST(ViewRanking, RanksTheCarvedSideFirst) {
   const Cloud slab = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(9 * x) * std::sin(9 * y); },
@@ -22,12 +22,12 @@ TEST(ViewRanking, RanksTheCarvedSideFirst) {
   EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
 }
 
-// Returns a part of a sphere as scanned from +Z: it has no back.
+// Returns a part of a sphere as scanned from +Z, without its back.
 Cloud dome() {
   return test::where(test::sphere(40000, 1), [](const Vec3& p) { return p.z() > .3; });
 }
 
-// Turns a cloud; leaves out its normals unless `has_normals` is true.
+// Rotates a cloud. Removes its normals unless `has_normals` is true.
 Cloud mapped(const Cloud& cloud, const Mat3& turn, bool has_normals = true) {
   Cloud out = cloud;
   for (Vec3& p : out.points) p = turn * p;

@@ -99,14 +99,14 @@ TEST(Denoise, IsAutoOrANumberUpToOne) {
 
 TEST(Crop, KeepsThePointsInsideInTheirOrder) {
   const Cloud cloud = test::sphere(2000, 1);
-  View view = *parse_view("right");  // looks along -X, with -Z to the right
+  View view = *parse_view("right");  // looks along -X; -Z is to the right
   view.crop = *parse_crop("0,.5,1,1,0,.25");
   const Cloud part = cropped(cloud, view);
   std::vector<Vec3> expected;
   for (const Vec3& p : cloud.points)
     if (p.y() >= 0 && p.x() >= .5) expected.push_back(p);
   EXPECT_NEAR(static_cast<double>(part.size()), static_cast<double>(expected.size()),
-              5);  // the points' box is a little smaller than the sphere's
+              5);  // the points' bounding box is slightly smaller than the sphere's
   EXPECT_EQ(part.normals.size(), part.size());
   for (const Vec3& p : part.points) EXPECT_GT(std::min(p.y(), p.x() - .5), -.01);
   view.crop = {};

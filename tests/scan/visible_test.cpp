@@ -14,7 +14,7 @@ std::vector<Index> visible(const Cloud& cloud) {
   return visible_points(cloud, measure_spacing(cloud));
 }
 
-// Returns the fraction of the points in [first, last) that is in `found`.
+// Returns the fraction of the points in [first, last) that are in `found`.
 double share(const std::vector<Index>& found, std::size_t first, std::size_t last) {
   const auto begin = std::lower_bound(found.begin(), found.end(), first);
   const auto end = std::lower_bound(found.begin(), found.end(), last);
@@ -44,7 +44,7 @@ TEST(Visible, OfASphereAlmostAllThatFacesTheViewer) {
   EXPECT_EQ(behind_found, 0U);
 }
 
-// The right half of the front sheet has a tenth of the density. It still hides the sheet behind it.
+// The right half of the front sheet has a tenth of the density. It must still hide the sheet behind it.
 TEST(Visible, UnevenDensityLeavesNoHoles) {
   test::Random random(22);
   const Cloud uneven = test::where(test::sheet(60000, 1, .5, 21),
@@ -81,18 +81,18 @@ TEST(Visible, SpecksAreRemovedAndCounted) {
   for (int speck = 0; speck < 7; ++speck)
     for (int k = 0; k < 5; ++k) test::add(cloud, {.2 * speck - .6, .001 * k, 1}, Vec3::UnitZ());
   const VisiblePoints found = find_visible(cloud, measure_spacing(cloud));
-  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may be specks, too
+  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may also be specks
   EXPECT_EQ(share(found.points, n, cloud.size()), 0);
   EXPECT_GT(share(found.points, 0, n), .999);
 }
 
-// The corners of a mesh may be forty times as far apart in one part as in another, like these points.
+// In one part of a mesh, points may be forty times as far apart as in another.
 TEST(Visible, OfVeryUnevenDensityAlmostAllToo) {
   const std::size_t dense = 50000, sparse = 3000;
   const Cloud both = test::joined(test::sheet(dense, .1, 0, 11), test::sheet(sparse, 1, 0, 12));
   const VisiblePoints found = find_visible(both, measure_spacing(both));
   EXPECT_EQ(found.removed, 0U);
-  EXPECT_GT(share(found.points, 0, dense), .97);  // some coincide at this scale
+  EXPECT_GT(share(found.points, 0, dense), .97);  // some points coincide at this scale
   EXPECT_GT(share(found.points, dense, dense + sparse), .99);
 }
 
@@ -105,7 +105,7 @@ TEST(Visible, IsTheSameForAnyOrder) {
   EXPECT_EQ(found, reversed);
 }
 
-// The ledge is one pixel wide where it begins, at the edge of the depth image. The points there have no near
+// The ledge starts at the edge of the depth image with a width of one pixel. The points there have no near
 // neighbours. Unless the cloud is marked as a height field, such points hide many others.
 TEST(Visible, OfAHeightFieldIsAll) {
   Cloud steps;
@@ -118,8 +118,8 @@ TEST(Visible, OfAHeightFieldIsAll) {
   EXPECT_FALSE(turned.is_height_field);
 }
 
-// The front of a box has a hole, through which the back is seen from inside. Its normals face away there, but
-// its points must fill the hole.
+// The front of a box has a hole, through which the inner side of its back is visible. The normals there face
+// away, but the points must fill the hole.
 TEST(HoleFillPoints, StandInWhereOnlyTheOtherSideWasScanned) {
   const Cloud front =
       test::where(test::sheet(40000, 1, 0), [](const Vec3& p) { return p.head<2>().norm() > .2; });

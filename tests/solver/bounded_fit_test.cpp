@@ -25,7 +25,7 @@ Matrix dense(const Eigen::SparseMatrix<double>& lower) {
   return Matrix(lower).selfadjointView<Eigen::Lower>();
 }
 
-// Returns a problem on a jittered grid whose bounds are between the extremes of the unbounded solution.
+// Returns a problem on a jittered grid. Its bounds are between the extremes of the unbounded solution.
 BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   test::PlanarSystem system = test::jittered_grid(width, height, seed);
   const int n = width * height;
@@ -37,7 +37,7 @@ BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   return fit;
 }
 
-// The dense energy 1/2 x^T H x - f^T x of a problem; that of a plate lacks a constant.
+// The energy 1/2 x^T H x - f^T x of a problem with dense matrices. For a plate a constant is missing.
 struct DenseEnergy {
   Matrix H;
   Vector f;
@@ -52,8 +52,8 @@ struct DenseEnergy {
   double operator()(const Vector& x) const { return x.dot(H * x) / 2 - f.dot(x); }
 };
 
-// Returns the field where each unknown i is free, at its lowest or at its highest value, by the digits of
-// `choice` to the base 3, if it satisfies the conditions of Karush, Kuhn and Tucker.
+// The base-3 digits of `choice` say for each unknown whether it is free, at its lower bound or at its upper
+// bound. Returns the field under this choice if it satisfies the Karush-Kuhn-Tucker conditions.
 std::optional<Vector> solution_for(const BoundedFit& fit, const DenseEnergy& energy, int choice) {
   const auto n = static_cast<int>(fit.load.size());
   Matrix K = Matrix::Identity(n, n);
@@ -85,7 +85,7 @@ TEST(BoundedFit, IsTheSolutionAmongAllSetsOfActiveBounds) {
     }
 }
 
-// The gap is computed anew, and it bounds the energy of fields that are solved more exactly.
+// The test computes the gap again. The gap must bound the energy of fields that are solved more exactly.
 TEST(BoundedFit, KeepsItsBoundsAndItsTolerance) {
   for (const bool is_plate : {false, true}) {
     const BoundedFit fit = problem(30, 20, is_plate, 5);
@@ -121,7 +121,7 @@ TEST(BoundedFit, WithDistantBoundsSolvesTheEquations) {
 }
 
 // A string of length 1 under a load of 8 would rise to 1. Under a ceiling at 1/4 it is a parabola up to a
-// distance of sqrt(2 * 0.25 / 8) = 1/4 from its ends, and lies against the ceiling between.
+// distance of sqrt(2 * 0.25 / 8) = 1/4 from its ends, and touches the ceiling in between.
 TEST(BoundedFit, OfAStringUnderACeilingIsItsClosedForm) {
   constexpr int n = 199;
   constexpr double step = 1. / (n + 1);

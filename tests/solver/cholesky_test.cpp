@@ -18,9 +18,8 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Counts every allocation of the test program, except under sanitizers, which replace operator new
-// themselves. The operators are not inlined, because the compiler would then warn that new and free do not
-// match.
+// Counts every allocation of the test program, except with sanitizers, which replace operator new themselves.
+// The operators are not inlined, because the compiler would then warn that new and free do not match.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RELIEVO_COUNTS_ALLOCATIONS
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
@@ -101,7 +100,7 @@ TEST(Cholesky, AgreesWithSparseEigenOnPlanarGraphs) {
   }
 }
 
-// Positions influence only the order of elimination, so solutions are right for any positions.
+// Positions determine only the order of elimination, so solutions are correct for any positions.
 TEST(Cholesky, IsRightWhereverThePositionsAre) {
   const PlanarSystem system = jittered_grid(45, 40);
   std::vector<Vec2> nowhere(system.positions.size(), Vec2(3, 4)), line = nowhere, infinite = nowhere;
@@ -137,7 +136,7 @@ TEST(Cholesky, OfADiagonalMatrixDivides) {
   for (int i = 0; i < n; ++i) ASSERT_NEAR(x[i] * (i + 1), b[i], 1e-13);
 }
 
-// One vertex is joined to all others, so one column is full.
+// One vertex is connected to all others, so one column is dense.
 TEST(Cholesky, SolvesAStar) {
   const int n = 3000;
   Sparse A(n, n);
@@ -177,7 +176,7 @@ TEST(Cholesky, DoesNotMindTheUnit) {
   const auto factor = Cholesky::factor(system.A, system.positions);
   const Eigen::VectorXd b = random_vector(900), x = solved(*factor, b);
   for (const double unit : {0x1p-400, 0x1p300})
-    EXPECT_EQ(solved(*factor, unit * b), unit * x);  // multiplying by a power of two is exact
+    EXPECT_EQ(solved(*factor, unit * b), unit * x);  // multiplication by a power of two is exact
   EXPECT_EQ(solved(*factor, Eigen::VectorXd::Zero(900)), Eigen::VectorXd::Zero(900));
 }
 
@@ -267,7 +266,8 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
   indefinite.insert(1, 1) = -1;
   singular.insert(0, 0) = 1;
   not_finite.insert(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  // Each row adds up to 0, so the matrix is singular. Rounding may keep its last pivot from being exactly 0.
+  // Each row adds up to 0, so the matrix is singular. Because of rounding, its last pivot may not be exactly
+  // 0.
   for (int j = 0; j < 400; ++j) floating.coeffRef(j, j) = 0;
   for (int j = 0; j < 400; ++j)
     for (Sparse::InnerIterator e(floating, j); e; ++e)

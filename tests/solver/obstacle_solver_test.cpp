@@ -20,8 +20,8 @@ bool is_rim(std::size_t n) {
   return x == 0 || y == 0 || x == width - 1 || y == height - 1;
 }
 
-// Returns a tension of 1, and the same bending stiffness at all nodes except those of the lattice's rim,
-// which are fixed.
+// Returns a tension of 1 and the same bending stiffness at all nodes, except for the nodes at the edge of the
+// lattice, which are fixed.
 Stiffness even(float bending) {
   Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -37,13 +37,13 @@ Stiffness yielding(float bending, std::size_t column, float hinge, float tension
   return all;
 }
 
-// Returns a load that pulls the left half up and the right half down, with ripples.
+// Returns a load, with ripples, that pulls the left half up and the right half down.
 float load(std::size_t n) {
   const double x = static_cast<double>(n % width) / width, y = static_cast<double>(n / width) / height;
   return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
 }
 
-// The parameters of a problem; `hold` is the stiffness of the springs at all nodes.
+// The parameters of a problem. `hold` is the stiffness of the springs at all nodes.
 struct Pulls {
   float hold = 0, tie_stiffness = 1, least_at_ties = -std::numeric_limits<float>::infinity(),
         stop_stiffness = 10;
@@ -69,8 +69,8 @@ struct Problem {
   }
 };
 
-// Returns the matrix of the energy, L' C L + tension + springs, with the Laplacian L and the bending
-// stiffness C. The rows of fixed nodes are rows of the identity.
+// Returns the matrix of the energy, L' C L + tension + springs. L is the Laplacian, and C the bending
+// stiffness. The rows of fixed nodes are those of the identity.
 Eigen::MatrixXd matrix(const Stiffness& stiffness, const Pulls& springs) {
   const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
@@ -120,7 +120,7 @@ void add_ties(Eigen::MatrixXd& a, std::span<const Tie> ties, const Pulls& spring
   }
 }
 
-// Returns ties along the line x + slope y = start, which slants across the cells.
+// Returns ties along the line x + slope y = start, which crosses the cells diagonally.
 std::vector<Tie> slanting_ties(double start, double slope) {
   std::vector<Tie> ties;
   for (double y = 3; y < height - 3; ++y) {
@@ -131,8 +131,8 @@ std::vector<Tie> slanting_ties(double start, double slope) {
   return ties;
 }
 
-// Without limits, a linear system gives the least energy, which is negative. The solver must reach the
-// fraction `share` of it. With three quarters of its sweeps it would reach `share` in no case.
+// Without limits, a linear system gives the minimal energy, which is negative. The solver must reach the
+// fraction `share` of it. With three quarters of its sweeps it would miss `share` in all cases.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;
@@ -169,8 +169,8 @@ TEST(ObstacleSolver, StaysWithinItsLimits) {
     }
 }
 
-// Limits raise the energy. The solution still has less energy than the solution without limits, cut off at
-// the limits.
+// Limits increase the energy. The solution must still have less energy than the unlimited solution after it
+// is cut off at the limits.
 TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   constexpr Pulls springs{.02F};
   const Stiffness stiffness = even(4);
@@ -185,14 +185,14 @@ TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   EXPECT_LT(held, energy(a, f, cut) - .05 * std::abs(least));
 }
 
-// If both limits of a node are the same, the node takes this value.
+// If both limits of a node are equal, the node gets this value.
 TEST(ObstacleSolver, TakesLimitsThatMeet) {
   Problem problem(even(4), {.02F}, .05F, .05F);
   const std::vector<float>& b = problem.solved();
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
-// The field bends at a hinge: its second difference is greater there than four nodes away.
+// The field bends at a hinge: its second difference is larger there than four nodes away.
 TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
@@ -204,7 +204,7 @@ TEST(ObstacleSolver, BendsAtAHinge) {
   EXPECT_GT(bend(n), 5 * bend(n + 4));
 }
 
-// A hinge with low tension separates its two sides: under opposite loads, the field makes a step there.
+// A hinge with low tension separates its two sides: under opposite loads, the field has a step there.
 TEST(ObstacleSolver, KeepsApartWhatYields) {
   const auto step_at_middle = [](float tension) {
     constexpr std::size_t middle = width / 2;
@@ -246,7 +246,7 @@ TEST(ObstacleSolver, RestsEvenlyOnTies) {
   EXPECT_LT(deviation, .05 * std::abs(free));
 }
 
-// Ties with tie_stiffness 0 have no effect while the field stays above least_at_ties.
+// Ties with tie_stiffness 0 have no effect as long as the field is above least_at_ties.
 TEST(ObstacleSolver, LeavesTiesUpwards) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   Problem tied(even(4), {.02F, 0, -10}, -far, far, ties), free(even(4), {.02F}, -far, far);

@@ -8,12 +8,13 @@
 
 namespace relievo {
 
-// A number of 2048 bits in two's complement, enough for products of four numbers that scaled() accepts.
+// A number of 2048 bits in two's complement. It is wide enough for products of four numbers that scaled()
+// accepts.
 class BigInteger {
  public:
   BigInteger() = default;
 
-  // Returns x * 2^252, exactly if x is 0 or its magnitude is at least 1e-60 and below 1e70.
+  // Returns x * 2^252. The result is exact if x is 0 or its magnitude is at least 1e-60 and below 1e70.
   static BigInteger scaled(double x) {
     int exponent = 0;
     const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));

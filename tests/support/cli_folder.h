@@ -34,8 +34,8 @@ inline void write_all(const fs::path& path, std::span<const std::byte> bytes) {
   write_all(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-// Returns what follows `label` and spaces at the beginning of a line; an empty string if there is no such
-// line.
+// Returns the rest of the line that begins with `label`, without leading spaces; an empty text if there is no
+// such line.
 inline std::string line_of(const std::string& listing, const std::string& label) {
   const std::size_t at = ("\n" + listing).find("\n" + label + " ");
   if (at == std::string::npos) return {};
@@ -61,7 +61,7 @@ class CliFolder : public testing::Test {
     fs::remove_all(folder_);
   }
 
-  // Runs `relievo ARGUMENTS` in the test's folder. `before` is put before the program's name in the command.
+  // Runs `relievo ARGUMENTS` in the test's folder. `before` precedes the program's name in the command.
   Outcome run(const std::string& arguments, const std::string& before = "") const {
     const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
     const std::string command = "cd '" + folder_.string() + "' && " + before + " '" RELIEVO_CLI "' " +

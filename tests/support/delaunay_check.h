@@ -1,9 +1,9 @@
-// Checks a Delaunay triangulation with a few exact tests of each triangle. They are sufficient:
+// Checks a Delaunay triangulation with a few exact tests of each triangle. These tests are sufficient:
 // 1. Each triangle is linked with its neighbours across equal edges, and the edges without a neighbour are
-//    those of the hull. So the linked triangles form a surface that the hull bounds.
+//    those of the hull. So the linked triangles form a surface that is bounded by the hull.
 // 2. All triangles are counter-clockwise, so each point of the plane is covered as often as the hull winds
-//    around it. The hull turns left only, once around. So it winds once around each point inside, and around
-//    no other point: the triangles cover the hull without gaps or overlaps.
+//    around it. The hull turns only left, and only once around. So it winds once around each point inside,
+//    and around no other point: the triangles cover the hull without gaps or overlaps.
 // 3. Across each edge, the far corner of the neighbour is not inside the triangle's circle. Then no point is
 //    inside the circle of any triangle (B. Delaunay, "Sur la sphere vide", 1934).
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace relievo {
 
-// Returns a fault of the links across the triangles' edges; an empty string if there is none.
+// Returns a fault in the links across the triangles' edges; an empty text if there is none.
 inline std::string fault_of_edges(std::span<const Vec2> points, const Triangulation& it) {
   std::map<Index, Index> hull_next;
   for (std::size_t k = 0; k < it.hull.size(); ++k) hull_next[it.hull[k]] = it.hull[(k + 1) % it.hull.size()];
@@ -49,7 +49,7 @@ inline std::string fault_of_edges(std::span<const Vec2> points, const Triangulat
   return on_border.size() == it.hull.size() ? "" : "hull";
 }
 
-// Returns whether a closed polygon turns left only and goes around once. The direction of its sides then
+// Returns whether a closed polygon turns only left, and only once around. The direction of its edges then
 // changes from downwards to upwards only once.
 inline bool goes_round_once(std::span<const Vec2> points, const std::vector<Index>& hull) {
   const auto corner = [&](std::size_t k) -> const Vec2& { return points[hull[k % hull.size()]]; };
@@ -65,7 +65,7 @@ inline bool goes_round_once(std::span<const Vec2> points, const std::vector<Inde
   return turns == 1;
 }
 
-// Returns a fault of a triangulation, which may contain any numbers; an empty string if there is none.
+// Returns a fault of a triangulation, whose numbers may be arbitrary; an empty text if there is none.
 inline std::string delaunay_fault(std::span<const Vec2> points, const Triangulation& it) {
   if (!std::ranges::all_of(points, is_exact_point)) return "coordinates";
   if (it.triangles.empty() || it.neighbours.size() != it.triangles.size()) return "sizes";

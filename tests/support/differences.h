@@ -23,7 +23,8 @@ double difference(const Vector& a, const Vector& b) {
   return static_cast<double>((a - b).norm());
 }
 
-// Returns the largest difference of elements at the same index; infinity if the sequences' sizes differ.
+// Returns the largest difference between elements with the same index; infinity if the sequences have
+// different sizes.
 template <typename A, typename B>
 double largest_difference(const A& a, const B& b) {
   if (std::size(a) != std::size(b)) return std::numeric_limits<double>::infinity();
@@ -35,7 +36,7 @@ double largest_difference(const A& a, const B& b) {
   return largest;
 }
 
-// Returns the root of the mean square of the differences.
+// Returns the root mean square of the differences.
 template <typename A, typename B>
 double root_mean_square(const A& a, const B& b) {
   if (std::size(a) != std::size(b)) return std::numeric_limits<double>::infinity();

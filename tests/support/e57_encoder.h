@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// A column of a scan: its element in the prototype, and its numbers, of which `bits` bits each are stored.
+// A column of a scan: its element in the prototype, and its numbers. `bits` bits of each number are stored.
 struct E57Column {
   std::string name, attributes;
   unsigned bits = 64;
@@ -51,8 +51,8 @@ inline std::string packed_bits(const E57Column& column) {
   return bytes;
 }
 
-// Returns the packets of a section, each with at most `most` bytes of every column. Readers skip the first
-// two packets: an index packet and an empty one.
+// Returns the packets of a section. Each has at most `most` bytes of every column. The first two packets,
+// which readers must skip, are an index packet and an empty packet.
 inline std::string e57_packets(const std::vector<E57Column>& columns, std::size_t most) {
   std::string all =
       std::string("\x00\x00\x0F\x00", 4) + std::string(12, '\0') + std::string("\x02\x00\x03\x00", 4);
@@ -80,7 +80,7 @@ inline std::uint32_t bitwise_crc32c(std::string_view bytes) {
   return ~crc;
 }
 
-// Cuts the contents into pages of 1,024 bytes with their checksums, and writes the new length to the header.
+// Divides the contents into pages of 1,024 bytes with checksums, and writes the new length to the header.
 inline std::string e57_pages(std::string contents) {
   contents.resize((contents.size() + 1019) / 1020 * 1020, ' ');
   contents = patched(contents, 16, static_cast<std::uint64_t>(contents.size() / 1020 * 1024));
@@ -96,7 +96,7 @@ inline std::uint64_t e57_physical(std::uint64_t logical) {
   return logical / 1020 * 1024 + logical % 1020;
 }
 
-// Returns the contents of all pages: header, one section per scan, XML.
+// Returns the contents of all pages: the header, one section per scan, and the XML.
 inline std::string e57_contents(const std::vector<E57TestScan>& scans, std::size_t most_in_packet = 7) {
   std::string contents(48, '\0'), xml;
   for (const E57TestScan& scan : scans) {
@@ -125,7 +125,7 @@ inline std::string e57(const std::vector<E57TestScan>& scans, std::size_t most_i
   return e57_pages(e57_contents(scans, most_in_packet));
 }
 
-// Returns a file of three points in cartesian coordinates with colours; the second point is invalid.
+// Returns a file of three coloured points in cartesian coordinates. The second point is invalid.
 inline std::string e57_sample() {
   return e57({{{e57_doubles("cartesianX", {1, 4, 7}), e57_integers("cartesianY", -2, 9, {2, 5, 8}),
                 e57_doubles("cartesianZ", {3, 6, 9}), e57_integers("cartesianInvalidState", 0, 2, {0, 1, 0}),

@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Returns the number's bytes, little-endian as on all machines that run these tests.
+// Returns the bytes of a number; little-endian, as on all machines that run these tests.
 template <typename T>
 std::string raw(T value) {
   std::string bytes(sizeof value, '\0');
@@ -19,7 +19,7 @@ std::string raw(T value) {
   return bytes;
 }
 
-// Returns `text` with the number's bytes in place of the bytes at `at`.
+// Returns `text` with the bytes at `at` replaced by those of a number.
 template <typename T>
 std::string patched(std::string text, std::size_t at, T value) {
   for (const char byte : raw(value)) text.at(at++) = byte;
@@ -66,7 +66,7 @@ inline std::string padded(std::string text, char by) {
   return text;
 }
 
-// Returns the tetrahedron's positions as float32, then its indices as uint16.
+// Returns the tetrahedron's positions as float32, followed by its indices as uint16.
 inline std::string gltf_buffer() {
   std::string buffer;
   for (const Vec3& p : tetrahedron_points)
@@ -76,8 +76,8 @@ inline std::string gltf_buffer() {
   return buffer;
 }
 
-// Returns the JSON of a glTF file with gltf_buffer(). `uri` is empty, or the member "uri" of the buffer,
-// followed by a comma.
+// Returns the JSON of a glTF file with gltf_buffer(). `uri` is empty, or it is the member "uri" of the buffer
+// and a comma.
 inline std::string gltf_json(const std::string& uri = "") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
          R"("nodes":[{"translation":[10,0,0],"children":[1]},{"mesh":0,"scale":[2,2,2]}],)"
@@ -89,7 +89,7 @@ inline std::string gltf_json(const std::string& uri = "") {
          uri + R"("byteLength":72}]})";
 }
 
-// Returns the sample's JSON without scenes, and with `nodes` in place of its nodes.
+// Returns the sample's JSON without scenes, and with `nodes` instead of its own nodes.
 inline std::string gltf_with_nodes(std::string_view nodes) {
   std::string json = gltf_json();
   const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
@@ -156,7 +156,7 @@ inline std::string binary_pcd() {
   return file;
 }
 
-// Compresses by LZF, with literal runs only.
+// Compresses by LZF, using only literal runs.
 inline std::string pack_lzf(const std::string& bytes) {
   std::string out;
   for (std::size_t at = 0; at < bytes.size(); at += 32) {
@@ -211,7 +211,7 @@ struct FileSample {
   std::string name, bytes;
 };
 
-// Returns one file or more of every format but PLY, which has its own encoder. A new format gets its row
+// Returns one or more files of every format except PLY, which has its own encoder. A new format needs a row
 // here.
 inline std::vector<FileSample> format_samples() {
   return {{"scan.obj", "# hand\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2//2 -1//-1\n"},

@@ -1,4 +1,4 @@
-// Writes JPEG files of squares of 8 x 8 pixels with one colour each, independently of any library, so that all
+// Writes JPEG files that consist of squares of 8 x 8 pixels with one colour each. It uses no library, and all
 // pixels are known without a transform.
 #pragma once
 
@@ -9,12 +9,12 @@
 namespace relievo {
 
 struct JpegSquares {
-  int columns = 1, rows = 1;  // of squares
-  int channels = 1;           // grey; 3: luminance, blue and red differences
+  int columns = 1, rows = 1;  // numbers of squares
+  int channels = 1;           // 1: grey; 3: luminance, blue and red differences
   std::vector<std::vector<int>>
-      squares;  // the channels of each, from -128 to 127; grey is the level minus 128
+      squares;  // channels of each square, from -128 to 127; grey is the level minus 128
   bool is_progressive = false;
-  std::string segments = {};  // behind the first two bytes
+  std::string segments = {};  // inserted after the first two bytes
 };
 
 namespace jpeg {
@@ -27,7 +27,7 @@ inline std::string segment(unsigned char marker, const std::string& data) {
   return std::string{'\xFF', static_cast<char>(marker)} + big_endian_16(data.size() + 2) + data;
 }
 
-// Collects bits, the highest first, and puts 0 behind each byte 255.
+// Collects bits, the highest first, and inserts a 0 after each byte 255.
 class Bits {
  public:
   void put(unsigned value, int count) {
@@ -51,7 +51,8 @@ class Bits {
   int size_ = 0;
 };
 
-// Codes of 4 bits for the numbers of bits from 0 to 9, and a code of 1 bit for the end of a square.
+// Returns tables with 4-bit codes for the numbers of bits from 0 to 9, and a 1-bit code for the end of a
+// square.
 inline std::string tables() {
   const std::string eights(64, '\x08');  // a mean of 1 is a coefficient of 8
   std::string dc("\0\0\0\0\x0A", 5), ac("\x10\1", 2);
@@ -61,7 +62,7 @@ inline std::string tables() {
   return segment(0xDB, '\0' + eights) + segment(0xC4, dc) + segment(0xC4, ac);
 }
 
-// Writes the difference to the last square as the number of its bits and these bits.
+// Writes the difference from the last square: first the number of its bits, then these bits.
 inline void put_difference(Bits& bits, int difference) {
   int count = 0;
   for (int left = difference < 0 ? -difference : difference; left > 0; left /= 2) ++count;

@@ -1,4 +1,4 @@
-// Solves equation (9) as our method has it by Eigen, independently of HeightSystem.
+// Solves equation (9), as our method uses it, with Eigen, independently of HeightSystem.
 #pragma once
 
 #include <Eigen/Sparse>
@@ -13,15 +13,16 @@
 
 namespace relievo::test {
 
-// The points and edges of (9), and the weights of the points; if these are empty, edges have no factors.
+// The points and edges of (9), and the weights of the points. If there are no weights, all points have weight
+// 1.
 struct EquationNine {
   std::vector<Vec2> points;
   const Triangulation& mesh;
   const Boundary& boundary;
   std::vector<float> weights = {};
 
-  // Returns the weight of each edge (p, q) with p < q: half the sum of the cotangents of the angles
-  // opposite to it, within 1e-4 and 1e3, times the mean of its ends' weights.
+  // Returns the weight of each edge (p, q) with p < q: half the sum of the cotangents of the opposite angles,
+  // clamped to 1e-4 to 1e3, times the mean of the weights of its ends.
   std::map<std::pair<Index, Index>, double> edges() const {
     std::map<std::pair<Index, Index>, double> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

@@ -9,8 +9,8 @@
 
 namespace relievo::test {
 
-// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter the surface is closed or
-// ends in a point. `u_count` and `v_count` are the numbers of mesh sides along the parameters.
+// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter, the surface is closed or
+// ends in a point. `u_count` and `v_count` are the numbers of edges along the parameters.
 inline Mesh parametric_mesh(const std::function<Vec3(double, double)>& at, int u_count, int v_count) {
   Mesh mesh;
   for (int v = 0; v <= v_count; ++v)
@@ -35,7 +35,8 @@ inline Mesh sphere_mesh(double radius, int sides) {
       sides, sides / 2);
 }
 
-// Returns a torus about the z axis; R is the distance to the middle of the tube, r the tube's radius.
+// Returns a torus about the z axis. R is the distance from the axis to the centre of the tube, and r the
+// radius of the tube.
 inline Mesh torus_mesh(double R, double r, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {
@@ -46,8 +47,8 @@ inline Mesh torus_mesh(double R, double r, int sides) {
       sides, sides / 2);
 }
 
-// Returns a button about the z axis: a flat face of radius `face` at height z + edge, and a quarter circle
-// around it down to height z.
+// Returns a button about the z axis: a flat face of radius `face` at height z + edge, and around it a quarter
+// circle down to height z.
 inline Mesh button_mesh(double face, double edge, double z, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {
@@ -58,7 +59,7 @@ inline Mesh button_mesh(double face, double edge, double z, int sides) {
       sides, sides / 2);
 }
 
-// Returns two meshes as one.
+// Returns both meshes as one mesh.
 inline Mesh joined(Mesh mesh, const Mesh& other) {
   const auto first = static_cast<Index>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
@@ -66,7 +67,7 @@ inline Mesh joined(Mesh mesh, const Mesh& other) {
   return mesh;
 }
 
-// Returns a flat gear in the plane z = 0. Its teeth reach from the radius `root` to the radius `tip`, and
+// Returns a flat gear in the plane z = 0. Its teeth extend from the radius `root` to the radius `tip`, and
 // their flanks are radial.
 inline Mesh gear_mesh(double root, double tip, int teeth) {
   Mesh mesh;

@@ -26,11 +26,11 @@ inline std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "nothing";
 }
 
-// The number of bits per difference, for each of the four codes that a group can have.
+// The number of bits per difference, for each of the four possible codes of a group.
 using Widths = std::array<int, 4>;
 inline constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// A group of 16 differences, packed in the width that takes the fewest bytes.
+// A group of 16 differences, packed with the width that takes the fewest bytes.
 struct Group {
   int code = -1;
   std::string bytes;
@@ -59,7 +59,7 @@ inline Group packed_group(const std::string& stored, const Widths& widths) {
   return best;
 }
 
-// Returns the differences of one byte of each element, packed in groups; the last group may be shorter.
+// Returns the differences of one byte of each element, packed in groups. The last group may be shorter.
 inline std::string packed_column(const std::string& differences, const Widths& widths) {
   const std::size_t groups = (differences.size() + 15) / 16;
   std::string codes((groups + 3) / 4, '\0'), bytes;
@@ -73,8 +73,8 @@ inline std::string packed_column(const std::string& differences, const Widths& w
   return codes + bytes;
 }
 
-// Returns, for the elements from `first` up to, not including, `end`, the difference of byte number `byte`
-// from that byte of the element before.
+// Returns the differences of byte number `byte` of each element from the same byte of the previous element,
+// for the elements from `first` up to but not including `end`.
 inline std::string differences_of(const std::string& elements, std::size_t stride, std::size_t byte,
                                   std::size_t first, std::size_t end) {
   std::string stored;

@@ -1,4 +1,4 @@
-// Makes random systems of equations whose unknowns are the points of a planar grid, for tests of the solver.
+// Makes random systems of equations for tests of the solver. The unknowns are the points of a planar grid.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -16,8 +16,8 @@ struct PlanarSystem {
   std::vector<Vec2> positions;
 };
 
-// Returns the Laplacian of a grid of unit squares, each cut by one of its diagonals. Points are moved at
-// random, and edges have random weights. At the points of the rim, 1 is added to the diagonal, which makes
+// Returns the Laplacian of a grid of unit squares, each divided by one of its diagonals. Points are displaced
+// at random, and edges have random weights. At the edge of the grid, 1 is added to the diagonal, which makes
 // the matrix definite.
 inline PlanarSystem jittered_grid(int width, int height, std::uint64_t seed = 7) {
   Random random(seed);

@@ -1,4 +1,4 @@
-// Makes fronts of plates whose shape is known in closed form, and measures their outlines.
+// Makes fronts of plates with shapes that are known in closed form, and measures their outlines.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,8 +14,8 @@
 
 namespace relievo::test {
 
-// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. grid_front()
-// gives its inner points the heights z(x, y), and its rim the height 0.
+// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each divided into two triangles.
+// grid_front() gives its inner points the heights z(x, y), and its edge the height 0.
 struct Grid {
   double width = 1, height = 1;
   int cells_x = 1, cells_y = 1;
@@ -52,8 +52,8 @@ inline HeightFieldMesh flat_front(const Grid& grid) {
   return grid_front(grid, [](double, double) { return 0.0; });
 }
 
-// Cuts a convex polygon, whose corners are counter-clockwise, into a fan of triangles at the height
-// `ground_mm`. pyramid_front() joins the sides to an apex over the centre instead.
+// Divides a convex polygon with counter-clockwise corners into a fan of triangles at the height `ground_mm`.
+// pyramid_front() connects the sides to an apex above the centre instead.
 inline HeightFieldMesh fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
   HeightFieldMesh front;
   front.ground_mm = ground_mm;
@@ -76,7 +76,7 @@ inline HeightFieldMesh pyramid_front(const std::vector<Vec2>& polygon, double he
   return front;
 }
 
-// Returns the Delaunay triangulation of points in the plane, with their heights.
+// Returns the Delaunay triangulation of points in the plane, with the points' heights.
 inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   std::vector<Vec2> plane;
   for (const Vec3& p : points) plane.push_back(p.head<2>());
@@ -84,13 +84,13 @@ inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   return {points, std::move(mesh.triangles), std::move(mesh.hull)};
 }
 
-// Returns a plate with that front; if there is none, the test ends.
+// Returns a plate with that front. If there is none, the test fails.
 inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   return value_of(make_plate(front, options));
 }
 
-// Returns the polygon of an ellipse with `n` corners. Rounding leaves all of them convex for the sizes that
-// tests use.
+// Returns an ellipse as a polygon with `n` corners. For the sizes that tests use, all corners are convex in
+// spite of rounding.
 inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
   std::vector<Vec2> polygon;
   for (int i = 0; i < n; ++i) {
@@ -100,9 +100,9 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
   return polygon;
 }
 
-// Returns the Delaunay triangulation of a square grid of points that is turned by an angle. Its heights are
-// z(x, y) inside and 0 on the sides. Rounding leaves the sides not quite straight, as in meshes that are
-// sampled on a grid.
+// Returns the Delaunay triangulation of a square grid of points that is rotated by an angle. Its heights are
+// z(x, y) inside and 0 on the sides. Because of rounding the sides are not exactly straight, as in meshes
+// that are sampled on a grid.
 inline HeightFieldMesh turned_grid_front(int cells, double angle,
                                          const std::function<double(double, double)>& z) {
   std::vector<Vec3> points;
@@ -124,7 +124,7 @@ inline double polygon_area(const std::vector<Vec2>& polygon) {
   return twice / 2;
 }
 
-// Returns the distance of a place inside a convex polygon to its nearest side; it is negative outside.
+// Returns the distance of a point inside a convex polygon from the nearest side; negative outside.
 inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
   double depth = 1e9;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -135,7 +135,7 @@ inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
   return depth;
 }
 
-// Returns whether a corner of the solid is nearer than `distance` to a place, seen from above.
+// Returns whether a corner of the solid is nearer than `distance` to a point, as seen from above.
 inline bool has_corner_at(const Solid& solid, const Vec2& place, double distance) {
   return std::ranges::any_of(solid.points,
                              [&](const Vec3& p) { return (p.head<2>() - place).norm() < distance; });

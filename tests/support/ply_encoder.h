@@ -18,7 +18,7 @@ struct PlyColumn {
   std::string length_type = {};  // type of a list's length; empty if the column is no list
 };
 
-// An element of a PLY file. Each row has one number per column. For a list, it has the length and then the
+// An element of a PLY file. Each row has one number per column; for a list, it has the length followed by the
 // values.
 struct PlyTable {
   std::string name;
@@ -31,7 +31,7 @@ inline const std::vector<PlyColumn> ply_xyz = {{"float", "x"}, {"float", "y"}, {
 inline PlyTable ply_vertices(const std::vector<std::vector<double>>& rows) {
   return {"vertex", ply_xyz, rows};
 }
-// Returns a table of faces; each row is the number of corners, then the corners.
+// Returns a table of faces. Each row is the number of corners, followed by the corners.
 inline PlyTable ply_faces(const std::vector<std::vector<double>>& rows) {
   return {"face", {{"int", "vertex_indices", "uchar"}}, rows};
 }
@@ -41,7 +41,7 @@ enum class PlyEncoding { ascii, little_endian, big_endian };
 inline constexpr std::array ply_encodings = {PlyEncoding::ascii, PlyEncoding::little_endian,
                                              PlyEncoding::big_endian};
 
-// Names the encoding in the names and messages of parameterised tests.
+// Prints the encoding in names and messages of parameterised tests.
 inline void PrintTo(PlyEncoding encoding, std::ostream* out) {
   constexpr std::array names{"Ascii", "LittleEndian", "BigEndian"};
   *out << names[static_cast<std::size_t>(encoding)];

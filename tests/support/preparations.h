@@ -17,7 +17,7 @@ inline Preparation preparation_of(std::size_t points = 5000) {
   }};
 }
 
-// A preparation that gives its points only after it has been cancelled.
+// A preparation that delivers its points only after it was cancelled.
 struct Stuck {
   std::binary_semaphore has_begun{0};
   std::atomic<bool> has_ended = false;
@@ -32,7 +32,7 @@ struct Stuck {
   }
 };
 
-// A preparation that pauses when its points have been measured.
+// A preparation that pauses after its points were measured.
 struct HeldAtPoints {
   const Session& session;
   std::binary_semaphore has_measured{0}, may_go_on{0};

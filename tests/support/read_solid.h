@@ -1,5 +1,4 @@
-// Reads solids from STL, PLY and OBJ files without the library, so that tests can check the files that it
-// writes.
+// Reads solids from STL, PLY and OBJ files without the library, to check the files that the library writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +28,7 @@ struct ReadSolid {
     return box;
   }
 
-  // Returns the enclosed volume, by the divergence theorem; positive if the triangles face outwards.
+  // Returns the enclosed volume by the divergence theorem. It is positive if the triangles face outwards.
   double volume() const {
     double sixfold = 0;
     for (const auto& [a, b, c] : triangles)
@@ -37,7 +36,7 @@ struct ReadSolid {
     return sixfold / 6;
   }
 
-  // Returns whether each edge occurs as often in one direction as in the other.
+  // Returns whether each edge occurs equally often in both directions.
   bool is_closed() const {
     using Corner = std::array<float, 3>;
     const auto corner = [](const Vec3f& p) { return Corner{p.x(), p.y(), p.z()}; };
@@ -53,7 +52,7 @@ struct ReadSolid {
   }
 };
 
-// Returns the solid in which corners with equal coordinates are one point.
+// Returns the solid after merging corners with equal coordinates into one point.
 inline Solid solid_of(const ReadSolid& read) {
   Solid solid;
   std::map<std::array<float, 3>, Index> numbers;
@@ -82,7 +81,7 @@ inline Vec3f point_at(std::string_view bytes, std::size_t at) {
   return {value_at<float>(bytes, at), value_at<float>(bytes, at + 4), value_at<float>(bytes, at + 8)};
 }
 
-// Reads a binary STL; expects that the file is as long as its number of triangles says.
+// Reads a binary STL. Expects that its length agrees with its number of triangles.
 inline ReadSolid solid_in_stl(std::string_view file) {
   ReadSolid solid;
   EXPECT_EQ(file.size(), 84 + std::size_t{50} * value_at<std::uint32_t>(file, 80));
@@ -114,7 +113,7 @@ inline ReadSolid solid_in_ply(std::string_view file) {
   return solid;
 }
 
-// Reads an OBJ with lines `v x y z` and `f a b c`, whose corners count from 1.
+// Reads an OBJ with lines `v x y z` and `f a b c`. Corners are numbered from 1.
 inline ReadSolid solid_in_obj(const std::string& file) {
   ReadSolid solid;
   std::vector<Vec3f> points;

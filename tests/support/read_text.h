@@ -14,8 +14,8 @@
 
 namespace relievo {
 
-// Reads from an allocation of exactly the text's size, so that the address sanitizer finds a read past its
-// end.
+// Reads from an allocation with exactly the size of the text, so that the address sanitizer detects any read
+// after its end.
 inline Result<CloudFile> read(std::string_view text, std::string_view name) {
   std::vector<std::byte> bytes(text.size());
   if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
@@ -34,7 +34,7 @@ struct BrokenText {
   std::string text, message;
 };
 
-// Expects that each text is refused with its message, which begins with the name.
+// Expects that each text is refused with its message, preceded by the name.
 inline void expect_messages(const std::string& name, const std::vector<BrokenText>& all) {
   for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, name), name + message);
 }
@@ -55,7 +55,7 @@ inline std::string replaced(std::string text, std::string_view what, std::string
   return text;
 }
 
-// Returns the first promise of read_cloud() that the answer breaks, or an empty string.
+// Returns the first promise of read_cloud() that the answer breaks; an empty text if there is none.
 inline std::string check_answer(const Result<CloudFile>& answer, std::string_view name) {
   if (!answer) {
     const Error& error = answer.error();

@@ -1,4 +1,4 @@
-// Takes values out of results, and checks their errors.
+// Gets values from results, and checks their errors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace relievo {
 
-// Returns the value of a result. If there is none, the test ends with the error's message.
+// Returns the value of a result. If there is none, the test fails with the error's message.
 template <typename T>
 T value_of(Result<T> result, const std::source_location& place = std::source_location::current()) {
   if (!result)
@@ -39,8 +39,7 @@ struct Cancelled : Progress {
   Cancelled() { cancel(); }
 };
 
-// Both functions expect an error whose message contains `part`. The second function also expects the given
-// kind of error.
+// Expect an error whose message contains `part`. The second function also expects the kind of the error.
 template <typename T>
 void expect_error(const Result<T>& result, std::string_view part) {
   const std::string message = message_of(result);

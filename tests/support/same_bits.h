@@ -8,7 +8,7 @@
 
 namespace relievo::test {
 
-// Expects that make() returns the same with one thread, with two and with four.
+// Expects that make() returns the same with one, two and four threads.
 template <typename F>
 void expect_same_for_any_threads(F&& make) {
   set_thread_count(1);

@@ -1,5 +1,5 @@
-// Draws the triangles of a file without the library, to check the library's pictures: which pixels are
-// covered, and how directly the lamp shines on the surface there.
+// Draws the triangles of a file without the library, to check the library's pictures. Returns which pixels
+// are covered, and the angle between surface and lamp there.
 #pragma once
 
 #include <algorithm>
@@ -12,24 +12,24 @@
 
 namespace relievo::test {
 
-// Parallel rays along the viewer's direction. In the coordinates of the file, the rows of `turn` are the
-// picture's axes: to the right, upwards and towards the viewer. `middle` is the place in the middle of the
-// picture.
+// Parallel rays along the viewing direction. The rows of `turn` are the axes of the picture in the
+// coordinates of the file: to the right, upwards and towards the viewer. `middle` is the point at the centre
+// of the picture.
 struct RayCamera {
   Mat3 turn = Mat3::Identity();
   Vec3 middle = Vec3::Zero();
   double pixels_per_mm = 1;
   int width = 1, height = 1;
 
-  // Returns the position of p in pixels, with y downwards, and how near p is to the viewer.
+  // Returns the position of p in pixels, with y downwards. The third coordinate increases towards the viewer.
   Vec3 pixel(const Vec3f& p) const {
     const Vec3 q = pixels_per_mm * (turn * (p.cast<double>() - middle));
     return {width / 2. + q.x(), height / 2. - q.y(), q.z()};
   }
 };
 
-// Returns the axes after a turn about the upright axis, which brings the right side nearer, and a turn about
-// the level axis, which brings the lower side nearer.
+// Returns the axes after a rotation about the vertical axis, which brings the right side nearer, and a
+// rotation about the horizontal axis, which brings the lower side nearer.
 inline Mat3 axes_after(double yaw_deg, double pitch_deg) {
   const double a = yaw_deg * std::numbers::pi / 180, b = pitch_deg * std::numbers::pi / 180;
   Mat3 yaw, pitch;
@@ -38,15 +38,16 @@ inline Mat3 axes_after(double yaw_deg, double pitch_deg) {
   return pitch * yaw;
 }
 
-// A triangle in the picture's pixels.
+// A triangle in pixels of the picture.
 struct RayTriangle {
-  Vec3 a, u, v;  // a corner, and the edges to the others
+  Vec3 a, u, v;  // a corner, and the edges to the other corners
 
   double area() const { return u.x() * v.y() - u.y() * v.x(); }
   Vec2 lowest() const { return a.head<2>() + u.cwiseMin(v).cwiseMin(0).head<2>(); }
   Vec2 highest() const { return a.head<2>() + u.cwiseMax(v).cwiseMax(0).head<2>(); }
 
-  // Returns how near the triangle is to the viewer at a place; minus infinity beside the triangle.
+  // Returns the third coordinate of pixel() on the triangle at a position; minus infinity outside the
+  // triangle.
   double depth_at(double x, double y) const {
     const double px = x - a.x(), py = y - a.y();
     const double s = (px * v.y() - py * v.x()) / area(), t = (u.x() * py - u.y() * px) / area();
@@ -55,9 +56,8 @@ struct RayTriangle {
   }
 };
 
-// Returns, for the centre of each pixel, the cosine of the angle between the lamp's direction and the
-// surface's normal there, at least 0; NaN where there is no surface. All triangles are tried, and the nearest
-// one counts.
+// Returns the cosine of the angle between the lamp's direction and the surface normal at the centre of each
+// pixel, but at least 0; NaN where there is no surface. Tests all triangles and takes the nearest.
 inline Image<double> lamp_cosines(const ReadSolid& solid, const RayCamera& camera, const Vec3& to_lamp) {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   Image<double> nearest = filled_image(camera.width, camera.height, -nowhere), cosines = nearest;

@@ -1,4 +1,4 @@
-// Finds the pairs of triangles in which a solid cuts or touches itself. The arithmetic is exact for the
+// Finds pairs of triangles where a solid intersects or touches itself. The arithmetic is exact for the
 // single-precision coordinates that files store.
 #pragma once
 
@@ -42,14 +42,15 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 }
 
 inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
-  // With a point above the plane of projection, the determinant of three dimensions is that of two.
+  // With a point above the plane of projection, the three-dimensional determinant equals the two-dimensional
+  // one.
   Vec3 p = a, q = b, r = c, above = a;
   p[drop] = q[drop] = r[drop] = 0;
   above[drop] = 1;
   return orient3d(p, q, r, above);
 }
 
-// Returns whether the interiors of two triangles in one plane have a place in common.
+// Returns whether the interiors of two coplanar triangles have a point in common.
 inline bool overlap_in_plane(const Corners& s, const Corners& t) {
   int drop = 0;
   while (orient2d(s[0], s[1], s[2], drop) == 0) ++drop;
@@ -66,7 +67,7 @@ inline bool overlap_in_plane(const Corners& s, const Corners& t) {
   return !is_apart(s, t) && !is_apart(t, s);
 }
 
-// Returns whether the segment pq meets the triangle or its boundary, but does not lie in its plane.
+// Returns whether the segment pq meets the triangle or its boundary, and does not lie in its plane.
 inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   if (orient3d(t[0], t[1], t[2], p) == orient3d(t[0], t[1], t[2], q)) return false;
   int least = 1, most = -1;
@@ -77,8 +78,8 @@ inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   return least >= 0 || most <= 0;
 }
 
-// Returns whether an edge of s meets t. Edges that end in a common corner do not count: if they cross t, the
-// edge opposite the corner, in s or in t, meets the other triangle, too.
+// Returns whether an edge of s meets t. Edges that end in a common corner do not count: if such an edge
+// crosses t, the edge opposite the corner, in s or in t, meets the other triangle, too.
 inline bool edge_meets(const Corners& s, const Corners& t) {
   const auto is_common = [&](const Vec3& p) { return std::ranges::find(t, p) != t.end(); };
   for (std::size_t i = 0; i < 3; ++i) {
@@ -94,14 +95,14 @@ inline bool is_flat(const Corners& t) {
   return true;
 }
 
-// Returns whether two triangles with areas share more than common corners or a common edge.
+// Returns whether two triangles with positive areas share more than corners or an edge.
 inline bool intersect(const Corners& s, const Corners& t) {
   if (std::ranges::all_of(t, [&](const Vec3& p) { return orient3d(s[0], s[1], s[2], p) == 0; }))
     return overlap_in_plane(s, t);
   return edge_meets(s, t) || edge_meets(t, s);
 }
 
-// A triangle with its box.
+// A triangle with its bounding box.
 struct BoundedTriangle {
   Corners corners;
   Vec3 min, max;
@@ -112,8 +113,8 @@ struct BoundedTriangle {
   }
 };
 
-// A binary tree of boxes over triangles. Each box is halved along its longest side, so the triangles are
-// reordered.
+// A binary tree of bounding boxes over triangles. Each box is divided along its longest side, which reorders
+// the triangles.
 class BoxTree {
  public:
   explicit BoxTree(std::span<BoundedTriangle> triangles) : triangles_(triangles) {
@@ -121,14 +122,15 @@ class BoxTree {
     if (!triangles.empty()) build(0, triangles.size());
   }
 
-  // Calls f(j) for each triangle j > i whose box overlaps that of triangle i.
+  // Calls f(j) for each triangle j > i whose bounding box overlaps that of triangle i.
   template <typename F>
   void for_overlapping(std::size_t i, F&& f) const {
     visit(0, triangles_.size(), i, f);
   }
 
  private:
-  // The box of a range of two or more triangles is stored at begin + end, a sum that no other such range has.
+  // The box of a range of two or more triangles is stored at begin + end. No other such range has the same
+  // sum.
   static std::size_t slot(std::size_t begin, std::size_t end) { return begin + end; }
 
   void build(std::size_t begin, std::size_t end) {
@@ -163,13 +165,15 @@ class BoxTree {
   std::vector<Box> boxes_;
 };
 
-// Returns the faults of a solid as files store it, or an empty string: the number of triangles without an
-// area, and of pairs of triangles that share more than a corner or an edge, with one pair as an example.
+// Returns the faults of a solid as stored in a file; an empty text if there are none. These are the number of
+// triangles without area, and the number of pairs of triangles that share more than a corner or an edge, with
+// one pair as an example.
 inline std::string self_intersections(const Solid& solid) {
   std::vector<BoundedTriangle> triangles;
   std::size_t flat = 0, pairs = 0;
   std::string example;
-  // The floats are stored first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
+  // The floats are first stored in an array, because g++ 12 drops the rounding of double(float(x)) when it
+  // vectorises.
   std::vector<Vec3f> stored;
   for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
   for (std::size_t i = 0; i < solid.triangles.size(); ++i) {

@@ -1,5 +1,4 @@
-// Scatters points at random over shapes that have closed forms, with numbers that are the same on all
-// machines.
+// Scatters points at random over shapes with closed forms. The random numbers are the same on all machines.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -29,7 +28,7 @@ inline void add(Cloud& cloud, const Vec3& point, const Vec3& normal) {
   cloud.normals.push_back(normal.normalized().cast<float>());
 }
 
-// Returns points distributed uniformly on the sphere of that radius.
+// Returns uniformly distributed points on a sphere of that radius.
 inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
   Random random(seed);
   Cloud cloud;
@@ -42,7 +41,7 @@ inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
   return cloud;
 }
 
-// Returns points distributed uniformly on the lateral surface of a cylinder about the y axis.
+// Returns uniformly distributed points on the lateral surface of a cylinder about the y axis.
 inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t seed = 2) {
   Random random(seed);
   Cloud cloud;
@@ -54,8 +53,8 @@ inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t
   return cloud;
 }
 
-// Returns points distributed uniformly on a torus about the z axis; R is the distance to the tube's middle, r
-// its radius.
+// Returns uniformly distributed points on a torus about the z axis. R is the distance from the axis to the
+// centre of the tube, and r the radius of the tube.
 inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   Random random(seed);
   Cloud cloud;
@@ -69,8 +68,8 @@ inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   return cloud;
 }
 
-// Returns points of z = f(x, y), uniformly distributed in x and y over a square of side 2 * half. The normals
-// follow from `gradient`, which returns (df/dx, df/dy).
+// Returns points of z = f(x, y). They are uniformly distributed in x and y over a square of side 2 * half.
+// The normals follow from `gradient`, which returns (df/dx, df/dy).
 template <typename F, typename G>
 Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t seed = 4) {
   Random random(seed);
@@ -138,9 +137,9 @@ inline Cloud joined(Cloud a, const Cloud& b) {
   return a;
 }
 
-// Returns a square that is tilted by 25 degrees about the y axis, before a level sheet. Seen from the
-// front it is 2 * flap_half_width wide. The relief's slopes do not contain the depth between both, so the
-// middle of the flap comes to the height of the sheet, and its lower half would be below it.
+// Returns a square that is tilted by 25 degrees about the y axis, in front of a level sheet. Seen from the
+// front it is 2 * flap_half_width wide. The relief's slopes do not contain the depth between flap and sheet,
+// so the centre of the flap gets the height of the sheet, and its lower half would be below the sheet.
 inline constexpr double flap_half_width = .5;
 inline Cloud flap_before_a_sheet(std::size_t points = 8000, double distance = 1) {
   const double half = flap_half_width / std::cos(25 * std::numbers::pi / 180);
@@ -148,7 +147,7 @@ inline Cloud flap_before_a_sheet(std::size_t points = 8000, double distance = 1)
   return joined(sheet(4 * points, 1.5, 0), flap);
 }
 
-// Returns points distributed uniformly on a cube from -1 to 1.
+// Returns uniformly distributed points on a cube from -1 to 1.
 inline Cloud cube(std::size_t n, std::uint64_t seed = 5) {
   Random random(seed);
   Cloud cloud;
@@ -161,7 +160,7 @@ inline Cloud cube(std::size_t n, std::uint64_t seed = 5) {
   return cloud;
 }
 
-// Moves every point along its normal and turns every normal, by Gaussian noise.
+// Displaces every point along its normal and tilts every normal, by Gaussian noise.
 inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t seed = 6) {
   Random random(seed);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -172,7 +171,7 @@ inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t
   return cloud;
 }
 
-// Returns points distributed uniformly on a button: a flat disc of that radius that faces +z, and around it a
+// Returns uniformly distributed points on a button: a flat disc of that radius that faces +z, and around it a
 // quarter of a torus of tube radius `edge`. The lowest points are at `z`.
 inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std::uint64_t seed = 12) {
   Random random(seed);
@@ -195,7 +194,7 @@ inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std
   return cloud;
 }
 
-// Returns the distance of a place from the ellipse with those half axes along x and y.
+// Returns the distance of a point from the ellipse with the half axes a along x and b along y.
 inline double distance_from_ellipse(const Vec2& place, double a, double b) {
   double t = std::atan2(place.y() / b, place.x() / a);
   for (int step = 0; step < 20; ++step) {  // Newton's method for the foot of the perpendicular

@@ -1,5 +1,5 @@
-// Finds scans that are not part of the project, because their licences forbid it. A test that needs a missing
-// scan is skipped and says so.
+// Finds scans that are not part of the project, because their licences do not allow it. If a scan is missing,
+// the test that needs it is skipped and says so.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace relievo::test {
 
-// Returns the folder of scans: the environment variable RELIEVO_SHARED_DATA or, if it is not set, the CMake
-// variable of that name.
+// Returns the folder of scans: the environment variable RELIEVO_SHARED_DATA or, if that is not set, the CMake
+// variable with the same name.
 inline std::filesystem::path shared_data() {
   if (const char* folder = std::getenv("RELIEVO_SHARED_DATA")) return folder;
   return RELIEVO_SHARED_DATA;

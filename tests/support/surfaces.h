@@ -1,4 +1,4 @@
-// Makes surfaces and models of reliefs from clouds. The test ends if this fails.
+// Makes surfaces and relief models from clouds. If that is impossible, the test fails.
 #pragma once
 
 #include "relievo/relief/relief.h"
@@ -16,8 +16,8 @@ inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
   return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, {mode}));
 }
 
-// Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, and an inner hole.
-// Bumps and ring have `n` points each.
+// Returns bumps behind a ring that hides parts of them. There are curvature of both signs, a depth jump, and
+// an inner hole. Bumps and ring have `n` points each.
 inline Cloud bumps_behind_a_ring(std::size_t n = 30000) {
   const Cloud bumps = height_field(
       n, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },

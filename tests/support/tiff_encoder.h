@@ -16,7 +16,7 @@ struct TiffField {
   std::uint32_t count, value;
 };
 
-// The tags of a test picture. The tests give other values to some of them.
+// The tags of a test picture. Tests change some of them.
 struct TiffTags {
   std::uint32_t bits = 16, kind = 1, channels = 1, colours = 1;
   std::string no_data = {};
@@ -54,7 +54,7 @@ inline std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
   return file + raw(std::uint32_t{0}) + text + pixels;
 }
 
-// Returns the bytes of all pixels; number(i) returns the value of pixel i.
+// Returns the bytes of all pixels. number(i) returns the value of pixel i.
 template <typename MakeNumber>
 std::string pixels_of(MakeNumber&& number) {
   std::string pixels;

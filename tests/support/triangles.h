@@ -1,4 +1,4 @@
-// Computes areas of triangles in the plane and heights over them, by trying all triangles.
+// Computes areas of triangles in the plane, and heights over them, by testing all triangles.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace relievo::test {
 
-// Returns twice the signed area of a triangle in the plane; its corners have two coordinates or three.
+// Returns twice the signed area of a triangle in the plane. Its corners may have two or three coordinates.
 template <typename Point>
 double twice_area(const Point& a, const Point& b, const Point& c) {
   return cross(Vec2((b - a).template head<2>()), Vec2((c - a).template head<2>()));
@@ -41,7 +41,7 @@ void expect_counter_clockwise(const std::vector<Point>& points, std::span<const 
     EXPECT_GT(twice_area(points[a], points[b], points[c]), 0) << a << ' ' << b << ' ' << c;
 }
 
-// Returns the height of the first triangle over a place; NaN where there is none.
+// Returns the height of the first triangle above or below a point; NaN where there is none.
 inline double height_at(const std::vector<Vec3>& points, std::span<const Triangle> triangles,
                         const Vec2& place) {
   for (const auto& [a, b, c] : triangles) {

@@ -1,14 +1,16 @@
-// Measures, in Chromium at 1280 x 800, the milliseconds from an event of the mouse to the picture that shows it, and
-// from the choice of a file to the first relief and to the relief of all points.
+// Measures two durations in Chromium at 1280 x 800: from an event of the mouse to the picture that shows its effect,
+// and from the choice of a file to the first relief and to the relief of all points, in milliseconds.
 //   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
-// With relievo.html, the page in one file, measures the engine inside it. A movement is a drag of 4 seconds with 60
-// events a second, which waits for no picture. Events that arrive while a picture is made are shown by the next one.
+// With relievo.html, the page in one file, the engine inside that file is measured. Each movement is a drag of 4
+// seconds with 60 events a second, sent without waiting for pictures. If several events arrive while one picture is
+// made, the next picture shows all of them.
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {EngineProcess, areKindsDrawn, findBrowser, openPanels, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
-// The names are the present and the former ones of a slider. A drag covers these shares of a slider or of the picture.
+// The patterns match the current and the former labels of a slider. `from` and `to` are fractions of the slider or of
+// the picture.
 const MOVEMENTS = {
   height: {slider: /^Height$/, from: 0.45, to: 0.6},
   detail: {slider: /^(Fine d|D)etail$/, from: 0.1, to: 0.5},
@@ -53,7 +55,7 @@ async function newPage() {
   return (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
 }
 
-// Prints the median of five openings, each by a newly started engine.
+// Opens the scan five times, each time in a new engine, and prints the median durations.
 async function measureOpening(scan) {
   const first = [], exact = [];
   for (let i = 0; i < 5; ++i) {
@@ -73,7 +75,7 @@ async function measureOpening(scan) {
     row([path.basename(scan, path.extname(scan)), name, times.sort((a, b) => a - b)[2].toFixed(0), "", "", ""]);
 }
 
-// These two functions open a scan, and return a function that ends its engine.
+// openInPage() and openInProgram() open a scan, and return a function that ends its engine.
 async function openInPage(page, scan) {
   await page.goto(pathToFileURL(html).href);
   await page.locator("#file").setInputFiles(scan);
@@ -92,7 +94,7 @@ async function drag(page, {slider, tool, from, to}) {
   await target.scrollIntoViewIfNeeded();
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   const box = await target.boundingBox();
-  const grip = tool ? from : await target.evaluate((range) => range.value / range.max); // place of the thumb
+  const grip = tool ? from : await target.evaluate((range) => range.value / range.max); // position of the thumb
   const place = (share) => [box.x + box.width * share, box.y + box.height / 2];
   await page.mouse.move(...place(grip));
   await page.mouse.down();
@@ -101,7 +103,7 @@ async function drag(page, {slider, tool, from, to}) {
   for (let i = 0; i < SECONDS * EVENTS_PER_SECOND; ++i) {
     const wait = begin + 1000 * i / EVENTS_PER_SECOND - performance.now();
     if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
-    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // forth and back in 2 s
+    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // there and back in 2 s
     await page.mouse.move(...place(share));
   }
   const heard = await page.evaluate(() => window.heard);
@@ -109,20 +111,21 @@ async function drag(page, {slider, tool, from, to}) {
   return heard;
 }
 
-// Runs in the page: records the times of events and of pictures, and for each picture the time of the newest event that
-// it shows.
+// Runs in the page. Records the times of events and of pictures, and for each picture the time of the newest event
+// whose effect it shows.
 function listen(type) {
   const heard = window.heard = {events: [], pictures: [], pixels: 0};
   addEventListener(type, (event) => heard.events.push(event.timeStamp), {capture: true});
   document.querySelector("#stage").addEventListener("picture", ({detail: {about, ms}}) => {
     const shows = performance.now() - ms;
     heard.pixels = about.width * about.height;
-    // The next frame begins when the frame with this picture is on its way to the screen.
+    // The browser calls the function just before it draws this picture; the timer then runs when the picture is on its
+    // way to the screen.
     requestAnimationFrame(() => setTimeout(() => heard.pictures.push({shows, at: performance.now()})));
   });
 }
 
-// Returns the times from each event to the first picture that shows it, sorted.
+// Returns for each event the time to the first picture that shows its effect, sorted.
 function latencies(events, pictures) {
   const times = events.map((event) => pictures.find(({shows}) => shows >= event)?.at - event);
   return times.filter(Number.isFinite).sort((a, b) => a - b);

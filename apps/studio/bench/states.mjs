@@ -1,4 +1,4 @@
-// Takes a picture of each state of the studio's page on a desk and a phone, light and dark, to be looked at:
+// Takes a picture of each state of the studio's page, for people to inspect, on a desk and a phone, light and dark:
 // node apps/studio/bench/states.mjs FOLDER
 import path from "node:path";
 import {STATES, showScene} from "../tests/states.mjs";

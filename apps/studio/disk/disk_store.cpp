@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* documents = "documents";  // folder names
+constexpr const char* documents = "documents";  // names of folders
 constexpr const char* scans = "scans";
 constexpr unsigned private_file = 0600;
 
-// Returns the error for a file that cannot be kept; `reason` is the value of errno.
+// Returns the error for a file that cannot be stored. `reason` is the value of errno.
 std::unexpected<Error> not_kept(int reason) {
   const bool is_full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
   return std::unexpected(Error{
@@ -36,7 +36,7 @@ std::unexpected<Error> not_kept(int reason) {
               : cat("expected a folder of the studio that can be written to: ", std::strerror(reason))});
 }
 
-// A dropped scan in a temporary file.
+// A dropped scan that is stored in a temporary file.
 struct ScanFile final : DroppedScan {
   ScanFile(const std::string& folder, const std::string& scan)
       : name(plain_name(scan)), file((fs::path(folder) / "upload").string(), private_file) {}
@@ -72,12 +72,12 @@ Result<void> check_id(const std::string& id) {
   return std::unexpected(Error{ErrorKind::input, "document", {}, "expected the name of a document"});
 }
 
-// Makes a folder that only its user may read.
+// Makes a folder that only the user who runs the studio may read.
 bool make_folder(const fs::path& path) {
   return ::mkdir(path.c_str(), 0700) == 0 || errno == EEXIST;
 }
 
-// Returns the entries of a folder; none for a link to a folder.
+// Returns the entries of a folder; none if the path is a link to a folder.
 std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
   std::error_code failed;
   std::vector<fs::directory_entry> entries;
@@ -87,7 +87,8 @@ std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
   return entries;
 }
 
-// Removes the unfinished files that a killed studio has left in a folder; none behind a link to a folder.
+// Removes the unfinished files that a killed studio left in a folder. Does nothing if the path is a link to a
+// folder.
 void remove_left_files(const fs::path& folder) {
   std::error_code failed;
   if (fs::is_directory(fs::symlink_status(folder, failed))) remove_abandoned_files(folder.string());
@@ -104,8 +105,8 @@ std::string digits_of(const std::string& hash) {
   return hash.substr(hash.find(':') + 1);
 }
 
-// Returns the names of the folders of kept scans whose paths are in a text: in a document with all its steps,
-// or in a scene.
+// Returns the names of stored scans' folders that occur in the text of a document, with all its steps of
+// undo, or of a scene.
 std::set<std::string> scans_in(std::string_view text) {
   constexpr std::string_view before = "/scans/";
   constexpr std::size_t digits = 16;
@@ -119,7 +120,8 @@ std::set<std::string> scans_in(std::string_view text) {
 }  // namespace
 
 DiskStore::DiskStore(StateFolder folder)
-    // No file can exist below /dev/null, so that nothing is found and nothing is kept.
+    // If the folder is not ours: no file can exist below /dev/null, so nothing is found and nothing is
+    // stored.
     : folder_(folder.is_ours ? std::move(folder.path) : "/dev/null"),
       notice_(std::move(folder.notice)),
       lock_(std::move(folder.lock)) {
@@ -154,7 +156,7 @@ Result<void> DiskStore::keep_document(const std::string& id, std::string_view st
   RELIEVO_CHECK(check_id(id));
   RELIEVO_CHECK(
       write(cat(documents, "/", id, ".json"), state, is_moving ? Durability::program : Durability::machine));
-  touch(id);  // The kernel's own time of writing is the same for all files of some milliseconds.
+  touch(id);  // the kernel's own time is the same for all files that are written within a few milliseconds
   return {};
 }
 
@@ -224,7 +226,7 @@ StudioAddress DiskStore::address() const {
   return {json["port"].get<int>(), json["token"].get<std::string>()};
 }
 
-// Anybody with the address can use the studio, so only its user may read the file.
+// The file has mode 0600: anybody who knows the address could use the studio.
 void DiskStore::keep_address(const StudioAddress& address) const {
   (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(),
               Durability::machine);
@@ -235,7 +237,7 @@ std::unique_ptr<DroppedScan> DiskStore::begin_scan(const std::string& name) cons
 }
 
 Result<ScanSource> DiskStore::keep(DroppedScan& scan) {
-  auto& kept = static_cast<ScanFile&>(scan);  // begin_scan() made it
+  auto& kept = static_cast<ScanFile&>(scan);  // begin_scan() made it, so it has this type
   const std::string text = kept.hash.text();
   const fs::path folder = fs::path(folder_) / scans / digits_of(text), path = folder / kept.name;
   const bool is_kept = own_state_folder(folder_) && make_folder(folder.parent_path()) &&
@@ -252,7 +254,8 @@ std::optional<ScanSource> DiskStore::find_scan(const std::string& hash) const {
   return std::nullopt;
 }
 
-// Returns the folders of the kept scans that the texts name, and those that scenes among these scans name.
+// Returns the folders of the stored scans that the texts mention, and of those that scene files among these
+// scans mention.
 Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts) const {
   std::set<std::string> found;
   for (std::size_t i = 0; i < texts.size(); ++i)
@@ -266,8 +269,8 @@ Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts
   return found;
 }
 
-// Removes the candidates that no document needs; removes none if a document cannot be read. A file stays if
-// its hash is not the name of its folder, since the studio did not put it there.
+// Removes the candidates that no document needs. Removes none if a document cannot be read. Keeps a file
+// whose hash is not the name of its folder: the studio did not put that file there.
 void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
   if (candidates.empty()) return;
   std::vector<std::string> texts;
@@ -286,7 +289,7 @@ void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
       if (fs::is_regular_file(file.symlink_status(ignored)) &&
           digits_of(hash_of_file(file.path()).value_or("")) == scan)
         fs::remove(file.path(), ignored);
-    if (!fs::is_symlink(folder, ignored)) ::rmdir(folder.c_str());  // fails if other files are in it
+    if (!fs::is_symlink(folder, ignored)) ::rmdir(folder.c_str());  // fails if the folder has other files
   }
 }
 

@@ -1,4 +1,4 @@
-// Keeps documents and scans, and the studio's address, in files of one folder. Tested by
+// Stores documents, scans and the studio's address as files in one folder. Tested by
 // apps/studio/tests/documents.test.mjs.
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace relievo::app::studio {
 
-// The last address of the studio. It is used again, so that pages that are still open find the studio.
+// The address that the studio had last. The next studio uses it again, so that pages that are still open find
+// that studio.
 struct StudioAddress {
-  int port = 0;       // 0 if not known
-  std::string token;  // empty if not known
+  int port = 0;       // 0 if unknown
+  std::string token;  // empty if unknown
 };
 
-// The crashes that a file must survive: those of the program, or also those of the machine.
+// Which crashes a written file must survive: those of the program, or those of the machine, too.
 enum class Durability { program, machine };
 
-// Keeps files in one folder, and replaces each as a whole. Removes documents only on request, and only scans
-// that it has kept itself and that no document needs. Errors are worded for users, without paths. Not for
-// concurrent use.
+// Stores each file as a whole. Removes a document only on request. Removes a scan only if this store has kept
+// it and no document needs it. Errors are worded for users and contain no paths. Not for concurrent use.
 class DiskStore final : public Store {
  public:
   explicit DiskStore(StateFolder folder);
@@ -37,7 +37,7 @@ class DiskStore final : public Store {
   KeptAmount amount() const override;
   Result<void> remove(const std::string& id) override;
   std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const override;
-  // The scan stays for as long as this program runs, and then for as long as a document needs it.
+  // The scan stays until this program ends, and after that as long as a document needs it.
   Result<ScanSource> keep(DroppedScan& scan) override;
   std::optional<ScanSource> find_scan(const std::string& hash) const override;
 

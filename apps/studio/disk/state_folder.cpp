@@ -16,11 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_studios = 9;  // largest number of studios with folders side by side
+constexpr int most_studios = 9;  // most studios of a user that run at the same time, each with its own folder
 constexpr std::string_view mark_owner = "studio";
 constexpr unsigned private_folder = 0700;
 
-// Locks the folder until this program ends. If that fails, errno has the reason.
+// Locks the folder until this program ends. Returns a closed descriptor if that fails; errno then has the
+// reason.
 Descriptor lock_of(const std::string& folder) {
   const std::string path = folder + "/lock";
   Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
@@ -28,14 +29,14 @@ Descriptor lock_of(const std::string& folder) {
   return lock;
 }
 
-// Returns the path without a slash at its end, so that a suffix such as -2 can be appended.
+// Returns the absolute path without a slash at its end. A suffix such as -2 can be appended to it.
 std::string plain_path(const std::string& path) {
   std::error_code failed;
   const fs::path whole = fs::absolute(fs::path(path) / ".", failed).lexically_normal().parent_path();
   return failed ? path : whole.string();
 }
 
-// Returns the folder for the state of programs or, if the user has no home, a folder for temporary files.
+// Returns the standard folder for the state of programs. If the user has no home, returns a temporary folder.
 std::string default_state_folder() {
   const std::string state = environment_variable("XDG_STATE_HOME"), home = environment_variable("HOME");
   if (!state.empty()) return state + "/relievo";

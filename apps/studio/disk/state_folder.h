@@ -1,4 +1,5 @@
-// Chooses the folder in which a studio keeps its work, and reserves it. Tested by tests/cli/foreign_files.
+// Chooses the folder in which a studio stores documents and scans, and reserves it. Tested by
+// tests/cli/foreign_files.
 #pragma once
 
 #include <string>
@@ -9,19 +10,18 @@ namespace relievo::app::studio {
 
 struct StateFolder {
   std::string path;
-  std::string notice;    // message for the page's user, without a path; usually empty
-  std::string detail;    // sentence with the path, for the terminal only
-  bool is_ours = false;  // if false, nothing in the folder may be read or changed
-  Descriptor lock{-1};   // while this is open, no other studio can take the folder
+  std::string notice;    // message for the user of the page, without a path; usually empty
+  std::string detail;    // sentence with the path, only for the terminal
+  bool is_ours = false;  // false: the studio must not read or change anything in the folder
+  Descriptor lock{-1};   // while this file is open, no other studio can take the folder
 };
 
-// Returns whether a folder belongs to a studio, which marks it. Makes the folder with its mark if it is
-// missing.
+// Makes the folder and its mark if it is missing. Returns whether the folder has the mark of a studio.
 bool own_state_folder(const std::string& folder);
 
 // Reserves the folder `chosen` for this studio, or the default folder if `chosen` is empty. If another studio
-// uses the folder, tries the names with -2, -3 and so on. Never takes a folder with files of others: if it is
-// the default one, tries the next name. Errors: kind option if `chosen` has files of others.
+// uses it, tries the same name with -2, -3 and so on. Never takes a folder with files of other programs: if
+// the default folder has such files, tries the next name. Errors: kind option if `chosen` has such files.
 Result<StateFolder> take_state_folder(const std::string& chosen);
 
 }  // namespace relievo::app::studio

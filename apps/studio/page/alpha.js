@@ -1,4 +1,4 @@
-// Makes the row of the flatness, which is the paper's height coefficient alpha. If the height is not locked, alpha and
+// Shows the control for flatness, which is the paper's height coefficient alpha. If the height is not locked, alpha and
 // the saturation determine it.
 
 import {optionOf} from "./about.js";
@@ -25,7 +25,7 @@ export class AlphaRow {
     this.doc.change({isHeightLocked: false, u: uOfAlpha(alpha, this.doc.now.options.saturation)});
   }
 
-  // Shows the alpha of a frame. Without a saturation alpha has no effect.
+  // Shows the alpha of a frame. At saturation 0 and with a tone curve, alpha has no effect.
   show(frame) {
     this.frame = frame;
     this.input.disabled = frame.alpha === null;

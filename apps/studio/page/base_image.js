@@ -1,4 +1,4 @@
-// Makes the row of the base's height map, an image that the user chooses, or drops on the row.
+// Shows the control for the height map of a base. The user chooses an image or drops it on the control.
 
 import {$, make} from "./controls.js";
 import {engineOptions, isGone, markGone} from "./document.js";
@@ -8,11 +8,11 @@ const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
 const isImage = (base) => base === "image" || base.startsWith("image:");
 
-// Returns the other changes that come with a base: a base without an image loses its height map.
+// Returns the other options to change with a base: any base other than an image loses its height map.
 export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
 
 export class BaseImage {
-  // `say` shows a line to the user; `redraw` shows the document anew.
+  // `say` shows a line to the user. `redraw` updates the whole page.
   constructor({engine, doc, say, redraw}) {
     Object.assign(this, {engine, doc, say, redraw});
     this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
@@ -43,7 +43,8 @@ export class BaseImage {
     };
   }
 
-  // Takes an image, unless the engine cannot read it or another document is shown meanwhile.
+  // Uploads an image and uses it for the base, unless the engine cannot read it or the user has opened another document
+  // meanwhile.
   async take(file) {
     const {document} = this.engine;
     try {
@@ -51,7 +52,7 @@ export class BaseImage {
       const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
       await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
       if (document !== this.engine.document) return;
-      const wasGone = isGone(path); // the path depends on the content, so the same picture has the same path
+      const wasGone = isGone(path); // the path depends on the content: the same image has the same path as before
       markGone(path, false);
       this.doc.change({options: part});
       if (wasGone) this.redraw();
@@ -60,8 +61,8 @@ export class BaseImage {
     }
   }
 
-  // Returns whether a picture failed because the image is missing. Tells the user, and returns false for the image from
-  // then on.
+  // Returns whether a picture failed because the height map is missing. In that case informs the user, and returns
+  // false for later errors about the same height map.
   isMissing({kind, input}) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     if (kind !== "input" || !path || isGone(path) || input !== path) return false;
@@ -71,7 +72,7 @@ export class BaseImage {
     return true;
   }
 
-  // Shows the document's image.
+  // Shows the name of the document's height map.
   show() {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     this.choose.textContent = isGone(path) ? `${name} is gone` : name || "Choose …";

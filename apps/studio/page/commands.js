@@ -6,7 +6,7 @@ import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 
 const TOOL_KEYS = {l: "light", r: "turn", o: "orbit", h: "pan", p: "place", s: "section", m: "measure", x: "crop"};
 
-// Takes the parts of the page. `own` has functions of the page: isThere(), which returns whether there is a relief,
+// Connects the parts of the page. `own` has functions of the page: isThere(), which returns whether there is a relief,
 // save(), which saves a project, openFiles(files), showStart(isShown), chooseUnit(unit) and failed(error).
 export function takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, ...own}) {
   const help = $("#help-dialog"), showHelp = () => help.showModal(), choose = () => $("#file").click();

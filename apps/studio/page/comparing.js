@@ -1,27 +1,27 @@
-// Compares the relief with the model: a picture of the model lies over that of the relief, in the same size and place.
-// The engine fits each picture to its plate. The model's plate is the figure with its margin, so the two pictures need
-// different zooms.
+// Compares the relief with the model: draws a picture of the model over that of the relief, with the same size and
+// position of the figure. The engine fits each picture to its own plate. The model's plate is the figure with its
+// margin, so the two pictures need different zooms.
 
 import {$, clamp, make} from "./controls.js";
 import {isRound} from "./measure.js";
 
-const NEAR = 12; // pixels from the divider within which the pointer takes it
-const ALIKE = 1e-3; // scales with a ratio this near to 1 differ by less than a pixel
-const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // the range of the engine
+const NEAR = 12; // the pointer grabs the divider within this distance, in pixels
+const ALIKE = 1e-3; // zooms whose ratio differs less from 1 differ by less than a pixel
+const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // the engine's limits of the zoom
 
 export class Comparing {
   constructor(stage) {
     this.stage = stage;
     this.canvas = $("#before");
     this.split = 0.5;
-    this.ratio = 1; // the model's zoom divided by the relief's
+    this.ratio = 1; // zoom of the model divided by the zoom of the relief
   }
 
   get isShown() {
     return Boolean(this.isComparing || this.isHolding);
   }
 
-  // Shows the model beside the relief (isComparing) or in its place (isHolding).
+  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding).
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;
@@ -39,13 +39,13 @@ export class Comparing {
     stage.drawOverlay();
   }
 
-  // Returns whether the divider is under a pixel.
+  // Returns whether the divider is near that x coordinate, in pixels.
   isAt(x) {
     const isShown = this.isComparing && !this.isHolding;
     return isShown && Math.abs(x - this.split * this.stage.size.width) < NEAR;
   }
 
-  // Moves the divider to a pixel.
+  // Moves the divider to that x coordinate.
   drag = (x) => this.setSplit(clamp(x / this.stage.size.width, 0, 1));
 
   marks({width, height}) {
@@ -54,8 +54,9 @@ export class Comparing {
       ? [make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height})] : [];
   }
 
-  // Returns the request for the model's picture. Its camera looks at the middle of the figure, which may be anywhere on
-  // the plate. If the figure is mirrored, camera and light are mirrored, and paint() mirrors the picture.
+  // Returns the request for the picture of the model. The camera looks at the centre of the figure, which need not be
+  // the centre of the plate. If the figure is mirrored, camera and light are mirrored for the request, and paint()
+  // mirrors the picture.
   request(isFine) {
     const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true});
     const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
@@ -68,7 +69,7 @@ export class Comparing {
     return this.stage.on.placing.isMirrored;
   }
 
-  // Draws the model in the size and place of the relief, unless this picture is already drawn.
+  // Draws the model at the size and position of the relief, unless the same picture is already drawn.
   async draw(isFine) {
     const request = this.request(isFine), {stage} = this, {zoom} = request.camera, {options, ...rest} = request;
     const {margin, thickness, form} = options, {width_mm: width} = stage.about;
@@ -97,8 +98,8 @@ export class Comparing {
     this.layOnPlate(context, image.width / this.stage.size.width);
   }
 
-  // In pictures from the front, replaces the model's own rectangular plate by the plate of the piece, if that is round
-  // or has a size of its own. `scale` is the number of the picture's pixels per pixel of the page.
+  // In the front view, replaces the model's own rectangular plate by the plate of the piece, if the plate of the piece
+  // is round or has a given size. `scale` is the number of the picture's pixels per pixel of the page.
   layOnPlate(context, scale) {
     const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
     const {outline, plate, wrap, margin} = stage.doc.now.options, isEllipse = isRound(outline);
@@ -106,7 +107,7 @@ export class Comparing {
     const at = (x, y) => stage.toPixels([x, y]).map((pixel) => pixel * scale);
     const [[left, bottom], [right, top]] = figure, [red, green, blue, opacity] =
       context.getImageData(...at(left, bottom).map(Math.round), 1, 1).data;
-    if (opacity < 255) return; // beyond the picture
+    if (opacity < 255) return; // that corner of the plate is outside the picture
     const fill = (how, draw, from, to) => {
       context.globalCompositeOperation = how;
       context.beginPath();

@@ -1,4 +1,4 @@
-// Small helpers: make elements, change their state, and delay work.
+// Helpers that make elements, change their state, and delay calls.
 
 export const $ = (selector, root = document) => root.querySelector(selector);
 
@@ -15,38 +15,38 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
-// Returns a row with a label and its control.
+// Returns a row that has a label and its control.
 export const pair = (label, control, attributes = {}) =>
   make("label", {class: "pair", ...attributes}, make("span", {}, label), control);
 
-// Returns a text field. It calls take(text) with the typed text. After Escape it calls show(), which must restore the
-// former text.
+// Returns a text field. It calls take(text) with the text that the user typed. After Escape it calls show(), which must
+// restore the former text.
 export function textField(attributes, {take, show}) {
   const input = make("input", {autocomplete: "off", ...attributes});
   input.onchange = () => take(input.value.trim());
   input.onkeydown = ({key}) => {
-    if (key === "Escape") show(); // a result of false would cancel the key's own effect
+    if (key === "Escape") show(); // if the handler returned false, that would cancel the default effect of the key
   };
   return input;
 }
 
-// Returns a text without line breaks, such as a size.
+// Returns an element whose text, such as a size, is not broken into lines.
 export const unbroken = (text) => make("span", {class: "unbroken"}, text);
 
-// Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
+// Checks or unchecks a radio button. The Tab key can only reach the checked button of a group.
 export function check(radio, isChecked) {
   radio.setAttribute("aria-checked", isChecked);
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
-// Returns the font size relative to that on screens of the usual size. Drawings with texts grow by this factor.
+// Returns the font size divided by its size on most screens. Drawings with texts grow by this factor.
 export const scaleOfType = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.5;
 
 export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
 export const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
-// The direction of each arrow key, to the right and up.
+// Unit vector of each arrow key: x to the right, y up.
 export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 export function paint(canvas, image) {
@@ -55,7 +55,7 @@ export function paint(canvas, image) {
   canvas.getContext("2d").putImageData(image, 0, 0);
 }
 
-// Calls act() after a pause. Each call of begin() meanwhile restarts the pause.
+// Calls act() after a pause. If begin() is called during the pause, the pause starts again.
 export class Pause {
   constructor(act, ms) {
     Object.assign(this, {act, ms, timer: 0});
@@ -79,7 +79,8 @@ export class Pause {
   }
 }
 
-// Returns a function that runs the asynchronous `act`, which must not throw. Calls during a run make it run once more.
+// Returns a function that calls the asynchronous `act`, which must not throw. If it is called while `act` runs, it
+// calls `act` once more afterwards.
 export function oneAtATime(act) {
   let isWanted = false, running = null;
   const run = async () => {
@@ -105,7 +106,7 @@ export function fileSize(bytes) {
   return `${bytes >= 100 || unit === 0 ? bytes.toFixed(0) : bytes.toFixed(1)} ${units[unit]}`;
 }
 
-// Lets a file be saved through the browser.
+// Lets the user save a file through the browser.
 export function download(blob, name) {
   const link = make("a", {href: URL.createObjectURL(blob), download: name});
   document.body.append(link);

@@ -1,18 +1,18 @@
-// Crops the scan on its picture: shows the whole scan in the view, and a frame that the user draws, moves and resizes.
-// The relief leaves out everything outside the frame.
+// Crops the scan: shows a picture of the whole scan with a frame that the user draws, moves and resizes. The relief
+// leaves out everything outside the frame.
 
 import {$, clamp, make, paint} from "./controls.js";
 import {directionsOf} from "./directions.js";
 import {WHOLE, cropText, numbersOf} from "./scan_panel.js";
 
 const LEAST = 0.05; // least width and height of the frame, as a share of the scan's box
-const NEAR = 14; // pixels from a side within which the pointer takes it
-const KEY_STEP = 0.01; // share of the scan's box
+const NEAR = 14; // the pointer grabs a side within this distance, in pixels
+const KEY_STEP = 0.01; // a fraction of the scan's box
 
-// Returns the box of the pixels that are not transparent, in pixels of the page. `scale` is the number of the picture's
-// pixels per pixel of the page.
+// Returns the bounding box of the pixels that are not transparent, in pixels of the page. `scale` is the number of the
+// picture's pixels per pixel of the page.
 function boxOf({data, width, height}, scale) {
-  const colours = new Uint32Array(data.buffer, data.byteOffset, width * height); // 0 where nothing is shown
+  const colours = new Uint32Array(data.buffer, data.byteOffset, width * height); // 0 for transparent pixels
   let left = width, right = 0, top = height, bottom = 0;
   for (let y = 0, i = 0; y < height; ++y)
     for (let x = 0; x < width; ++x, ++i) {
@@ -26,8 +26,8 @@ function boxOf({data, width, height}, scale) {
     height: (bottom - top) / scale};
 }
 
-// Returns the numbers of a crop after a side was moved to `share` of the box. The sides are 0 left, 1 bottom, 2 right
-// and 3 top.
+// Returns the crop after one side was moved to the fraction `share` of the box. Sides are numbered: 0 left, 1 bottom, 2
+// right, 3 top.
 function withSide(numbers, side, share) {
   const other = numbers[(side + 2) % 4], moved = [...numbers];
   moved[side] = side < 2 ? clamp(share, 0, other - LEAST) : clamp(share, other + LEAST, 1);
@@ -57,7 +57,7 @@ export class CropFrame {
     if (isShown) this.refresh();
   }
 
-  // Returns the document's crop or, during a drag, the present crop of the drag.
+  // Returns the document's crop; during a drag, the crop as dragged so far.
   get numbers() {
     return this.drag?.numbers ?? numbersOf(this.doc.now.options.crop);
   }
@@ -67,9 +67,9 @@ export class CropFrame {
     this.draw();
   }
 
-  // Draws the frame, and the scan if its view or the size of the page has changed.
+  // Draws the frame. Also draws the scan if its view or the size of the page has changed.
   async refresh() {
-    if (this.element.hidden) return; // comes first, as reading sizes would make the browser lay out the page
+    if (this.element.hidden) return; // must come first: reading sizes makes the browser compute the layout
     const {clientWidth: width, clientHeight: height} = this.element, directions = directionsOf(this.doc.now.options);
     if (!width || !directions) return;
     const key = JSON.stringify([directions, width, height, this.doc.now.input]);
@@ -89,7 +89,7 @@ export class CropFrame {
     this.draw();
   }
 
-  // Returns the frame in pixels.
+  // Returns the sides of the frame in pixels.
   get frame() {
     const [x0, y0, x1, y1] = this.numbers, {left, top, width, height} = this.box;
     return {left: left + x0 * width, right: left + x1 * width, top: top + (1 - y1) * height,
@@ -115,7 +115,7 @@ export class CropFrame {
   listen() {
     const {element} = this;
     const place = (act) => (event) => {
-      event.stopPropagation(); // the relief below must not get it
+      event.stopPropagation(); // the stage below the frame must not handle it
       if (event.target.closest("button")) return;
       const {left, top} = element.getBoundingClientRect();
       act(event.clientX - left, event.clientY - top, event);
@@ -131,7 +131,7 @@ export class CropFrame {
     new ResizeObserver(() => this.refresh()).observe(element);
   }
 
-  // Returns the sides of the frame that are under a pixel.
+  // Returns the sides of the frame that are near a pixel.
   sidesAt(x, y) {
     const {left, right, top, bottom} = this.frame, isBeside = (at, low, high) => at > low - NEAR && at < high + NEAR;
     const across = [[0, left], [2, right]].filter(([, at]) => Math.abs(x - at) < NEAR && isBeside(y, top, bottom));
@@ -145,15 +145,15 @@ export class CropFrame {
     return x > left && x < right && y > top && y < bottom && cropText([...this.numbers.slice(0, 4), 0, 1]) !== "";
   }
 
-  // Returns the position of a pixel as shares of the width and the height of the scan's box, from the lower left
-  // corner.
+  // Returns the position of a pixel as fractions of the width and the height of the scan's box, counted from its lower
+  // left corner.
   shares(x, y) {
     const {left, top, width, height} = this.box;
     return [clamp((x - left) / width, 0, 1), clamp(1 - (y - top) / height, 0, 1)];
   }
 
-  // Begins a drag. From a side or a corner, it moves this side or corner. From the inside it moves the frame, and from
-  // anywhere else it draws another one.
+  // Begins a drag. A drag that begins at a side or a corner moves that side or corner; inside the frame it moves the
+  // frame; elsewhere it draws a new frame.
   press(x, y, event) {
     if (!this.box || event.button !== 0 || !event.isPrimary || this.drag) return;
     this.element.setPointerCapture(event.pointerId);
@@ -172,13 +172,13 @@ export class CropFrame {
     this.draw();
   }
 
-  // Returns the crop between two places, with unchanged depths.
+  // Returns the crop whose opposite corners are a and b. Its depths stay unchanged.
   drawn(a, b) {
     const low = [0, 1].map((k) => Math.min(a[k], b[k], 1 - LEAST)), depths = this.drag.from.slice(4);
     return [...low, ...low.map((x, k) => Math.max(a[k], b[k], x + LEAST)), ...depths];
   }
 
-  // Sets the cursor, which shows whether a drag would move, resize or draw the frame.
+  // Sets a cursor that shows whether a drag would move, resize or draw the frame.
   hover(x, y) {
     if (!this.box) return;
     const sides = this.sidesAt(x, y).sort(), isRising = ["0,1", "2,3"].includes(String(sides));
@@ -193,7 +193,7 @@ export class CropFrame {
     if (numbers) this.choose(numbers);
   }
 
-  // Takes a running drag back. Returns whether there was one.
+  // Cancels the running drag. Returns whether there was one.
   giveUp() {
     const ran = Boolean(this.drag);
     this.drag = null;
@@ -201,6 +201,6 @@ export class CropFrame {
     return ran;
   }
 
-  // Moves the frame by keys.
+  // Moves the frame by arrow keys.
   step = (x, y) => this.choose(movedBy(this.numbers, x * KEY_STEP, y * KEY_STEP));
 }

@@ -1,13 +1,13 @@
-// Edits the tone curve: the share of a slope that is kept, over the square root of the curvature. The engine samples
-// the curve or, if there is none, the paper's formula, and sends the samples with each picture.
+// Edits the tone curve: the fraction of a slope that is kept, over the square root of the curvature. The engine samples
+// the curve, or the paper's formula if there is no curve, and sends the samples with each picture.
 
 import {about} from "./about.js";
 import {$, ARROWS, Pause, clamp, make} from "./controls.js";
 import {REST_MS} from "./slider.js";
 
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
-const AROUND = 9; // units around the diagram, so that handles at its ends are not cut off
-const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // places of handles while the formula applies
+const AROUND = 9; // margin of the diagram in its units, so that handles at its ends are not cut off
+const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // positions of the handles on the paper's formula
 
 const PRESETS = [
   {name: "As Edge emphasis says", tone: ""},
@@ -22,7 +22,7 @@ const round = (x) => Math.round(x * 1000) / 1000;
 export const format = (points) => points.map(([x, y]) => `${round(x)},${round(y)}`).join(";");
 
 export class CurveEditor {
-  // Calls onChange(tone) while a point moves, and then onEnd(). onChange() returns the tone to show.
+  // Calls onChange(tone) while the user moves a point, and then onEnd(). onChange() returns the tone curve to show.
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
     this.rest = new Pause(onEnd, REST_MS);
@@ -41,8 +41,8 @@ export class CurveEditor {
     this.preset.onchange = () => this.change(this.preset.value, true);
   }
 
-  // Returns the points of the curve. Without a curve, returns some points of the paper's formula, which the user can
-  // move.
+  // Returns the points of the curve. If there is no curve, returns points on the paper's formula; these become a curve
+  // when the user moves one of them.
   get points() {
     if (this.tone) return parse(this.tone);
     const {share} = this.samples;
@@ -54,11 +54,11 @@ export class CurveEditor {
     if (isOver) this.onEnd();
   }
 
-  // Draws the diagram; `part` has the changed members of {tone, samples, histogram}.
+  // Draws the diagram. `part` has the changed members of {tone, samples, histogram}.
   show(part = {}) {
     Object.assign(this, part);
     const key = JSON.stringify([this.tone, this.samples, this.histogram]);
-    if (key === this.drawnKey) return; // this runs for every picture
+    if (key === this.drawnKey) return; // this method runs for every picture
     this.drawnKey = key;
     const isPreset = PRESETS.some(({tone}) => tone === this.tone);
     this.preset.value = isPreset ? this.tone : "own";
@@ -131,7 +131,7 @@ export class CurveEditor {
     if (!isFree || points.length >= about.curve.most_points) return;
     const added = [clamp(x, 0, 1), clamp(y, 0, 1)], all = [...points, added].sort(([a], [b]) => a - b);
     this.change(format(all), true);
-    this.handles.children[all.indexOf(added)].focus(); // for the keys that move or delete it
+    this.handles.children[all.indexOf(added)].focus(); // keys can then move or delete the new point
   }
 
   key(event, i) {

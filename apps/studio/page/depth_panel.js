@@ -1,9 +1,9 @@
-// The panel of a depth picture: it shows which pixels are left out and why, and has the options of reading it.
+// Shows the panel of a depth image: which of its pixels were left out and why, and the options for reading it.
 
 import {$, count, make, paint} from "./controls.js";
 import {hasScale} from "./document.js";
 
-const LEAST_OFFERED = 0.02; // share of the pixels from which blur is also offered beside the picture
+const LEAST_OFFERED = 0.02; // fraction of the pixels from which blur is also offered beside the picture
 
 const WORDS = {missing: "No value", background: "Background", blur: "Blur at edges"};
 const VALUES = {depth: "depths", height: "heights", inverse: "inverse depths", luminance: "brightness"};
@@ -12,8 +12,8 @@ const percent = (share) => `${share > 0 && share < 0.1 ? "less than 0.1" : Numbe
 
 const share = (pixels, all) => `${count(pixels)} (${percent(100 * pixels / all)})`;
 
-// Returns a remark without the flags of the command line. The one on the pixels gets the option that keeps what was
-// removed most, and a shorter text to show beside the picture.
+// Returns a remark without the flags of the command line. To the remark on pixels that were taken out, adds the option
+// that keeps most of them, and a shorter text to show beside the picture.
 export function noteOn(note, {pixels: all, uses}) {
   const text = note.text.replace(/ \(--[^)]*\)/g, "");
   if (!/ taken out/.test(text)) return {...note, text};
@@ -24,12 +24,12 @@ export function noteOn(note, {pixels: all, uses}) {
 }
 
 export class DepthPanel {
-  // `rows` has the elements of rows by the names of their options.
+  // `rows` maps names of options to the elements of their controls.
   constructor({engine, doc, rows}) {
     Object.assign(this, {engine, doc, rows, told: 0});
   }
 
-  // Shows what became of the pixels. `depth` is null if the scan is no single depth picture.
+  // Shows how the pixels were used. `depth` is null if the scan is not a single depth image.
   async tell(depth) {
     const told = ++this.told;
     this.depth = depth;
@@ -51,7 +51,7 @@ export class DepthPanel {
     if (told === this.told) paint(canvas, image);
   }
 
-  // Shows the rows of the options that mean something.
+  // Shows only the options that have an effect.
   show() {
     const {is_surface: isSurface, is_scaled: isScaled} = this.depth ?? {}, {options} = this.doc.now;
     for (const name of ["background", "blur"]) this.rows[name].hidden = !isSurface;
@@ -59,7 +59,7 @@ export class DepthPanel {
     this.rows.ground.hidden = !isScaled || !hasScale(this.doc.now);
   }
 
-  // Returns the entry of a use, with the button that puts its pixels back.
+  // Returns the list item of one use of pixels, with a button that keeps these pixels.
   entry({use, colour, pixels}, all) {
     const dot = make("span", {class: "dot", "aria-hidden": "true"});
     dot.style.background = colour;

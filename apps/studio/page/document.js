@@ -1,34 +1,34 @@
-// Keeps the document: the steps of the user's work, each with the options of the relief, for undo and redo. It is plain
-// data, so that it can be stored and saved.
+// Keeps the document: a list of steps for undo and redo, each with all options of the relief. The document is plain
+// data, so it can be stored and saved as JSON.
 
 import {about, defaultOf, namesOf, optionOf} from "./about.js";
 
-// Returns the value of an option in a new document: the studio's own default, or else the engine's.
+// Returns the value of an option in a new document: the studio's own default, or the engine's if there is none.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
 
 export const FIRST = Object.freeze({
   input: null,
-  // A document has u instead of alpha, which depends on the height.
+  // A document stores u instead of alpha, see uOfAlpha().
   options: Object.freeze({...Object.fromEntries(about.options.filter(({name}) => name !== "alpha")
     .map((option) => [option.name, firstOf(option)])), "base-image": ""}),
   isHeightLocked: true,
-  u: null, // parameter of the compression, while the height is not locked
-  isDieOfPiece: false, // whether the die was made of another piece; it then keeps the kind of that piece
+  u: null, // parameter of the compression; null while the height is locked
+  isDieOfPiece: false, // whether the die was made from a piece of another kind, see kindOf()
   material: "plaster",
   light: [-1, 1, 1],
 });
 
-const MOST_STEPS = 200, MOST_U = 1e12; // the engine's limit of u
+const MOST_STEPS = 200, MOST_U = 1e12; // MOST_U: the engine's limit of u
 
 // Returns the parameter u of the compression for the paper's alpha and beta.
 export const uOfAlpha = (alpha, beta) => (alpha === 0 ? MOST_U : Math.min(alpha ** -beta, MOST_U));
 
 const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
-// Returns a step in which the values of `part` replace the former ones.
+// Returns a step that has the values of `part` in place of the former ones.
 const withPart = (step, part) => ({...step, ...part, options: {...step.options, ...part.options}});
 
-// Returns `part` without the values that were changed between the steps `base` and `later`.
+// Returns those values of `part` that did not change between the steps `base` and `later`.
 function unlessChanged({options = {}, ...part}, base, later) {
   const kept = (values, was, is) =>
     Object.fromEntries(Object.entries(values).filter(([name]) => isSame(was[name], is[name])));
@@ -40,8 +40,8 @@ export class Document {
     Object.assign(this, {onChange, onStrokeEnd});
     this.steps = [FIRST];
     this.at = 0;
-    this.forgotten = 0; // number of steps that were dropped before the first one in `steps`
-    this.changedAt = 0; // in milliseconds since 1970; decides which of two states is newer
+    this.forgotten = 0; // number of old steps that were dropped from the beginning of `steps`
+    this.changedAt = 0; // time of the last change in ms since 1970; of two states the later one counts
   }
 
   stamp() {
@@ -52,30 +52,30 @@ export class Document {
     return this.steps[this.at];
   }
 
-  // Begins a document, without a call of onChange().
+  // Begins a new document. Does not call onChange().
   begin(step) {
     this.steps = [step];
     this.at = 0;
-    this.changedAt = 0; // any kept state is newer
+    this.changedAt = 0; // makes any stored state newer
     this.stroke = null;
   }
 
-  // Changes the document. Changes of one stroke, such as a drag, are undone together.
+  // Changes the document. Changes with the same `stroke`, such as those of one drag, are undone together.
   change(part, stroke = null) {
     const before = this.now;
     if (this.append(part, stroke)) this.onChange(before);
   }
 
-  // Returns the number of steps before the present one, forgotten ones included.
+  // Returns the number of steps before the current one, dropped steps included.
   get position() {
     return this.forgotten + this.at;
   }
 
-  // Returns the step at a position. If that step is forgotten, returns the first one that is kept; if the position is
-  // after the present step, returns the present step.
+  // Returns the step at a position. If that step was dropped, returns the first remaining one; if the position is after
+  // the current step, returns the current step.
   stepAt = (position) => this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
 
-  // Inserts a change after the step at a position. Later changes follow it and keep their values.
+  // Inserts a change after the step at a position. Values that later steps have changed stay as they are.
   changeAt(position, part) {
     const at = Math.max(0, position - this.forgotten);
     if (at >= this.at) return this.change(part);
@@ -90,7 +90,7 @@ export class Document {
     this.onChange(before);
   }
 
-  // Does the same as change() without a call of onChange(). Returns whether anything has changed.
+  // Makes the same change as change(), but does not call onChange(). Returns whether anything has changed.
   append(part, stroke = null) {
     if (stroke !== null && stroke === this.cancelled) return false;
     const next = withPart(this.now, part);
@@ -109,32 +109,32 @@ export class Document {
     return true;
   }
 
-  // Puts values that were found by the engine into the present step, without adding a step.
+  // Writes values that the engine found into the current step. Adds no step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }
 
-  // Ends the running stroke. If `stroke` is given, ends only that one: a slider's pause may end after another drag
-  // began.
+  // Ends the running stroke. If `stroke` is given, ends only that stroke: the pause of a slider may end when the next
+  // drag has already begun.
   endStroke(stroke = null) {
     if (stroke !== null && stroke !== (this.stroke ?? this.cancelled)) return;
     this.stroke = this.cancelled = null;
     this.onStrokeEnd();
   }
 
-  // Takes back the changes of the running stroke, and ignores the rest of it. Returns whether a stroke was running.
+  // Undoes the changes of the running stroke, and ignores its further changes. Returns whether a stroke was running.
   cancelStroke() {
     if (this.stroke === null) return false;
     const before = this.now;
     this.cancelled = this.stroke;
     this.stroke = null;
-    Object.assign(this, this.beforeStroke); // restores the steps for redo, too
+    Object.assign(this, this.beforeStroke); // also restores the steps that redo needs
     this.stamp();
     this.onChange(before);
     return true;
   }
 
-  // Returns whether so many steps can be redone or, if the number is negative, undone.
+  // Returns whether that many steps can be redone or, if the number is negative, undone.
   can = (by) => this.steps[this.at + by] !== undefined;
 
   undo = () => this.move(-1);
@@ -151,7 +151,7 @@ export class Document {
   // Returns the document as plain data.
   keep = () => ({version: 1, changed: this.changedAt, steps: this.steps, at: this.at});
 
-  // Takes over a kept state. Returns whether the state is valid.
+  // Takes over a stored state. Returns whether the state is valid.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
     this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
@@ -162,17 +162,18 @@ export class Document {
   }
 }
 
-// A lithophane, which is printed, has none of these options. A document keeps them for its other kinds of work.
+// A lithophane is printed, so these options do not apply to it. The document keeps their values for other kinds of
+// work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
-// The options of the shape of heights, which one vertical scale does not have.
+// The options of the relief's shape that have no effect if mm-per-value is set.
 const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/.test(name));
 
-// Returns whether one vertical scale gives the height.
+// Returns whether the option mm-per-value determines the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
-// Returns the options for the engine and `relievo make`. Leaves out those with the value of a new document, unless the
-// engine wants them stated.
+// Returns the options for the engine and for `relievo make`. Leaves out options that have the value of a new document,
+// except those that the engine wants stated.
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
   for (const [name, value] of Object.entries(step.options)) {
@@ -180,7 +181,7 @@ export function engineOptions(step) {
     if (isThere && (optionOf(name)?.is_stated || value !== FIRST.options[name])) options[name] = value;
   }
   options.height = Math.round(options.height * 1e4) / 1e4;
-  if ("height-of-diagonal" in options) delete options.height; // until the first picture has it in mm
+  if ("height-of-diagonal" in options) delete options.height; // the first picture will convert it to mm
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
@@ -188,37 +189,37 @@ export function engineOptions(step) {
     for (const name of SHAPE) delete options[name];
     return {...options, method: "linear"};
   }
-  delete options["mm-per-value"], delete options.ground; // kept for forms that have a scale
-  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for the other method
+  delete options["mm-per-value"], delete options.ground; // kept in the document for forms with a scale
+  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept, too
   return options;
 }
 
-// The paths of base images that the engine failed to read for a picture.
+// The paths of height maps of bases that the engine could not read for a picture.
 const goneImages = new Set();
 export const isGone = (path) => goneImages.has(path);
 export const markGone = (path, isGone = true) => (isGone ? goneImages.add(path) : goneImages.delete(path));
 
-// Returns the options of pictures: if the base image is missing, the relief is shown on a plane.
+// Returns the options for pictures. If the base's height map is missing, the relief is shown on a plane.
 export function shownOptions(step) {
   const options = engineOptions(step);
   if (isGone(options["base-image"])) delete options.base, delete options["base-image"];
   return options;
 }
 
-// Returns a project file's content.
+// Returns the content of a project file.
 export function projectOf(step) {
   const {input, isHeightLocked, u, isDieOfPiece, material, light} = step;
   const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece})};
   return {relievo: 1, input, options: engineOptions(step), studio};
 }
 
-// Returns whether a light is valid. A project file may have an invalid one, and the engine would then refuse each
+// Returns whether a direction of light is valid. With an invalid one from a project file, the engine would refuse every
 // picture.
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
-// Returns the step that a project file describes, as the engine has read it. `usual` has the defaults of numbers that
-// the file does not state. Without a stated width, the plate may determine it.
+// Returns the step for the content of a project file, as the engine has read it. `usual` has the defaults of numbers
+// that the file does not state. If the file states no width, the size of the plate determines the width.
 export function stepOfProject({input, options: {alpha, ...own} = {}, usual = {}, studio = {}}) {
   const options = hasScale({options: own}) ? {...own, method: FIRST.options.method} : own;
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");

@@ -1,20 +1,20 @@
-// Calls the engine for the page. A transport takes the page's requests to the engine: transport.js sends them by HTTP
-// to the program `relievo studio`. In the page that is one file, apps/web/page/transport.js sends them to a worker.
+// Calls the engine for the page. The requests go through a transport: transport.js sends them by HTTP to the program
+// `relievo studio`; apps/web/page/transport.js, in the page that is one file, sends them to a worker.
 //
 // A transport has
-//   traits                         {takesSeveral: whether a scan and the files that it refers to are uploaded together;
-//                                  drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove: whether
-//                                  work is kept until it is removed; slowMs: frames that take longer are drawn with
-//                                  fewer pixels}. The Engine has the same traits
+//   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
+//                                  drawsMeanwhile: whether it draws pictures while a piece is made; canRemove: whether
+//                                  documents are stored until the user removes them; slowMs: if frames take longer,
+//                                  they get fewer pixels}. The Engine has the same traits
 //   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture;
-//                                  `about` has facts about the picture; the request may be left out
+//                                  `about` has facts about the picture; the request is optional
 //   addressOf(file)             -> the address of one of the page's pictures
-//   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and once with
-//                                  {run} alone when an engine is found; onLost when the engine is lost; say with a
-//                                  message for the user
+//   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
+//                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
+//                                  for the user
 // and throws EngineError with a text for the user.
 
-// `input` names the option or the file of the error; the text begins with that name.
+// `input` names the option or the file that caused the error. The text begins with that name.
 export class EngineError extends Error {
   constructor({kind, text, input = ""}) {
     super(text);
@@ -26,10 +26,10 @@ export const CANCELLED = 202; // the status of a cancelled request
 
 export const cancelled = () => new EngineError({kind: "cancelled", text: "Cancelled."});
 
-export const TAB = Math.random().toString(36).slice(2); // the name of this page among the open ones
+export const TAB = Math.random().toString(36).slice(2); // the name of this tab of the browser
 
 export class Engine {
-  document = ""; // the document that most requests refer to
+  document = ""; // the document of most requests
   #transport;
   #making = null;
 
@@ -59,61 +59,61 @@ export class Engine {
   follow = (...listeners) => this.#transport.follow(...listeners);
 
   // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (the
-  // input or project with which the program was started), notice (a message about the folder in which work is kept),
-  // most_upload (bytes), and in some engines limits (texts about them).
+  // input or project with which the program was started), notice (a message about the folder in which documents are
+  // stored), most_upload (in bytes), and in some engines limits (texts about limits for users).
   about = async () => (await this.#transport.call("about")).body;
 
-  // Returns {document, input, is_there, kept}: the document of a scan, and its state if it is kept.
+  // Returns {document, input, is_there, kept}: the document of a scan, and its stored state, or null.
   find = (input) => this.#ask("document", {input});
-  // Uploads files of the browser, and returns them as an input.
+  // Uploads files of the browser. Returns the input that consists of them.
   upload = async (files) => (await this.#ask("upload", {name: files[0].name}, {files})).input;
-  // Returns {input, is_there, options, usual, studio} of a project file.
+  // Returns {input, is_there, options, usual, studio}, the content of a project file.
   readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
 
-  // Prepares the scan of the shown document. `view` has the options for preparing a scan, see viewOf().
+  // Prepares the scan of the shown document. `view` has the options of the preparation, see viewOf().
   open = (input, view) => this.#ask("open", {input, tab: TAB, ...view});
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
 
-  // Returns facts about the model.
+  // Returns facts about the shown model.
   facts = () => this.#ask("facts");
-  // Returns {view, up} of each side, the best side first.
+  // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // These return {image: ImageData, about}. Aborting `options.signal` cancels the picture.
+  // Return {image: ImageData, about}. `options.signal` can cancel the picture.
   frame = (request, options) => this.#picture("frame", request, options);
   scan = (request) => this.#picture("scan", request);
-  // A depth image, in which the pixels that are left out have the colours that its facts state.
+  // Returns a depth image, in which the pixels that were left out have the colours that its facts state.
   pixels = () => this.#picture("pixels");
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
-  // Returns the largest height in mm that the options allow.
+  // Returns the largest height, in mm, that the options allow.
   reach = async (options) => (await this.#ask("reach", {options})).height_mm;
-  // Throws unless the options can be read.
+  // Throws if the options are invalid.
   check = (options) => this.#ask("check", {options});
 
-  // Returns {triangles, points, size_mm, height_mm, front_mm} of the finished piece, which the engine then has ready for
-  // exportFile().
+  // Returns {triangles, points, size_mm, height_mm, front_mm} of the finished piece. After that the engine has the
+  // piece ready for exportFile().
   piece = (options) => this.#make("piece", {options});
-  // These return a Blob: the file of a piece, and a project file with its scan.
+  // Return a Blob: the file of a piece, or a project file that contains the scan.
   exportFile = (request) => this.#make("export", request);
   packProject = (project) => this.#ask("save", {project});
 
-  // Cancels the work on the piece, and the request for the piece or its file.
+  // Cancels the making of the piece, and the request for the piece or for its file.
   cancelPiece() {
     this.#making?.abort();
     return this.#ask("cancel_piece");
   }
 
-  // Returns {document, input, is_there, picture} of the documents that were changed last, or of the next ones after the
+  // Returns {document, input, is_there, picture} of the most recently changed documents, or of those that follow the
   // document `after`.
   recent = async (after = "") => (await this.#ask("recent", {after})).recent;
-  // Returns {documents, bytes}: the number of kept documents, and the space that they take.
+  // Returns {documents, bytes}: the number of stored documents and the size of all that is stored.
   kept = () => this.#ask("kept");
   remove = (document) => this.#ask("remove", {document, tab: TAB});
   keep = (document, state, isMoving) => this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
   keepPicture = (document, picture) => this.#ask("picture", {document, picture});
-  // Reports that the user leaves the page. A failure is ignored.
+  // Reports that the user leaves the page. Ignores errors.
   leave = () => this.#ask("leave", {tab: TAB}).catch(() => {});
 }

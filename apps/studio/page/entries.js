@@ -1,25 +1,25 @@
-// Collects the entries that the user types or chooses for the piece. The document takes them in the order in which they
-// were made, each as a step of its own. If the engine may be unable to make a piece with an entry, the entry is tried
-// first.
+// Collects the values that the user enters for the piece. The document takes them in the order of their entry, each as
+// its own step. If the engine may be unable to make a piece with a value, the entry is tried first.
 
 import {$} from "./controls.js";
 import {engineOptions, shownOptions} from "./document.js";
 
 export class Entries {
-  // Calls changed() when an entry was added or removed, and refused(entry, error) when the engine refuses one.
+  // Calls changed() when an entry was added or removed, and refused(entry, error) when the engine refuses an entry.
   constructor({engine, doc, changed, refused}) {
     Object.assign(this, {engine, doc, changed, refused, waiting: [], last: Promise.resolve()});
   }
 
-  // Returns the entries that this document has not taken yet.
+  // Returns the entries that wait for the shown document.
   get pending() {
     return this.waiting.filter(({document}) => document === this.engine.document);
   }
 
   isPending = (name) => this.pending.some((entry) => entry.name === name);
 
-  // Takes {name, label, part, isTried}: the option or control, its name for users, a function that returns the changes
-  // to a step, and whether to try the entry. An entry that is not tried is taken at once if none is waiting.
+  // Adds {name, label, part, isTried}: the option or control, its name for users, a function that returns the changes
+  // to a step, and whether to try the entry. If isTried is false and no other entry waits, the document takes the entry
+  // at once.
   add(entry) {
     Object.assign(entry, {document: this.engine.document, position: this.doc.position});
     if (!entry.isTried && this.pending.length === 0) return this.doc.change(entry.part(this.doc.now));
@@ -29,7 +29,7 @@ export class Entries {
     return this.last;
   }
 
-  // Takes an entry, unless it was withdrawn, or the engine cannot read it or make a piece with it.
+  // Changes the document by an entry, unless the entry was withdrawn, or the engine refuses it.
   async take(entry) {
     const isMeant = () => this.pending.includes(entry);
     if (!isMeant()) return;
@@ -42,9 +42,9 @@ export class Entries {
     }
   }
 
-  // Throws the engine's error if it cannot read the options or make a piece with them. To find out, requests one height
-  // of the piece. Two errors do not count: a width that does not fit, as it is corrected later, and a view that is not
-  // prepared yet.
+  // Throws the engine's error if the options are invalid or no piece can be made with them. To find out, requests one
+  // height of the piece. Ignores the error of a width that does not fit, which is corrected later, and that of a view
+  // that is not prepared yet.
   async tryOut(step, {isMade}) {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;
@@ -53,32 +53,33 @@ export class Entries {
     });
   }
 
-  // Inserts the change at the position of its entry: changes made since the entry, and all other entries, follow it.
+  // Inserts the change at the position that the document had when the user made the entry. Later changes and all other
+  // entries follow it.
   insert(part, entry) {
     const before = this.doc.position;
     this.doc.changeAt(entry.position, part);
     for (const other of this.pending) other.position += this.doc.position - before;
   }
 
-  // Removes an entry that was taken, refused or withdrawn.
+  // Removes an entry that was used, refused or withdrawn.
   end(entry) {
     this.waiting = this.waiting.filter((other) => other !== entry);
     this.changed();
   }
 
-  // Withdraws the newest entry if it is still waiting and nothing was changed since. Returns whether there was one.
+  // Withdraws the newest entry if it still waits and the document has not changed since. Returns whether it did.
   withdraw() {
     const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
     if (isNewest) this.end(entry);
     return isNewest;
   }
 
-  // Takes back the newest change, which may be an entry that is still waiting.
+  // Undoes the newest change. If that is an entry that still waits, withdraws it.
   undo() {
     if (!this.withdraw()) this.doc.undo();
   }
 
-  // Redoes a step, unless an entry is waiting.
+  // Redoes a step, unless an entry waits.
   redo() {
     if (this.pending.length === 0) this.doc.redo();
   }
@@ -91,7 +92,7 @@ export class Entries {
     $("#redo").disabled = !this.doc.can(1) || isWaiting;
   }
 
-  // Waits until all entries are taken or refused.
+  // Waits until no entry waits any more.
   async settled() {
     while (this.pending.length > 0) await this.last;
   }

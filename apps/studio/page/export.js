@@ -1,4 +1,4 @@
-// Shows the dialog that exports files of the finished piece, as downloads of the browser.
+// Shows the dialog that exports files of the finished piece as downloads.
 
 import {about} from "./about.js";
 import {$, download, fileSize, make, unbroken} from "./controls.js";
@@ -8,21 +8,22 @@ import {inWords} from "./pieces.js";
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 const PIXEL = {label: "Exact size of a pixel", unit: "mm", min: 0.001, max: 100};
 
-// Returns a text such as "254 dpi" as the size of a pixel in mm; other texts are returned unchanged.
+// Converts a text such as "254 dpi" to the size of a pixel in mm. Returns other texts unchanged.
 function withoutDpi(text) {
   const [, dots] = text.trim().match(/^([\d.,]+) *dpi$/i) ?? [];
   return dots ? `${254 / (10 * Number(dots.replace(",", ".")))} mm` : text;
 }
 
-// Returns the options of a height map in the words of the flags of `relievo make`. The TIFF has millimetres.
+// Returns the options of a height map under the names of the flags of `relievo make`. The TIFF contains millimetres, so
+// it takes no number of bits.
 function mapOptions(format, pixelMm) {
   const black = $("#map-black").value, bits = format === "heightmap" ? $("#map-bits").value : "";
   return {pixel: pixelMm ? `${pixelMm}mm` : "", "heightmap-bits": bits, "heightmap-area": $("#map-area").value,
     "heightmap-zero": black === "ground" ? "ground" : "lowest", "heightmap-high": black === "highest" ? "black" : "white"};
 }
 
-// Returns the sizes of a piece's files as text: exact ones if triangles and points determine them, "about" for
-// compressed files and text files, "at most" for a compressed height map.
+// Returns the sizes of a piece's files as texts. They are exact if the numbers of triangles and points determine them,
+// "about" for compressed and text files, and "at most" for a compressed height map.
 function sizes({triangles, points, size_mm: [x, y]}, {pixels, pixelMm}) {
   const longer = Math.max(x, y), side = pixelMm ? longer / pixelMm : pixels, area = side * side * Math.min(x, y) / longer;
   const around = (bytes) => `about ${fileSize(bytes)}`, atMost = (bytes) => `at most ${fileSize(bytes)}`;
@@ -34,8 +35,8 @@ function sizes({triangles, points, size_mm: [x, y]}, {pixels, pixelMm}) {
 }
 
 export class ExportDialog {
-  // `outcome` is an Outcome; `name` returns the default name of the files, `heightText` a height as the page shows it;
-  // `say` shows a line to the user.
+  // `outcome` is an Outcome. `name` returns the default name of the files, and `heightText` a height as the page shows
+  // it. `say` shows a line to the user.
   constructor({engine, outcome, name, heightText, say}) {
     Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, pixelMm: null, piece: null, runs: 0});
     this.dialog = $("#export-dialog");
@@ -44,7 +45,7 @@ export class ExportDialog {
       make("span", {}, label, make("small", {}, use)), make("span", {class: "muted", id: `size-${name}`}))));
     this.dialog.oninput = () => this.show();
     for (const id of ["#pixels", "#pixel"]) $(id).onchange = () => this.choosePixels();
-    // The dialog may be open again when its close event arrives.
+    // When the close event arrives, the user may have opened the dialog again.
     this.dialog.onclose = () => this.isBusy && !this.dialog.open && this.engine.cancelPiece().catch(() => {});
     $("#export-cancel").onclick = () => this.dialog.close();
     $("#export-go").onclick = (event) => {
@@ -57,7 +58,7 @@ export class ExportDialog {
     return about.formats.filter(({name}) => $(`#formats [value="${name}"]`).checked);
   }
 
-  // Takes the typed numbers. If one is invalid, says so and returns false.
+  // Reads the numbers that the user typed. If one is invalid, shows a message and returns false.
   choosePixels() {
     let complaint = "";
     const say = (text) => (complaint ||= text), size = withoutDpi($("#pixel").value);
@@ -69,8 +70,8 @@ export class ExportDialog {
     return !complaint;
   }
 
-  // Makes the piece at once after all entries are taken. Then the sizes of its files are known, and each file is
-  // written quickly.
+  // Opens the dialog. Makes the piece as soon as all entries are settled: then the sizes of its files are known, and
+  // each file is written quickly.
   async open() {
     const outcome = this.outcome.known(), usual = this.name();
     this.piece = null;
@@ -102,14 +103,14 @@ export class ExportDialog {
     $("#export-size").replaceChildren(...facts.flatMap((text) => [" ", unbroken(text)]).slice(1));
   }
 
-  // Shows the progress of the piece that the engine makes.
+  // Shows the progress of the piece that the engine is making.
   progress({making}) {
     if (!this.isBusy || !making?.stage) return;
     $("#export-progress").value = making.fraction;
   }
 
-  // Does some work and shows its progress. If the work fails, shows the error. Returns whether it succeeded and the
-  // dialog is still open.
+  // Calls `work` and shows its progress. If it fails, shows the error. Returns whether it succeeded and the dialog is
+  // still open.
   async run(text, work) {
     const number = ++this.runs, isWanted = () => this.dialog.open && number === this.runs;
     this.isBusy = true;
@@ -124,7 +125,7 @@ export class ExportDialog {
     } catch (error) {
       complaint = error.kind === "cancelled" ? "Cancelled." : inWords(error);
     }
-    if (number !== this.runs) return false; // the dialog was opened again meanwhile
+    if (number !== this.runs) return false; // the user has opened the dialog again meanwhile
     this.isBusy = false;
     $("#export-progress").hidden = true;
     $("#export-note").textContent = complaint;

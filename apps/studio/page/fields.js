@@ -1,12 +1,12 @@
-// Lists the options of the engine that have a slider, each with a label, a place, and the usual range.
+// Lists the options that have a slider, each with its label, its panel and the range of the slider.
 
 import {optionOf} from "./about.js";
 import {sentence} from "./controls.js";
 import {spread} from "./slider.js";
 
-// The labels say what the eye sees; the tip has the symbol of the paper. The slider spans the range `hand`. A number
-// may be typed within the whole range of the option. Documents have a number for each of these options, but the width
-// may be null.
+// The labels name what the user sees; a tip gives the paper's symbol. The slider spans the range `hand`, but any number
+// that the option allows can be typed. A document has a number for each of these options, except that the width may be
+// null.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
   width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},
@@ -21,7 +21,7 @@ const SLIDERS = {
   thickness: {label: "Plate thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
 };
 
-// The engine's units as the page shows them, and as screen readers read them.
+// The engine's units, as the page shows them and as screen readers speak them.
 const UNITS = {
   MM: {unit: "mm", unitName: "mm"},
   DEG: {unit: "°", unitName: "degrees"},

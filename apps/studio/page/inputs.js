@@ -1,6 +1,6 @@
 // Handles keys, and files that are dropped on the page.
 
-// Remembers which panels are open.
+// Stores in the browser which panels are open.
 export function keepPanels(panels, storage) {
   for (const panel of panels) {
     const key = `panel:${panel.querySelector("summary").textContent.trim()}`, was = storage.getItem(key);
@@ -9,7 +9,7 @@ export function keepPanels(panels, storage) {
   }
 }
 
-// Lets arrow keys move within a radio group.
+// Makes the arrow keys move within a radio group.
 export function takeArrowKeys(group) {
   group.onkeydown = (event) => {
     const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
@@ -21,7 +21,7 @@ export function takeArrowKeys(group) {
   };
 }
 
-// Calls `open` with the files that are dropped; shows the veil while a file is dragged over the page.
+// Calls `open` with files that the user drops. Shows the veil while a file is dragged over the page.
 export function takeDrops(veil, open) {
   const show = (isShown) => (event) => {
     if (!event.dataTransfer?.types.includes("Files")) return;
@@ -31,20 +31,20 @@ export function takeDrops(veil, open) {
   addEventListener("dragover", show(true));
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
-    const isTaken = event.defaultPrevented; // the element below has taken the files
+    const isTaken = event.defaultPrevented; // a control below the pointer has taken the files
     show(false)(event);
     if (!isTaken) open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 
-// The field whose typed text is neither entered nor taken back. Ctrl Z applies to this field, and its text stays when
-// the document changes.
+// The field with typed text that is neither confirmed nor cancelled. Ctrl Z applies to this field, and the text stays
+// when the document changes.
 let unfinished = null;
 export const isUnfinished = (field) => field === unfinished;
 
 export function finish() {
   unfinished = null;
-  if (postponed) setTimeout(doPostponed); // after the field's own handlers
+  if (postponed) setTimeout(doPostponed); // runs after the field's own handlers
 }
 
 let postponed = null;
@@ -55,25 +55,25 @@ function doPostponed() {
   act();
 }
 
-// Calls `act` as soon as the user types nothing, because `act` moves fields, and a moved field can lose the focus. A
-// new call replaces a function that is still waiting.
+// Calls `act` when the user is not typing: `act` moves fields, and a field that is moved can lose the focus. If an
+// earlier function still waits, `act` replaces it.
 export function whenFinished(act) {
   postponed = act;
   doPostponed();
 }
 
-// Confirms the text that is being typed, like Enter.
+// Confirms the text that the user is typing, as Enter does.
 export const confirmTyping = () => unfinished?.dispatchEvent(new Event("change", {bubbles: true}));
 
-// These listeners run before the field's own, which may then show the document's value in the field.
+// These listeners run before those of the field, which may then write the document's value into the field.
 addEventListener("input", ({target}) => (unfinished = target), true);
 for (const end of ["change", "focusout"]) addEventListener(end, finish, true);
 addEventListener("keydown", ({key}) => key === "Escape" && finish(), true);
 
-// A finger on a slider may be about to scroll the panel. The slider follows the finger after a sideways movement or a
-// tap, and is unchanged if the browser uses the finger for scrolling.
-const SIDEWAYS = 6; // pixels
-let swipe = null; // {range, x, before, wanted} until the gesture is clear; {isScrolling} after a scroll
+// A finger that touches a slider may be about to scroll the panel. So the slider follows the finger only after a
+// sideways movement or a tap. If the browser scrolls, the slider keeps its value.
+const SIDEWAYS = 6; // in pixels
+let swipe = null; // {range, x, before, wanted} until the gesture is clear, {isScrolling} during a scroll
 
 function follow() {
   const {range, wanted} = swipe;
@@ -108,16 +108,16 @@ addEventListener("change", (event) => {
 
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
-// Chromium gives the focus back to a field after a dialog, but not the selection: Ctrl A would then select nothing in
-// the field. All its text is selected, as after the Tab key.
+// After a dialog, Chromium gives the focus back to a field, but not the selection: Ctrl A would then select nothing. So
+// all text of the field is selected, as after the Tab key.
 addEventListener("close", () => {
   const {activeElement: field} = document;
   if (field?.matches(TEXTS)) field.select();
 }, true);
 
-// Calls the function of a key. With Ctrl or Cmd it is one of `commands`. Without them it is one of `always` or, while
-// isReady(), one of `keys`; hold(isHeld) is called when B is pressed and released. Keys are ignored while a dialog is
-// open, and letters while the user types.
+// Calls the function of each key that is pressed. `commands` are keys with Ctrl or Cmd, `always` are others; `keys`
+// work only while isReady(). Calls hold(isHeld) when B is pressed and released. While a dialog is open, keys do
+// nothing; while the user types, keys without Ctrl do nothing.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
@@ -136,8 +136,8 @@ export function takeKeys({commands, always, keys, isReady, hold}) {
   });
   addEventListener("keyup", ({key, target}) => {
     if (key.toLowerCase() === "b") hold(false);
-    // A field gives up the focus after it has taken its text, so that letters are keys of the page again. Tab continues
-    // from the field.
+    // After Enter the field loses the focus, so that letters are keys of the page again. The Tab key continues from
+    // this field.
     if (key === "Enter" && target.matches?.(`.inspector :is(${TEXTS})`)) target.blur();
   });
 }

@@ -1,18 +1,18 @@
-// Keeps documents: sends each state to the engine, also during drags. A state that no engine has confirmed also stays
-// in the browser, so that it outlives the engine and the page. This file does not depend on the page, so that tests can
-// run it alone.
+// Stores documents: sends each state to the engine, even during drags. A state that the engine has not confirmed also
+// stays in the browser, where it survives the end of the engine and of the page. This file does not use other files of
+// the page, so that tests can run it alone.
 
-// The least time from one state to the next, and from the answer to a state to the next state: the page and the engine
+// The shortest time between two states, and between the answer to a state and the next state. The page and the engine
 // also need time for pictures.
 const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {
-  // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers and "older" if a
-  // newer state is kept already. Then calls onKept(), onOlder(document) or, after other errors than "lost",
-  // onFailed(error). `storage` has the interface of localStorage.
+  // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers, and of kind
+  // "older" if a newer state is already stored. Calls onKept() after success, onOlder(document) after an error of kind
+  // "older", and onFailed(error) after any other error except "lost". `storage` has the interface of localStorage.
   constructor({send, storage, prefix, onOlder, onFailed, onKept}) {
     Object.assign(this, {send, storage, prefix, onOlder, onFailed, onKept});
-    this.waiting = new Map(); // by document, the newest state that is not yet sent
+    this.waiting = new Map(); // the newest unsent state of each document
   }
 
   keep(document, state, isMoving) {
@@ -20,23 +20,23 @@ export class Keeper {
     this.pump();
   }
 
-  // Call this when the engine is back: sends the waiting states.
+  // Sends the waiting states. Must be called when the engine is back.
   retry() {
     if (!this.isSending) this.pump();
   }
 
-  // Drops the waiting and the stored state of a document that was removed.
+  // Drops all states of a document that was removed.
   forget(document) {
     this.waiting.delete(document);
     this.storage.removeItem(this.prefix + document);
   }
 
-  // Stores the waiting states in the browser. The page calls this when it is closed.
+  // Stores the waiting states in the browser. The page calls this when it closes.
   flush() {
     for (const [document, {state}] of this.waiting) this.copy(document, JSON.stringify(state));
   }
 
-  // Returns the state that stayed in the browser; null if there is none.
+  // Returns the state that was stored in the browser; null if there is none.
   copyOf(document) {
     try {
       return JSON.parse(this.storage.getItem(this.prefix + document));
@@ -69,7 +69,7 @@ export class Keeper {
     await new Promise((resolve) => setTimeout(resolve, pause));
     this.isSending = false;
     if (!mustWait) return this.pump();
-    // The next change, or retry() when the engine is back, sends the state again. Until then it stays in the browser.
+    // The engine is lost. The next change, or retry(), sends the state again; until then it stays in the browser.
     this.flush();
   }
 
@@ -77,7 +77,7 @@ export class Keeper {
     try {
       this.storage.setItem(this.prefix + document, text);
     } catch {
-      // no room: only the page has the state
+      // the browser has no space, so only the page has the state
     }
   }
 }

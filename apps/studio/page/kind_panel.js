@@ -1,5 +1,5 @@
-// The panel of the kind of work. It has the controls that matter for the kind, those of the rim if there is one, and
-// the button that turns the piece into its die. The controls of the other options stay in the panels below.
+// Shows the panel of the kind of work, with the controls that matter for it: those of the rim if there is one, and the
+// button that turns the piece into its die. The controls of all other options stay in the panels below.
 
 import {$} from "./controls.js";
 import {whenFinished} from "./inputs.js";
@@ -8,7 +8,7 @@ import {sizeText} from "./lengths.js";
 
 const HOMES = ["#piece", "#plate-sliders", "#making"];
 
-// Returns a note that explains the die of a piece, with its size if that is known.
+// Returns a note that explains the die of a piece, with its size if `size` is not null.
 function dieNote({options: {draft}}, {label}, size) {
   const walls = draft ? "" : " It has no draft angle: give it one if steep walls hold what it shapes.";
   return `This die shapes the ${label.toLowerCase()} with all its measures.${walls}` +
@@ -16,7 +16,7 @@ function dieNote({options: {draft}}, {label}, size) {
 }
 
 export class KindPanel {
-  // `elements` are the controls by the names of their options.
+  // `elements` maps names of options to their controls.
   constructor({doc, entries, elements}) {
     Object.assign(this, {doc, elements});
     this.homes = HOMES.map((selector) => ({home: $(selector), children: [...$(selector).children]}));
@@ -26,7 +26,7 @@ export class KindPanel {
   show() {
     const {now} = this.doc, {form, rim, wrap, draft} = now.options, kind = kindOf(now), hasRim = Boolean(rim);
     const key = [kind, hasRim, form, wrap, draft].join();
-    if (key === this.shown) return; // this runs for each event of a drag
+    if (key === this.shown) return; // this method runs for each event of a drag
     this.shown = key;
     const {label, panel, note = ""} = KINDS[kind], isDie = form === "die" && kind !== "die", lower = label.toLowerCase();
     const names = [...new Set([...panel, ...(isDie ? ["draft"] : []), ...(hasRim ? RIM : [])])];
@@ -45,7 +45,7 @@ export class KindPanel {
   }
 
   place(mine) {
-    const focused = document.activeElement; // a moved element can lose the focus
+    const focused = document.activeElement; // an element that is moved can lose the focus
     $("#kind-rows").append(...mine);
     for (const {home, children} of this.homes) home.append(...children.filter((child) => !mine.includes(child)));
     if (document.activeElement !== focused) focused.focus();

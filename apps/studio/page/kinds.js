@@ -1,4 +1,5 @@
-// Shows the cards of the kinds of work, with pictures of this scan. A kind sets the piece, its size and its material.
+// Shows a card for each kind of work, with a picture of this scan. A kind of work sets the form, the size and the
+// material of the piece.
 
 import {defaultOf} from "./about.js";
 import {$, check, make, paint} from "./controls.js";
@@ -6,7 +7,7 @@ import {FIRST, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
 import {shortLength, shown} from "./lengths.js";
 
-// The outlines of plates that may have any width and height.
+// The outlines whose width and height the user may choose freely.
 export const FREE_OUTLINES = ["rectangle", "round", "ellipse"];
 
 // The options of a rectangular plate without extras.
@@ -18,7 +19,7 @@ const circle = {...PLAIN, outline: "circle", width: null, margin: defaultOf("mar
 export const RIM = ["rim", "rim-height", "rim-bevel"];
 const PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
-// `part` has the options that choosing a kind sets, `panel` the options with controls in the panel of the kind.
+// `part` has the options that the kind sets. `panel` lists the options whose controls are in its panel.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque", part: plaque, material: "plaster",
     panel: PLATE},
@@ -48,8 +49,8 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work of a document's step. The material does not matter: any thick plate with round corners is a
-// carving. A die that was made of a piece has the kind of that piece.
+// Returns the kind of work of a document's step. The material does not matter: every thick plate with round corners
+// counts as a carving. A die that was made from a piece has the kind of that piece.
 export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
   if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;
   if (wrap !== "none") return "shell";
@@ -58,13 +59,13 @@ export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfP
   return outline === wood.outline && thickness >= wood.thickness ? "wood" : "relief";
 }
 
-// Returns the changes that turn a piece into its die with the same options, or the die back into the piece.
+// Returns the changes that turn a piece into its die with the same options, or a die back into its piece.
 export const dieOf = ({options: {form}}) =>
   ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
 
-// Returns the changes that begin a kind of work or, with its last step `last`, continue it. If both kinds have a
-// diameter, the present diameter stays. A kind whose plate has corners begins with the size of the present plate,
-// unless this plate is an ellipse.
+// Returns the changes that start a kind of work. If `last`, the last step of that kind, is given, they restore its
+// values. If both kinds have a diameter, the current diameter stays. A kind with a rectangular plate starts with the
+// size of the current plate, unless that plate is an ellipse.
 function partOf(kind, {diameter, plate, outline}, last) {
   const {part, material} = KINDS[kind];
   const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;
@@ -81,17 +82,17 @@ function measuresOf({diameter, plate, width, height}) {
     .filter(Boolean).join(", ");
 }
 
-// OF_KINDS has the options that kinds set. kept() returns the other options, which determine the view and the shape of
-// the relief.
+// OF_KINDS has all options that kinds of work set. kept() returns the other options; they determine the view and the
+// relief's shape.
 const OF_KINDS = new Set(Object.values(KINDS).flatMap(({part}) => Object.keys(part)));
 const kept = (options) => Object.fromEntries(Object.entries(options).filter(([name]) => !OF_KINDS.has(name)));
 
-const WIDTH = 176, HEIGHT = 132; // pixels of a picture
+const WIDTH = 176, HEIGHT = 132; // size of a card's picture in pixels
 const PAUSE_MS = 60;
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
 
-// A card shows this outline of the piece until its picture is drawn, in a box of 48 x 36.
+// The outline of the piece that a card shows until its picture is drawn, in a box of 48 x 36.
 const ROUND = "M12 18a12 12 0 1 0 24 0a12 12 0 1 0-24 0";
 const OUTLINES = {
   relief: "M9 8h30v20H9z", coin: `${ROUND}M15 18a9 9 0 1 0 18 0a9 9 0 1 0-18 0`,
@@ -100,20 +101,20 @@ const OUTLINES = {
   shell: "M12 9q12 6 24 0v18q-12 6-24 0z",
 };
 
-// Returns the name of a scan without its ending.
+// Returns the name of a scan's file without its ending.
 export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
 
-// Returns the name of a step's files: the scan's name, followed by the kind and the form unless the step is a plain
-// plaque.
+// Returns the name of a step's files: the name of the scan, followed by the kind and the form. A plaque has neither
+// suffix.
 export function fileName(step) {
   const kind = kindOf(step), {form} = step.options;
   const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];
-  const isForm = ["die", "lithophane"].includes(form); // the kind would repeat the form
+  const isForm = ["die", "lithophane"].includes(form); // the kind would only repeat the form
   return [plainName(step.input), ...words.slice(isForm ? 1 : 0)].filter(Boolean).join("-");
 }
 
 export class KindCards {
-  // `isAtRest` returns whether the engine has time for pictures; `say` shows a line to the user.
+  // `isAtRest` returns whether the engine has time for pictures. `say` shows a line to the user.
   constructor({engine, doc, entries, isAtRest, say}) {
     Object.assign(this, {engine, doc, entries, isAtRest, say, model: 0});
     const outline = (kind) => make("svg", {viewBox: "0 0 48 36", "aria-hidden": "true"},
@@ -125,7 +126,7 @@ export class KindCards {
     takeArrowKeys($("#kinds"));
   }
 
-  // Chooses a kind after the waiting entries, and tells the user if its plate cannot keep the size.
+  // Chooses a kind of work after the waiting entries. Tells the user if its plate cannot keep the current size.
   async choose(kind) {
     let lost = "";
     await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {
@@ -137,8 +138,8 @@ export class KindCards {
     if (lost) this.say(lost);
   }
 
-  // Returns the step with which a kind of work continues after another one. It is based on the kind's last step in this
-  // document; without one, the kind begins anew.
+  // Returns the step to which the document changes if the user chooses a kind of work. It continues from the last step
+  // of that kind in this document, or starts the kind if there is none.
   stepOf(kind, step = this.doc.now) {
     const {steps} = this.doc, isThis = (former) => kindOf(former) === kind;
     const part = partOf(kind, step.options, steps.slice(0, steps.indexOf(step) + 1).findLast(isThis));
@@ -149,7 +150,7 @@ export class KindCards {
     const kind = kindOf(this.doc.now), isPending = this.entries.isPending("kind");
     for (const card of $("#kinds").children) card.ariaBusy = isPending ? "true" : null;
     if (this.doc.stroke === null) this.showTitles();
-    if (kind === this.shown) return; // this runs for each event of a drag
+    if (kind === this.shown) return; // this method runs for each event of a drag
     this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
   }
@@ -161,8 +162,8 @@ export class KindCards {
     }
   }
 
-  // Draws the cards' pictures one after the other, each only while nothing else is drawn. They show the relief of
-  // `model`. While `model` is 0, they show the coarse relief of the view `turned`; without this view, nothing is drawn.
+  // Draws the pictures of the cards one after the other, each only while nothing else is drawn. They show the relief of
+  // `model`. If `model` is 0, they show the turned relief of the view `turned`; without a view, no pictures are drawn.
   async pictured(model, turned) {
     const drawn = model ? "exact" : turned ? "coarse" : "", key = model || drawn;
     if (!drawn || key === this.model) return;
@@ -181,7 +182,7 @@ export class KindCards {
     }
   }
 
-  // Removes the pictures when another scan is shown.
+  // Removes the pictures after another scan was opened.
   clear() {
     this.model = 0;
     for (const card of $("#kinds").children) delete card.dataset.drawn;

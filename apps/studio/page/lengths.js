@@ -1,5 +1,5 @@
-// Parses numbers as people type them, like parse_length() in include/relievo/core/length.h. Both are tested by the same
-// cases, tests/core/lengths.json.
+// Parses numbers as people type them, with the same results as parse_length() in include/relievo/core/length.h. The
+// cases in tests/core/lengths.json test both.
 
 const MM = {mm: 1, cm: 10, in: 25.4, '"': 25.4};
 const NUMBER = "(?:\\d+(?:[.,]\\d*)?|[.,]\\d+)(?:[eE][+-]?\\d+)?", WHOLE_PART = "(?:(\\d+) +(?=\\d+/))?";
@@ -7,16 +7,15 @@ const TERM = `${WHOLE_PART}${NUMBER}(?:/${NUMBER})?`;
 const WHOLE = new RegExp(`^ *(?<sum>-?${TERM}(?: *[+-] *${TERM})*) *(?<unit>mm|cm|in|")? *$`);
 const TERMS = new RegExp(`([+-]?) *${WHOLE_PART}(${NUMBER})(?:/(${NUMBER}))?`, "g");
 
-// Returns NaN for texts like "1,234", in which the comma may be decimal or separate thousands. In "0,125" it is
-// decimal.
+// Returns the number in a text. Returns NaN for a text such as "1,234", where the comma may be a decimal comma or
+// separate thousands. In "0,125" it can only be decimal.
 function number(text) {
   const value = Number(text.replace(",", "."));
   return /^\d*[1-9]\d*,\d{3}$/.test(text) || !Number.isFinite(value) ? NaN : value;
 }
 
-// Returns the millimetres of a text such as "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5"; NaN for other texts. Lengths
-// without a unit are in units of `mm` millimetres. If `mayHaveUnit` is false, returns the number of a text, which must
-// have no unit.
+// Returns the length in a text such as "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5", in mm; NaN for other texts. A
+// length without a unit is multiplied by `mm`. If `mayHaveUnit` is false, the text must be a number without a unit.
 export function parseLength(text, mayHaveUnit = true, mm = 1) {
   const {sum, unit} = text.match(WHOLE)?.groups ?? {};
   if (!sum || (unit && !mayHaveUnit)) return NaN;
@@ -27,17 +26,18 @@ export function parseLength(text, mayHaveUnit = true, mm = 1) {
   return Number.isFinite(value) ? value : NaN;
 }
 
-// The unit in which the page shows lengths. Documents and the engine have millimetres.
+// The unit in which the page shows lengths. Documents and the engine use millimetres.
 export const shown = {unit: "mm"};
 
 export const millimetresPerUnit = () => MM[shown.unit];
 
-// Returns the unit of an option as the page shows it.
+// Returns the unit that the page shows for an option with that unit.
 export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
-const NOISE = 1e-6; // mm, more than the rounding errors of sums, which must not decide how 6.175 is rounded
+const NOISE = 1e-6; // in mm; exceeds the rounding errors of sums, so that 6.175 is always rounded up
 
-// Returns a length without its unit. `decimals` is for millimetres; inches have three decimals, or four if needed.
+// Returns a length without its unit. `decimals` applies to millimetres. Inches have three decimals, or four if three
+// are not exact.
 export function lengthText(mm, decimals = 2) {
   if (shown.unit === "mm") return (mm + NOISE).toFixed(decimals);
   const text = (mm / MM.in).toFixed(4);
@@ -46,14 +46,14 @@ export function lengthText(mm, decimals = 2) {
 
 export const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
-// Returns the size of a piece.
+// Returns the size of a piece as text.
 export const sizeText = (size) => `${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`;
 
-// Returns a length as text for a field, without zeros at its end.
+// Returns a length as the text of a field, without trailing zeros.
 export const shortLength = (mm) => String(Number(lengthText(mm, 4)));
 
-// Returns the number that was typed into a field. If there is none, or it is outside the range, says what was expected
-// and returns null.
+// Returns the number that the user typed into a field. If the text is not a number or is out of range, shows a message
+// about what was expected, and returns null.
 export function typedNumber(text, {label, unit, min, max}, say) {
   const isLength = unit === "mm", scale = isLength ? millimetresPerUnit() : 1, value = parseLength(text, isLength,
     scale);

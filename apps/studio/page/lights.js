@@ -10,7 +10,7 @@ export const TABLE_LIGHTS = [
 export const degrees = (radians) => radians * 180 / Math.PI;
 const radians = (angle) => angle * Math.PI / 180;
 
-// Converts azimuth and elevation in degrees to a direction, and back.
+// Converts an azimuth and an elevation in degrees to a vector, and back.
 export const direction = (azimuth, elevation) => {
   const flat = Math.cos(radians(elevation));
   return [flat * Math.cos(radians(azimuth)), flat * Math.sin(radians(azimuth)), Math.sin(radians(elevation))];

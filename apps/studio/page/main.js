@@ -34,8 +34,8 @@ import {START, Shelf, nameOf, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
-const PICTURE_MS = 600; // from the fine picture to the document's small picture
-const SHOW_MS = 120; // pause of a drag after which all controls show its changes
+const PICTURE_MS = 600; // time from the fine picture until the document's small picture is stored
+const SHOW_MS = 120; // pause in a drag until all controls are updated
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
 const entries = new Entries({engine, doc, changed: showEntries, refused});
@@ -86,7 +86,7 @@ let facts = null; // facts about the shown model
 let last = null; // facts about the newest picture
 let isKept = !about.notice;
 
-// Sets the tone curve. Returns the document's curve, which stays unchanged after the drag was taken back.
+// Sets the tone curve. Returns the curve of the document, which is the former one if the drag was cancelled.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
   return doc.now.options.tone;
@@ -100,7 +100,7 @@ function chooseUnit(unit) {
   if (last) stage.invalidate();
 }
 
-// Shows why an entry is refused, until the next entry.
+// Shows why an entry was refused, until the user makes the next entry.
 let takeRefusalBack = () => {};
 function refuse(text) {
   takeRefusalBack = toast(text);
@@ -108,15 +108,15 @@ function refuse(text) {
 function refused({label}, error) {
   refuse(error.input ? inWords(error) : `${label}: ${error.message}`);
 }
-// Any entry removes the message of a refusal, even an entry that changes nothing. The end of a slider's movement is not
-// an entry, as the changes came during the movement.
+// Any entry removes the message about a refusal, even an entry that changes nothing. The end of a slider's movement
+// does not count as an entry, since the changes came during the movement.
 addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
 
 // ----------------------------------------------------------------------------------------------- the document
 
 function changed(before) {
   const {now} = doc;
-  if (doc.steps.includes(before)) takeRefusalBack(); // a drag that continues is not a new entry
+  if (doc.steps.includes(before)) takeRefusalBack(); // not for the later changes of a drag
   opened.keep(doc.stroke !== null);
   tour.takeBack();
   doc.stroke === null ? showDocument() : showing.begin();
@@ -127,22 +127,22 @@ function changed(before) {
   stage.invalidate();
 }
 
-// Shows the document after another tab or another engine has changed it.
+// Shows the document after another tab or another engine changed it.
 function stateCame() {
   showDocument();
   stage.invalidate();
   shownView.adopt();
 }
 
-// A drag updates its own control at once. The others follow when it pauses or ends, as showing them takes as long as a
-// picture.
+// A drag updates its own control at once. The other controls are updated when the drag pauses or ends, since updating
+// them takes as long as a picture.
 const showing = new Pause(showDocument, SHOW_MS);
 
 function showDocument() {
   showing.end();
   const {options, material, input} = doc.now;
   sliders.show();
-  const isPaper = options.method === "paper"; // it has no tone curve
+  const isPaper = options.method === "paper"; // the paper's method has no tone curve
   $("#tone-curve").hidden = isPaper || hasScale(doc.now);
   curve.show({tone: isPaper ? "" : options.tone});
   pieces.show();
@@ -162,7 +162,7 @@ function showEntries() {
   for (const part of [entries, pieces, sliders, kinds]) part.show();
 }
 
-// Tells the user once that work is not kept. If the engine is lost, another message says so.
+// Tells the user once that changes are not stored. Not called if the engine is lost, which has its own message.
 function notKept({message}) {
   if (isKept) toast(`Your work is not kept: ${message}`);
   isKept = false;
@@ -180,16 +180,17 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  const isOfView = !frame.isTurned && !opened.asked && !opened.status.busy; // others have other diagonals and heights
+  const isOfView = !frame.isTurned && !opened.asked && !opened.status.busy; // other views have other heights
   if (isOfView && frame.options["height-of-diagonal"]) {
     doc.note({options: {height: frame.height_mm, "height-of-diagonal": null}});
     sliders.all.height.show(frame.height_mm);
   }
-  const {u, options} = doc.now; // the picture may have been requested before u or the height was typed
+  const {u, options} = doc.now; // u or the height may have changed since the picture was requested
   const isNewest = u === null ? frame.options.height === options.height : frame.u === u;
   if (!doc.now.isHeightLocked && isOfView && isNewest && !hasScale(doc.now)) {
     const slider = sliders.all.height, rounded = slider.rounded(frame.height_mm);
-    // A computed height gets the slider's own decimals, unless it is so low that these would change it much.
+    // A computed height is rounded to the slider's decimals. A very low height is not, since rounding would change it
+    // much.
     const height = rounded < 0.1 ? frame.height_mm : rounded;
     doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
     slider.show(doc.now.options.height);
@@ -222,7 +223,7 @@ function progress(status) {
   if (stage.isReady && stage.model === status.model) shownView.settle(status);
 }
 
-// Called when another document is shown and its model is not ready: removes the pictures of the former document.
+// Called when another document was opened and its model is not ready. Removes the pictures of the former document.
 function begun(former) {
   if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
   $(".inspector").scrollTop = 0;
@@ -242,7 +243,7 @@ function begun(former) {
   showProgress({busy: true, stage: "waiting"}, true);
 }
 
-// Shows a coarse relief while the first view is being prepared.
+// Shows a turned relief while the first view is being prepared.
 function measured({shown}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
   doc.note({options: optionsOf(opened.wantedView(shown), doc.now)});
@@ -286,7 +287,7 @@ function failed(error) {
   reopening.begin();
 }
 
-// Opens an input, after the typed texts are entered: they belong to the work that is still shown.
+// Opens an input. Typed texts are entered before, since they belong to the document that is still shown.
 async function openInput(input, work) {
   await outcome.entered();
   return opened.open(input, work).catch(failed);
@@ -294,7 +295,7 @@ async function openInput(input, work) {
 
 const openFiles = (files) => projects.openFiles(files).catch(failed);
 
-// Shows that an upload or download is running, which takes some time for large scans.
+// Shows that an upload or download is running, which takes a while for large scans.
 async function take(bytes) {
   const isStart = !$("#start").hidden;
   showStart(false);
@@ -325,7 +326,8 @@ const showRecentNow = () => keepPicture().then(() => shelf.show());
 
 // ------------------------------------------------------------------------------------------------------- start
 
-// Shows the document of the page's address, or the one with which the program was started, or the one changed last.
+// Shows the document in the page's address. If there is none, shows the input with which the program was started, or
+// else the document that was changed last.
 async function resume({first, recent}) {
   const mine = recent.find(({document}) => `#${document}` === location.hash);
   if (mine) return opened.open(mine.input);
@@ -337,7 +339,7 @@ async function resume({first, recent}) {
 async function start() {
   takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, save: saveProject, openFiles,
     isThere: () => facts !== null, showStart, chooseUnit, failed});
-  document.body.inert = false; // clicks before this would have been lost
+  document.body.inert = false; // clicks before this would be lost
   $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";
   chooseUnit($("#unit").value);
   try {

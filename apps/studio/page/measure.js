@@ -1,21 +1,21 @@
-// Measures on the picture from the front: dimensions of the piece, the height under the pointer, distances, and the
-// line of the section. Places are in mm from the middle of the piece.
+// Measures in the front view: the dimensions of the piece, the height under the pointer, distances, and the line of a
+// section. Positions are in mm from the centre of the piece.
 
 import {clamp, make, oneAtATime, scaleOfType} from "./controls.js";
 import {withUnit} from "./lengths.js";
 
-const NEAR = 12; // pixels from an end of a line within which the pointer takes it
-const ROW = 22; // height of a label in pixels at the usual size of type
-const GAP = 14; // pixels from the piece to its dimensions
-const STROKE = 5; // half length in pixels of a dimension's end strokes
+const NEAR = 12; // the pointer grabs an end of a line within this distance, in pixels
+const ROW = 22; // height of a label in pixels, at the usual font size
+const GAP = 14; // distance from the piece to its dimension lines, in pixels
+const STROKE = 5; // half the length of the end strokes of a dimension line, in pixels
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 
-let labels = []; // {x, y, width} of each drawn label, with x and y of its middle
+let labels = []; // {x, y, width} of each drawn label; x and y are its centre
 
-// Returns the height nearest to `y` at which a label is within the picture and clear of the other labels; `y` if there
-// is none.
+// Returns the y coordinate nearest to `y` at which a label lies within the picture and covers no other label; `y` if
+// there is none.
 function freeHeight(x, y, width, row, picture) {
   const isFree = (y) => y >= row / 2 && y <= picture.height - row / 2 && labels.every((other) =>
     Math.abs(other.x - x) >= (other.width + width) / 2 || Math.abs(other.y - y) >= row);
@@ -25,7 +25,7 @@ function freeHeight(x, y, width, row, picture) {
 
 const widthOf = (text) => (7.6 * text.length + 12) * scaleOfType(); // width of a label in pixels
 
-// Returns the middle of a line's label, in pixels, above the line and without covering it.
+// Returns the centre of a line's label, in pixels. The label is above the line and does not cover it.
 function beside([x1, y1], [x2, y2], text) {
   const size = Math.hypot(x2 - x1, y2 - y1) || 1, [right, up] = [(y2 - y1) / size, Math.abs(x2 - x1) / size];
   const side = x2 < x1 ? -right : right, gap = (Math.abs(right) * widthOf(text) + up * ROW * scaleOfType()) / 2 + NEAR;
@@ -38,8 +38,8 @@ function rise(from, to) {
   return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
 }
 
-// Returns a line between two pixels, with a text in its middle or at the pixel `at`. A background keeps the text
-// readable. The text stays within the picture and clear of earlier labels.
+// Returns a line between two pixels with a text, which is at the line's centre or at the pixel `at`. A background keeps
+// the text readable. The text stays within the picture and covers no earlier label.
 function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, (y1 + y2) / 2]) {
   const scale = scaleOfType(), width = widthOf(text), row = ROW * scale, height = row - 2;
   const x = clamp(at[0], width / 2, picture.width - width / 2);
@@ -50,12 +50,12 @@ function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, 
     make("rect", {class: "ground", x: x - width / 2, y: y - height / 2, width, height, rx: 5}), label];
 }
 
-// Returns the pixel at which a dimension is drawn beside the end of a piece. If that end is within the picture, so is
-// the dimension.
+// Returns the x or y coordinate of a dimension line beside the edge `end` of a piece. If that edge is within the
+// picture, so is the dimension line.
 const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
 
-// Returns the middle of a dimension's label, which must not cover the figure. The label of a horizontal line is above
-// it. That of a vertical line is on the line's outer side or, without room there, at its lower end.
+// Returns the centre of a dimension's label, which must not cover the figure. The label of a horizontal line is above
+// the line. The label of a vertical line is outside of it or, if there is not enough space, at its lower end.
 function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
   const scale = scaleOfType(), half = widthOf(text) / 2 + STROKE, middle = [(x1 + x2) / 2, (y1 + y2) / 2];
   if (y1 === y2) return [middle[0], y1 - ROW * scale / 2];
@@ -63,7 +63,7 @@ function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
   return hasRoom ? [x, middle[1]] : [x, Math.max(y1, y2) - ROW * scale / 2];
 }
 
-// Returns a dimension with its two end strokes.
+// Returns a dimension line with its label and end strokes.
 function dimension(from, to, text, picture, at) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]], size = Math.hypot(dx, dy) || 1;
   const [ax, ay] = [-dy / size * STROKE, dx / size * STROKE];
@@ -74,7 +74,7 @@ function dimension(from, to, text, picture, at) {
 
 export const isRound = (outline) => outline === "circle" || outline === "ellipse";
 
-// Returns the part of a line that lies on a plate of that size; null if the line misses the plate.
+// Returns the part of a line that lies on a plate of the given size; null if the line misses the plate.
 function onPlate({from, to}, [width, height], isEllipse) {
   const scaled = ([x, y]) => [2 * x / width, 2 * y / height], a = scaled(from), d = scaled(sub(to, from));
   let low = 0, high = 1;
@@ -89,7 +89,7 @@ function onPlate({from, to}, [width, height], isEllipse) {
 }
 
 export class Measure {
-  // `stage` converts places to pixels and back, and has {size_mm, relief_mm} of the newest picture.
+  // `stage` converts positions to pixels and back, and has {size_mm, relief_mm} of the newest picture.
   constructor(stage) {
     this.stage = stage;
     this.askHeight = oneAtATime(() => this.tellHeight());
@@ -116,14 +116,14 @@ export class Measure {
     stage.on.section(from ? await stage.heights(from, to) : [], from, to);
   }
 
-  // Returns the end of the line that is under a pixel: "from", "to" or null.
+  // Returns the end of the line that is near a pixel: "from", "to", or null.
   endAt(line, x, y) {
     const near = (end) => line && length(this.stage.toPixels(line[end]), [x, y]) < NEAR;
     return ["from", "to"].find(near) ?? null;
   }
 
-  // Returns the line after its dragged end has come to `place`. If no end is dragged, returns a new line from where the
-  // drag began.
+  // Returns the line after the user has dragged to `place`. If the drag began at an end of the line, that end is moved;
+  // otherwise a new line from the beginning of the drag replaces it.
   dragged = (line, {end, from}, place) => (end ? {...line, [end]: place} : {from, to: place});
 
   lineMarks({from, to}, kind = "cut") {
@@ -148,7 +148,7 @@ export class Measure {
       ...labelled([left + 60, below], [left + 60, below], `${withUnit(thickness)} thick`, "none", picture)];
     if (!about.relief_mm) return marks;
     const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
-    if (x1 - left < 2 && right - x2 < 2) return marks; // the relief reaches the edges of the plate
+    if (x1 - left < 2 && right - x2 < 2) return marks; // the relief reaches the plate's edges
     return [make("rect", {class: "bounds", x: x1, y: y2, width: x2 - x1, height: y1 - y2}),
       ...side([x1, y2 - 8], [x2, y2 - 8], high[0] - low[0]),
       ...side([x1 - 8, y1], [x1 - 8, y2], high[1] - low[1]), ...marks];
@@ -180,8 +180,8 @@ export class Measure {
 
   // -------------------------------------------------------------------------------------------------- the pointer
 
-  // Requests the height at `place` under the pointer, one request at a time, always for the newest place. `place` is
-  // null if the pointer has left.
+  // Requests the height at `place` under the pointer. There is one request at a time, always for the newest position.
+  // `place` is null if the pointer has left the picture.
   point(place) {
     this.wanted = place;
     if (place) return this.askHeight();
@@ -191,7 +191,7 @@ export class Measure {
 
   async tellHeight() {
     const {wanted: place, stage} = this, [height] = place ? await stage.heights(place, place).catch(() => []) : [];
-    if (!this.wanted || stage.tool !== "measure") return; // the pointer has left
+    if (!this.wanted || stage.tool !== "measure") return; // the pointer has left the picture
     this.pointer = {place, height};
     stage.drawOverlay();
   }
@@ -200,12 +200,12 @@ export class Measure {
     this.line = line;
     this.stage.drawOverlay();
     const heights = await this.stage.heights(line.from, line.to).catch(() => []);
-    if (this.line !== line || heights.length === 0) return; // another line was drawn meanwhile
+    if (this.line !== line || heights.length === 0) return; // the user has drawn another line meanwhile
     line.heights = [heights[0], heights.at(-1)];
     this.stage.drawOverlay();
   }
 
-  // Call this for each new picture, which has new heights.
+  // Must be called for each new picture, since its heights are new.
   pictured() {
     if (this.line) this.setLine({...this.line, heights: null});
   }

@@ -1,11 +1,11 @@
-// Shows messages for users at the edge of the page.
+// Shows messages for users at the bottom of the page.
 
 import {$, Pause, make} from "./controls.js";
 
 const shown = new Pause(hideToast, 8000);
 let isLost = false;
 
-// Lets the parts above a message make room for it, and keeps the element with the focus visible.
+// Moves the parts of the page above a message to make space for it, and keeps the element with the focus visible.
 new ResizeObserver(() => {
   document.documentElement.style.setProperty("--toast-height", `${$("#toast").offsetHeight}px`);
   if (!$("#toast").hidden) $(".inspector :focus")?.scrollIntoView({block: "nearest"});
@@ -13,7 +13,8 @@ new ResizeObserver(() => {
 
 $("#toast .close").onclick = hideToast;
 
-// Shows a message until the next one, for at most eight seconds unless `isLasting`. Returns a function that removes it.
+// Shows a message until the next message, but for at most eight seconds unless `isLasting`. Returns a function that
+// removes the message.
 export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);
@@ -22,11 +23,11 @@ export function toast(text, isLasting = false) {
   return () => line.isConnected && hideToast();
 }
 
-// Shows a message for `ms` with a button for `action`, and one for each [label, action] of `others`. Returns a function
-// that removes it.
+// Shows a message for `ms` with a button for `action`, and with a button for each [label, action] of `others`. Returns
+// a function that removes the message.
 export function offer(text, label, action, ms = Infinity, others = []) {
   const takeBack = toast(text, true), act = (chosen) => () => {
-    takeBack(); // comes first, as the action may show a message
+    takeBack(); // must come first, as the action may show another message
     chosen();
   };
   if (ms < Infinity) shown.begin(ms);

@@ -1,4 +1,4 @@
-// Sets the modes of the picture: tool, light table, comparison, and material.
+// Sets the modes of the picture: the tool, the light table, the comparison and the material.
 
 import {about} from "./about.js";
 import {$, check, make} from "./controls.js";
@@ -55,7 +55,7 @@ export class Modes {
 
   toggleComparing = () => this.setComparing(!isPressed("#compare"));
 
-  // Leaves the light table and the comparison.
+  // Ends the light table and the comparison.
   leave() {
     this.setTable(false);
     this.setComparing(false);

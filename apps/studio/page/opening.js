@@ -1,5 +1,5 @@
-// Opens the document that this page shows: a scan or a project. Follows the engine's status of the document, and
-// continues after another engine or another tab has changed it.
+// Opens the document of a scan or a project, and shows it on this page. Follows the status of the document, and takes
+// over its state after another engine or another tab has changed it.
 
 import {namesOf} from "./about.js";
 import {FIRST} from "./document.js";
@@ -9,15 +9,17 @@ import {inWords} from "./pieces.js";
 
 const PREPARED = namesOf("input", "view", "model");
 
-// Returns whether the brightness of a photo becomes thickness: the engine then prepares the brightness, not heights.
+// Returns whether the brightness of a photo becomes thickness. The engine then prepares the brightness instead of
+// heights.
 const isPhoto = ({input, options: {form, "depth-values": values}}) => form === "lithophane" &&
   ["auto", "luminance"].includes(values) && /\.(png|tiff?|bmp|ppm|pgm)$/i.test(input?.name ?? "");
 
-// Returns what determines the model that the engine prepares.
+// Returns the options that determine the model that the engine prepares.
 export const viewOf = (step) => ({...Object.fromEntries(PREPARED.map((name) => [name, step.options[name]])),
   form: isPhoto(step) ? "lithophane" : "relief"});
 
-// Returns the options of a view for a document. Only photos have a form in their view that can differ.
+// Returns the options of a view for a document. The form is left out if the document's view has the same one; it can
+// differ only for photos.
 export const optionsOf = ({form, ...options}, now) => (form === viewOf(now).form ? options : {...options, form});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
@@ -28,14 +30,18 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun(former) when another document is shown, with the input of the former one or null;
-  // on.progress(status); on.measured(status) when pictures of the first view can be drawn during its preparation;
-  // on.arrived(status) when the model is ready; on.changed() when a newer state came from another tab or engine;
-  // on.missing(input, kept) if the scan is missing; on.refused(why) if the view cannot be prepared, where `why` is ""
-  // if the user cancelled it; on.failed(error); and on.closed() when no document is left to show.
+  // Calls on.begun(former) when another document is shown, with the input of the former document or null;
+  // on.progress(status);
+  // on.measured(status) when pictures of the first view can be drawn although it is not yet prepared;
+  // on.arrived(status) when the model is ready;
+  // on.changed() when a newer state came from another tab or engine;
+  // on.missing(input, kept) if the scan is missing;
+  // on.refused(why) if the view cannot be prepared, with "" if the user cancelled it;
+  // on.failed(error);
+  // and on.closed() when no document is left to show.
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
-    this.asked = null; // the view that this page requested last, until the engine reports it
+    this.asked = null; // the view that this page requested last; null once the engine has reported it
     this.statuses = new Map(); // statuses of all open documents
   }
 
@@ -47,8 +53,9 @@ export class OpenDocument {
     return this.model > 0;
   }
 
-  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. It becomes
-  // the document's steps. If the document has a state already, only the step `at` of the work becomes its newest step.
+  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. If the
+  // document has no stored state, the document takes over all steps of `work`; otherwise the step `at` is added to the
+  // stored ones.
   async open(input, work = null) {
     const found = await this.engine.find(input);
     if (!found.is_there) return this.on.missing(found.input, work ?? found.kept);
@@ -58,7 +65,7 @@ export class OpenDocument {
     this.former = former;
     this.id = this.engine.document = found.document;
     this.takeState(newest, found.input, work);
-    if (work || (copy && newest === copy)) this.keep(); // a new document is kept after its scan was read
+    if (work || (copy && newest === copy)) this.keep(); // a new document is stored after its scan was read
     this.isKept = Boolean(newest);
     this.model = 0;
     this.asked = null;
@@ -68,16 +75,17 @@ export class OpenDocument {
     await this.openInEngine(found.input);
   }
 
-  // Opens the shown document in the engine. The status of the document may have arrived already.
+  // Opens the shown document in the engine. The status of the document may arrive before this call ends.
   async openInEngine(input) {
     const {id} = this, isOpen = this.engine.open(input, viewOf(this.doc.now));
-    this.isOpen = isOpen.catch(() => {}); // the caller gets the error from the line below
+    this.isOpen = isOpen.catch(() => {}); // the caller gets the error from the next line
     await isOpen;
     const status = this.statuses.get(id);
     if (status && this.id === id) this.take(status);
   }
 
-  // Requests the document's view, after the engine has opened the document: before that, the engine would refuse.
+  // Requests the document's view. Waits until the engine has opened the document, as it would refuse the request
+  // before.
   async chooseView() {
     const {id} = this;
     this.asked = viewOf(this.doc.now);
@@ -90,7 +98,7 @@ export class OpenDocument {
     });
   }
 
-  // Requests the document's view unless it was already requested.
+  // Requests the document's view, unless it was requested before.
   async ensureView() {
     this.asked = viewOf(this.doc.now);
     await this.openInEngine(this.input);
@@ -136,10 +144,11 @@ export class OpenDocument {
     if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);
   }
 
-  // Returns the document's view, with the side that the engine chose if the document has none yet.
+  // Returns the view of the document. If its side is not chosen yet, it has the side that the engine chose.
   wantedView = (shown) => withSide(viewOf(this.doc.now), shown);
 
-  // Returns whether the model may be shown. The first model must have the requested view, unless that view failed.
+  // Returns whether the model may be shown. The first model of a document must have the requested view, unless that
+  // view failed.
   isWanted({busy, error, shown}) {
     return this.model > 0 || (!busy && (error || isSameView(shown, this.wantedView(shown))));
   }
@@ -157,7 +166,7 @@ export class OpenDocument {
   }
 
   complain({error, model}) {
-    const {path, name} = this.input; // the path of a dropped scan is in the engine's store
+    const {path, name} = this.input; // users know a dropped scan by its name, not by its path in the engine's storage
     const message = path ? error.text.replaceAll(path, () => name) : error.text;
     const why = error.kind === "cancelled" ? "" : inWords({input: error.input, message});
     if (model > 0 && !(this.asked && why)) return this.on.refused(why);
@@ -170,7 +179,7 @@ export class OpenDocument {
     this.open(former).catch(this.on.failed);
   }
 
-  // Takes over a state of this document that is newer than the one shown. Returns whether there was one.
+  // Takes over a stored state of this document if it is newer than the shown one. Returns whether it did.
   async adopt() {
     const {id} = this, {kept} = await this.engine.find(this.input);
     if (id !== this.id || !(kept?.changed > this.doc.changedAt) || !this.doc.restore(kept)) return false;
@@ -178,7 +187,7 @@ export class OpenDocument {
     return true;
   }
 
-  // Call this when another engine has replaced the former one. Shows the engine's state of the document if that is
+  // Must be called when another engine has replaced the former one. Shows that engine's state of the document if it is
   // newer than the shown one, and opens the document again.
   async resume() {
     if (!this.id) return;
@@ -190,7 +199,8 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // Call this when the engine has closed the document: opens it again. The last status of the document is then invalid.
+  // Opens the document again. Must be called when the engine has closed it; the last status of the document is invalid
+  // then.
   async closed() {
     this.statuses.delete(this.id);
     await this.reopen();

@@ -1,4 +1,4 @@
-// Returns the document for files and projects, after all entries are taken and its picture is drawn.
+// Provides the document for files and projects, after all entries are settled and its picture is drawn.
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";
@@ -6,20 +6,20 @@ import {fileName} from "./kinds.js";
 import {withUnit} from "./lengths.js";
 
 export class Outcome {
-  // `frame` returns the numbers of the newest picture.
+  // `frame` returns the facts of the newest picture.
   constructor({doc, stage, entries, pieces, frame}) {
     Object.assign(this, {doc, stage, entries, pieces, frame});
   }
 
-  // Waits until all entries are taken or refused. These include typed texts that Enter has not confirmed.
+  // Waits until all entries are settled, including typed texts that Enter has not confirmed.
   async entered() {
     confirmTyping();
     this.pieces.takeSteps();
     await this.entries.settled();
   }
 
-  // Waits for the picture of the piece, and returns the order for its files. If the wanted height is out of reach, the
-  // order has the height of the picture.
+  // Waits for the picture of the piece. Returns the options for its files. If the wanted height is out of reach, they
+  // have the height of the picture.
   async known() {
     await this.entered();
     const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), frame = this.frame();
@@ -29,7 +29,7 @@ export class Outcome {
     return {options, note, name: fileName(now), material: now.material, step: now};
   }
 
-  // Returns the document's step, with the height that its files have.
+  // Returns the document's step, with the height that its exported files have.
   async step() {
     const {step, options: {height}} = await this.known();
     return {...step, options: {...step.options, height: height ?? step.options.height}};

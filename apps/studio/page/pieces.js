@@ -1,4 +1,4 @@
-// Makes the rows of all options of the engine that have no slider.
+// Makes the controls of all options that have no slider.
 
 import {about, optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
@@ -19,26 +19,25 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   "depth-values": "Values are", background: "Background", blur: "Blur at edges",
   "mm-per-value": "One unit is", ground: "Ground at",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
-// Labels of choices whose names on the command line need more words.
+// Labels of choices whose names on the command line are too short for users.
 const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic", keep: "Keep", drop: "Leave out",
   inverse: "Inverse depth", luminance: "Brightness"};
 const PLACES = {triangles: "#making", input: "#depth-rows", "mm-per-value": "#depth-rows", ground: "#depth-rows",
-  view: "#preparing", model: "#preparing"}; // other stages: "#piece"
+  view: "#preparing", model: "#preparing"}; // panels by stage; all other stages: "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "mm-per-value": "as the height", ground: "automatic",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
-// The tips of the options `base`, `wrap` and `tool` say what these are for. The help of these options in the engine
-// explains the format of their texts.
+// The tips of these options describe their purpose. The engine's help on them explains the format of their texts.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
-const LEAST_STEP = 0.001; // least step of arrow keys
+const LEAST_STEP = 0.001; // smallest step of the arrow keys
 
-// The options that are two lengths, with the text between these lengths.
+// The options whose text consists of two lengths, with the separator of these lengths.
 const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
 
-// Returns a text such as "200x150" or "5,-3" with each length replaced by typed(length). A text that is no such pair is
-// returned unchanged, and the engine refuses it.
+// Returns a text such as "200x150" or "5,-3" with typed(length) in place of each length. Returns other texts unchanged;
+// the engine refuses them.
 function pairText(name, text, typed) {
   const {between, split} = PAIRS[name], lengths = text.toLowerCase().split(split).map(typed);
   return lengths.length === 2 && lengths.every(Number.isFinite) ? lengths.join(between) : text;
@@ -47,13 +46,13 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns whether the user chose this width. Such a width differs from those of a new document and of all kinds of
-// work.
+// Returns whether the user chose this width. Any width counts that is neither that of a new document nor that of a kind
+// of work.
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns the other changes that come with an outline. A size that the outline cannot have is dropped; without an
-// outline, the rim is dropped, too.
+// Returns the other options that change with the outline. If the new outline cannot have the size of the plate, that
+// size is dropped. If there is no outline, the rim is dropped.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
   const isRound = value === "circle", isFree = FREE_OUTLINES.includes(value);
@@ -61,8 +60,8 @@ function besidesOutline(value, {diameter, plate}, shownWidth) {
   return hasSize ? rim : {...rim, diameter: null, plate: "", shift: "", width: shownWidth};
 }
 
-// Returns the other changes that come with a new value of an option. A given size of the plate also determines the
-// width of the relief, unless the user chose a width.
+// Returns the other options that change with an option. A given size of the plate also determines the width of the
+// relief, unless the user chose a width.
 function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
@@ -74,28 +73,28 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// The names of options whose controls have other labels.
+// Labels of options whose controls have a different label or none.
 const OTHERS = {tone: "Tone curve", view: "View"};
-// The page's texts for the expected values of an option.
+// Descriptions of the values of an option, for messages.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
-// The engine's advice about coloured pictures applies only to the command line, so the page replaces it.
+// The engine's advice about coloured pictures applies only to the command line. The page shows its own advice instead.
 const ADVICE = /; the option channel takes one .*$/;
 const OTHER = ". Take their brightness, or save it as a picture in greys, one value per pixel, and open that";
 
 const controlOf = (name) => document.querySelector(`[data-option="${name}"]`);
 
-// Returns whether an option has a label, or a control somewhere else on the page. Any other option gets a row labelled
-// with its name.
+// Returns whether an option has a label here or a control elsewhere on the page. Any other option gets a control
+// labelled with its name.
 const isLabelled = (name) => name in LABELS || name in FIELDS || controlOf(name) !== null;
 
-// Returns the name of an option on the page: from the tables, otherwise from its control.
+// Returns the label of an option: from the tables, or else from its control.
 function labelOf(name) {
   const control = controlOf(name);
   return LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? control?.getAttribute("aria-label") ??
     control?.closest("label")?.firstElementChild.textContent ?? name;
 }
 
-// Returns the message of an error in the words of the page, which name an option by its label.
+// Returns the message of an error in the words of the page, which calls an option by its label.
 export function inWords({input, message}) {
   const label = optionOf(input) && labelOf(input);
   const text = message.replace(ADVICE, OTHER), [found] = (EXPECTED[input] && text.match(/, found '.*$/)) ?? [];
@@ -104,7 +103,7 @@ export function inWords({input, message}) {
 }
 
 export class PieceRows {
-  // `say` shows a line to the user; `shownWidth` returns the width in mm of the relief that is shown.
+  // `say` shows a line to the user. `shownWidth` returns the width of the shown relief in mm.
   constructor({engine, doc, entries, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, entries, say, shownWidth, rows: {}});
     for (const {name, is_hidden: isHidden} of about.options)
@@ -117,7 +116,7 @@ export class PieceRows {
     this.rows.base.element.after(this.baseImage.element);
   }
 
-  // Returns the rows' elements by the names of their options.
+  // Returns an object that maps names of options to the elements of their controls.
   get elements() {
     return Object.fromEntries(Object.entries(this.rows).map(([name, {element}]) => [name, element]));
   }
@@ -127,7 +126,7 @@ export class PieceRows {
       take: (change) => this.set(option, change)});
   }
 
-  // Makes the row of an option. Returns {element, input, rest, isNumber, unit, min, max}.
+  // Makes the control of an option. Returns {element, input, rest, isNumber, unit, min, max}.
   row(name) {
     const {choices, help, min, max, unit, default: otherwise} = optionOf(name);
     const attributes = {id: name, "data-option": name, autocomplete: "off", "aria-label": LABELS[name]};
@@ -142,7 +141,7 @@ export class PieceRows {
     const element = pair(label, input, {title: sentence(help)});
     const rest = new Pause(() => input.dispatchEvent(new Event("change")), REST_MS);
     input.onchange = () => this.take(name);
-    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // the user types after using the arrow keys
+    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // the user is typing after using the arrow keys
     input.onkeydown = (event) => {
       if (event.key === "Escape") rest.end(), this.show();
       if (event.key in UPWARDS) this.step(event, name);
@@ -150,8 +149,8 @@ export class PieceRows {
     return {element, input, rest, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
 
-  // Changes a number by the up and down keys to the next round one, with Shift in smaller steps. The document takes the
-  // number when no such key was pressed for REST_MS, or earlier by takeSteps().
+  // Changes a number by the up and down keys to the next round number, or by smaller steps with Shift. The document
+  // takes the number when no such key was pressed for REST_MS, or when takeSteps() is called.
   step(event, name) {
     const row = this.rows[name], {input, isNumber, unit, min, max} = row, isLength = unit === "mm";
     const scale = isLength ? millimetresPerUnit() : 1, value = parseLength(input.value, isLength, scale) / scale;
@@ -159,11 +158,11 @@ export class PieceRows {
     event.preventDefault();
     const next = clamp(nextValue(value, UPWARDS[event.key], event.shiftKey, LEAST_STEP) * scale, min, max);
     input.value = isLength ? shortLength(next) : String(Number(next.toPrecision(12)));
-    input.dispatchEvent(new Event("input")); // like typing
+    input.dispatchEvent(new Event("input")); // has the same effect as typing
     row.rest.begin();
   }
 
-  // Takes the entered choice or text. A row for numbers refuses a text that is no number.
+  // Takes the choice or the text that the user entered. If the option is a number, refuses a text that is not one.
   take(name) {
     const {input, rest, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     rest.end();
@@ -173,8 +172,8 @@ export class PieceRows {
     return this.set(name, () => (PAIRS[name] ? inMm(name, value ?? "") : value));
   }
 
-  // Changes an option after all earlier entries. `change` gets the option's value at that time, and returns the new
-  // one.
+  // Changes an option after all earlier entries. `change` gets the value that the option has at that time, and returns
+  // the new value.
   set(name, change) {
     const part = ({options}) => {
       const value = change(options[name]);
@@ -186,12 +185,12 @@ export class PieceRows {
     return this.entries.add({name, label: LABELS[name], part, isTried: true, isMade});
   }
 
-  // Takes the numbers set by arrow keys at once, without waiting for the pause.
+  // Takes the numbers that arrow keys have changed at once, without waiting for the pause.
   takeSteps() {
     for (const [name, {rest}] of Object.entries(this.rows)) if (rest?.isRunning) this.take(name);
   }
 
-  // Shows the document's values, except in fields in which the user types or whose entry is being tried.
+  // Shows the document's values, except in a field in which the user is typing or whose entry is being tried.
   show() {
     const {options} = this.doc.now, tried = new Set(this.entries.pending.map(({name}) => name));
     for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;

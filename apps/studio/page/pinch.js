@@ -1,15 +1,15 @@
-// Two fingers on the relief move the picture and zoom; with the tool Place they scale and turn the figure.
+// Two fingers on the relief move the picture and zoom. With the tool Place they scale and turn the figure.
 
-const SLACK = 8; // degrees that fingers may turn while they scale
+const SLACK = 8; // angle in degrees by which two fingers may turn while they only scale
 
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
 
-// Calls begin() when the second finger comes down, and end() when one is lifted. Between these it calls move(from, to,
-// ratio, turn): the middle of the fingers before and after in pixels of the element, the ratio of their distances, and
-// the turn in degrees to the left.
+// Calls begin() when the second finger touches the element, and end() when a finger is lifted. In between calls
+// move(from, to, ratio, turn): the midpoint of the fingers before and after, in pixels of the element; the ratio of
+// their distances; and the counterclockwise angle in degrees.
 function takePinches(element, {begin, move, end}) {
   const fingers = new Map();
-  let last = null; // the last measurement, while there are two fingers
+  let last = null; // the last measurement; null unless two fingers touch
   const measure = () => {
     if (fingers.size !== 2) return null;
     const [a, b] = fingers.values(), [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -41,10 +41,10 @@ function takePinches(element, {begin, move, end}) {
   for (const type of ["pointerup", "pointercancel"]) element.addEventListener(type, lift);
 }
 
-// Scales the figure at once. The turn is made when the fingers are lifted, in the same step of the document.
+// Scales the figure at once. The rotation follows when the fingers are lifted, in the same step of the document.
 function placeFigure(stage, ratio, turn) {
   const {drag, about} = stage, {placing} = stage.on;
-  if (drag?.tool !== "place") return; // placing is impossible, or Escape has ended it
+  if (drag?.tool !== "place") return; // placing is impossible, or Escape has ended the drag
   drag.ratio *= ratio;
   drag.turned += turn;
   drag.angle = Math.abs(drag.turned) > SLACK ? drag.turned : 0;
@@ -55,7 +55,7 @@ function placeFigure(stage, ratio, turn) {
 export function takeFingers(stage) {
   takePinches(stage.element, {
     begin() {
-      stage.takeBack(); // the first finger alone must not change anything
+      stage.takeBack(); // undoes the drag of the first finger
       stage.release();
       const {placing} = stage.on;
       if (stage.tool === "place" && stage.about && placing.begin(stage.about.size_mm))

@@ -4,13 +4,13 @@ import {clamp} from "./controls.js";
 import {viewTurned} from "./directions.js";
 import {FREE_OUTLINES} from "./kinds.js";
 
-const LEAST = 1, MOST = 1e5; // mm of a figure's longer side
-const TURN_STEP = 1; // degrees
+const LEAST = 1, MOST = 1e5; // range of a figure's longer side in mm
+const TURN_STEP = 1; // in degrees
 
 const rounded = (x) => Number(x.toFixed(2));
 
 export class Placing {
-  // `shownWidth` returns the figure's longer side in mm, `setWidth` sets it, `say` shows a line to the user.
+  // `shownWidth` returns the longer side of the figure in mm, `setWidth` sets it, and `say` shows a line to the user.
   constructor({doc, entries, shownWidth, setWidth, say}) {
     Object.assign(this, {doc, entries, shownWidth, setWidth, say});
   }
@@ -19,8 +19,8 @@ export class Placing {
     return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
-  // Begins a movement on a piece of that size. A plate that is fitted to the figure first gets its present size as a
-  // fixed size, so that the figure can be placed on it. Returns whether the figure can be placed.
+  // Begins a movement on a piece of the given size. If the plate's size depends on the figure, the plate keeps its
+  // current size from now on, so that the figure can move on it. Returns whether the figure can be moved.
   begin([width, height]) {
     const {outline, diameter, plate, form, shift} = this.doc.now.options;
     if (this.entries.pending.length > 0)
@@ -35,21 +35,21 @@ export class Placing {
     return true;
   }
 
-  // Moves the figure from its place at the beginning by millimetres to the right and up in the picture.
+  // Moves the figure from its initial position by millimetres to the right and up in the picture.
   move(right, up) {
     const x = this.from[0] + (this.isMirrored ? -right : right), y = this.from[1] + up;
     const isMiddle = Math.hypot(x, y) < 0.2;
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
 
-  // Scales the figure to `factor` times `width`. The piece stays at its present size, `size`.
+  // Scales the figure to `factor` times `width`. The piece keeps its current `size`.
   scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
     if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");
-    this.setWidth(clamp(width * factor, LEAST, MOST)); // in the same stroke
+    this.setWidth(clamp(width * factor, LEAST, MOST)); // belongs to the same stroke
   }
 
-  // Turns the figure in the picture by degrees, positive ones to the left.
+  // Turns the figure in the picture by degrees, counterclockwise if positive.
   turn(degrees) {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
     if (angle === 0) return;
@@ -58,10 +58,10 @@ export class Placing {
     if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 
-  // Corrects a figure that does not fit its plate, in the step that left too little room. The first argument is the
-  // error of the newest picture; `shown` has the facts of the picture that is still shown. A figure that was moved too
-  // far returns to the shown place. A figure that is too large gets the largest width that fits or, if none fits, moves
-  // to the middle. Returns whether the error was one of these.
+  // Corrects a figure that does not fit its plate, in the step of the document that caused it. The first argument is
+  // the error of the newest picture; `shown` has the facts of the picture that is still shown. A figure that was moved
+  // too far returns to its shown position. A figure that is too large gets the largest width that fits; if no width
+  // fits, it moves to the centre of the plate. Returns whether the error was of this kind.
   fit({kind, input, message}, shown) {
     if (kind !== "option" || input !== "width") return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;

@@ -1,9 +1,9 @@
-// Shows the progress of the engine's work in the background, with the name of its stage.
+// Shows the progress of the engine's work in the background.
 
 import {about} from "./about.js";
 import {$} from "./controls.js";
 
-// `isAlone` is true while there is no relief to show.
+// `isAlone` is true while no relief is shown.
 export function showProgress({busy, stage, fraction = 0}, isAlone) {
   const box = $("#progress"), percent = Math.round(fraction * 100), name = about.stages[stage] ?? stage;
   box.hidden = !busy;

@@ -8,10 +8,10 @@ import {plainName} from "./kinds.js";
 import {sceneFile} from "./scene_panel.js";
 import {zipOf} from "./zip.js";
 
-// Returns whether one of several files is a scan or scene that names the others.
+// Returns whether one of several files is a scan or a scene that refers to the others.
 const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
 
-// Returns one file that contains a .gltf and the files that the .gltf names.
+// Returns one file that contains a .gltf and all files to which the .gltf refers.
 async function together(files) {
   const gltf = files.find(({name}) => /\.gltf$/i.test(name));
   if (!gltf) throw new Error("Several files at once: expected scans, or a .gltf with the files that it names.");
@@ -21,11 +21,12 @@ async function together(files) {
   return zipOf(files, gltf.name.replace(/gltf$/i, "zip"));
 }
 
-// Returns a picture that the engine does not read, as one that it does: browsers read JPEG and WebP.
+// Converts a JPEG or WebP picture, which browsers can read and the engine cannot, to a PNG. Returns other files
+// unchanged.
 async function readable(file) {
   if (!/\.(jpe?g|webp)$/i.test(file.name)) return file;
   const image = await createImageBitmap(file).catch(() => null);
-  if (!image) return file; // the engine says what it expects
+  if (!image) return file; // the engine will report what it expects
   const canvas = make("canvas", {width: image.width, height: image.height});
   canvas.getContext("2d").drawImage(image, 0, 0);
   const content = await new Promise((resolve) => canvas.toBlob(resolve));
@@ -33,8 +34,8 @@ async function readable(file) {
 }
 
 export class Projects {
-  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows a running upload or download;
-  // `rest()` shows the page when nothing is opened.
+  // `open(input, work)` shows a document, see OpenDocument. `take(promise)` shows that an upload or download is
+  // running. `rest()` shows the page when nothing is opened.
   constructor({engine, open, take, rest, failed}) {
     Object.assign(this, {engine, open, take, rest, failed});
     $("#locate").onchange = (event) => {
@@ -44,7 +45,7 @@ export class Projects {
     };
   }
 
-  // Opens dropped or chosen files: a project, a scan of one or several files, or several scans as a scene.
+  // Opens files that the user dropped or chose: a project, a scan in one or several files, or several scans as a scene.
   async openFiles(files) {
     if (!files.length) return null;
     const most = about.most_upload, tooLarge = files.find(({size}) => size > most);
@@ -75,7 +76,7 @@ export class Projects {
     this.askFor(project.input, work);
   }
 
-  // Asks the user for a scan that is missing.
+  // Asks the user where a missing scan is.
   askFor(input, work) {
     this.wanted = {input, work};
     this.rest();
@@ -92,8 +93,8 @@ export class Projects {
       () => this.open(input, work), Infinity, [["Locate another file", () => $("#locate").click()]]);
   }
 
-  // Saves the step that `promised` gives as a project file. First asks whether to include the scan, unless that is
-  // impossible.
+  // Saves the step that the promise `promised` gives as a project file. First asks whether to include the scan, if it
+  // can be included.
   save(input, promised) {
     const name = plainName(input), saveStep = async (isWithScan) => {
       try {

@@ -1,18 +1,18 @@
-// Marks on the slider the largest height that can be reached. If a height is out of reach, names the option that limits
-// it, with a button that loosens this option.
+// Marks the largest reachable height on the slider. If the wanted height is out of reach, names the option that limits
+// it, with a button that relaxes this option.
 
 import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle is first,
-// because without it the engine knows the largest height at once.
+// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle comes first:
+// without it, the engine knows the largest height at once.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
   {limit: "The tone curve", action: "Drop the tone curve", part: {tone: ""}},
 ];
-const WORTH = 1.02; // least factor of the height for an offer
+const WORTH = 1.02; // a change is offered if it allows a height larger by this factor
 
 export class Reach {
   constructor({engine, doc, slider, chooseView}) {
@@ -27,8 +27,8 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Call this with each picture of a model; a fine one comes when nothing moves. The largest height does not depend on
-  // the wanted height, so it is requested only when something else changes.
+  // Must be called with each picture of a model; a fine picture comes when nothing moves. The largest height does not
+  // depend on the wanted height, so it is requested again only when something else changes.
   async pictured(frame, isFine, model) {
     const isMissed = this.doc.now.isHeightLocked && !frame.is_height_met;
     this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(frame.height_mm)} high` : "");
@@ -36,7 +36,7 @@ export class Reach {
     if (frame.is_height_met) $("#reach").replaceChildren();
     if (this.doc.now.options.form === "lithophane") return this.clear(); // a lithophane can have any height
     const {height, ...rest} = shownOptions(this.doc.now), key = `${model} ${JSON.stringify(rest)}`;
-    const turn = ++this.turn; // an answer after the next picture is ignored
+    const turn = ++this.turn; // answers that arrive after the next picture are ignored
     if (key !== this.key) this.answer = this.engine.reach({...rest, height});
     this.key = key;
     try {
@@ -45,8 +45,8 @@ export class Reach {
       return turn === this.turn ? this.clear() : undefined; // another view is being prepared
     }
     if (turn !== this.turn) return;
-    // With a draft angle the picture may be too high, as it does not wait for the largest height under that angle. The
-    // mark then stays at that height: steps at depth jumps cannot raise it.
+    // With a draft angle the picture may be too high, because it does not wait until the largest height under that
+    // angle is known. The mark then shows that height, which steps at depth jumps cannot raise.
     const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
@@ -62,7 +62,7 @@ export class Reach {
       if (Object.entries(looser.part).every(isLoose)) continue;
       const changed = shownOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
       const reach = await this.engine.reach(changed).catch(() => null);
-      if (reach === null || turn !== this.turn) return; // another picture is shown, perhaps of another document
+      if (reach === null || turn !== this.turn) return; // the page shows another picture, perhaps of another document
       if (reach > this.reach * WORTH) {
         best = looser;
         break;

@@ -3,14 +3,14 @@
 import {$, clamp, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown, sizeText, withUnit} from "./lengths.js";
 
-const FEWEST = 6; // least pictures per second for showing their number
+const FEWEST = 6; // fewer pictures per second are not shown as a number
 
-let times = []; // of the pictures of the last second
+let times = []; // times of the pictures in the last second
 
-// Returns the size of a picture's piece, which is approximate until the piece is finished.
+// Returns the size of the piece in a picture as text. It is approximate until the piece is finished.
 const pieceText = ({size_mm: size, is_size_exact: isExact}) => `piece ${isExact ? "" : "≈ "}${sizeText(size)}`;
 
-// Shows the numbers that come with a picture. `height` is the height as text, and `facts` are those of the model.
+// Shows the numbers that come with a picture. `height` is a text, and `facts` has the facts about the model.
 export function showNumbers({about, ms, isFine, height, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
@@ -28,7 +28,7 @@ export function showNumbers({about, ms, isFine, height, facts}) {
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
-// Returns the parameters of a picture in the symbols of the paper.
+// Returns the parameters of a picture, named by the paper's symbols.
 export function paperWords({alpha, beta, u}, gamma) {
   const text = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString());
   const words = Object.entries({alpha, beta, gamma, u}).map(([name, value]) => `${name} ${text(value)}`);
@@ -50,9 +50,9 @@ function ticks(low, high, count) {
   return {all, decimals: Math.max(0, -Math.floor(Math.log10(step)))};
 }
 
-const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // pixels beside the chart at the usual size of type
+const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // margins of the chart in pixels, at the usual font size
 
-// Shows the heights along a line. `heights` is empty if the line misses the piece.
+// Shows the heights along a line. `heights` is empty if the line does not cross the piece.
 export function showSection(heights, from, to) {
   const svg = $("#section-chart"), box = svg.getBoundingClientRect();
   svg.replaceChildren();
@@ -81,9 +81,9 @@ export function showSection(heights, from, to) {
     `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
 }
 
-let pointed = null; // place of the pointer over the chart, kept as the chart is redrawn under it
+let pointed = null; // x coordinate of the pointer over the chart; kept while the chart is redrawn under the pointer
 
-// Shows the place of the pointer and the height of the section there, in the element `reading` of the chart.
+// Shows the pointer's position and the height of the section there, in the element `reading` of the chart.
 function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
   const show = () => {
     if (pointed === null) return reading.replaceChildren();

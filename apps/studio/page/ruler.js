@@ -1,14 +1,14 @@
-// Shows the scale of the picture: a bar of a round length in its corner. While the user measures or places the figure,
-// there are rulers along the picture's edges instead. They begin at the lower left corner of the piece.
+// Shows the scale of the picture: a bar of a round length in the picture's corner. While the user measures or moves the
+// figure, shows rulers along the picture's edges instead, which start at the lower left corner of the piece.
 
 import {make, scaleOfType} from "./controls.js";
 import {millimetresPerUnit, shortLength, shown} from "./lengths.js";
 
-const BAR = 150; // greatest length of the bar in pixels at the usual size of type
-const APART = 64, FINE = 6; // least pixels between numbers of a ruler, and between its strokes
+const BAR = 150; // greatest length of the bar in pixels, at the usual font size
+const APART = 64, FINE = 6; // least distance in pixels between the numbers of a ruler, and between its strokes
 const EDGE = 14, STROKE = 5;
 
-// Returns the largest of 1, 2, 5, 10 ... units that is at most `mm`, in mm.
+// Returns the largest of the lengths 1, 2, 5, 10 ... (in the page's unit) that is at most `mm`, in mm.
 function roundBelow(mm) {
   const units = mm / millimetresPerUnit(), power = 10 ** Math.floor(Math.log10(units));
   return [5, 2, 1].find((digit) => digit * power <= units * (1 + 1e-9)) * power * millimetresPerUnit();
@@ -20,8 +20,8 @@ function scaleBar({pixelsPerMm, size: {height}}) {
     make("text", {class: "scale", x: EDGE + 6, y: y - 6}, `${shortLength(mm)} ${shown.unit}`)];
 }
 
-// Returns the strokes of a ruler: the pixel of each, and its number or null. The ruler is `pixels` long, and its 0 is
-// at the pixel `zero`. It goes to the right or, if `sign` is -1, upwards.
+// Returns the strokes of a ruler: the pixel of each, and its number or null. The ruler is `pixels` long, and its zero
+// is at the pixel `zero`. Its numbers increase to the right or, if `sign` is -1, upwards.
 function strokes({pixelsPerMm}, zero, sign, pixels) {
   const step = 2 * roundBelow(APART * scaleOfType() / pixelsPerMm);
   const parts = [10, 5, 2, 1].find((n) => step * pixelsPerMm / n >= FINE), apart = sign * step / parts * pixelsPerMm;
@@ -31,7 +31,7 @@ function strokes({pixelsPerMm}, zero, sign, pixels) {
   return all;
 }
 
-// Returns the marks of the two rulers. Their numbers do not cover the piece, unless it fills the picture.
+// Returns the marks of the two rulers. The numbers do not cover the piece, unless it fills the picture.
 function rulers(stage) {
   const {size: {width, height}, about: {size_mm: [wide, high]}, camera} = stage, type = scaleOfType();
   const [left, bottom] = stage.toPixels([-wide / 2, -high / 2]), [, top] = stage.toPixels([0, high / 2]);
@@ -48,7 +48,7 @@ function rulers(stage) {
       make("text", {class: "scale", x: 2 * STROKE + 4, y: at + 4 * type}, number))];
 }
 
-// Returns the marks that show the size of the piece; none before there is a piece.
+// Returns the marks that show the size of the piece; none if there is no piece yet.
 export function scaleMarks(stage) {
   if (!stage.about) return [];
   return ["section", "measure", "place"].includes(stage.tool) ? rulers(stage) : scaleBar(stage);

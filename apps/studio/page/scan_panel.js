@@ -1,12 +1,14 @@
-// The panel shows the findings about a scan, each with its remedy, and has the controls for cropping and denoising it.
+// Shows the panel of a scan: notes about it, each with a button that changes the cause, and the controls for cropping
+// and denoising.
 
 import {$, make, pair} from "./controls.js";
 import {noteOn} from "./depth_panel.js";
 import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
-// The sides that can be cut away, each with its index in a crop's numbers, X0,Y0,X1,Y1,NEAR,FAR. The numbers are shares
-// of the model's box: from its left, from its bottom, and from its nearest point. A cut of 0 removes nothing.
+// The sides that the user can cut away, each with its index in the crop X0,Y0,X1,Y1,NEAR,FAR. The numbers of a crop are
+// fractions of the model's box, counted from its left side, from its bottom, and from its nearest point. A cut of 0
+// removes nothing.
 const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
 const MOST_CUT = 95; // percent
 
@@ -15,24 +17,24 @@ export const numbersOf = (crop) => WHOLE.map((otherwise, i) => {
   return number ? Number(number) : otherwise;
 });
 
-// Returns a crop as text; "" for the whole scan.
+// Returns a crop as the text of the option; "" for the whole scan.
 export function cropText(numbers) {
   const short = numbers.map((x) => Number(x.toFixed(3))), isDeep = short[4] !== 0 || short[5] !== 1;
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
 }
 
-// The labels of the notes' buttons, by the option and the value that they set.
+// Labels of the buttons of notes, by the option and the value that the button sets.
 const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
   "denoise 0": "Keep the noise"};
 
-// Returns whether a note is also shown beside the picture. This is so if something was removed from the picture, or if
-// something other than the figure fills it.
+// Returns whether a note also appears beside the picture: if something was removed from the picture, or if something
+// other than the figure fills it.
 const isOffered = ({option, short}) => Boolean(short) || ["crumbs", "plane"].includes(option);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
   make("input", {id: name, "data-option": name, type: "checkbox"}));
 
-// Returns the rows for the parts that the view leaves out of a scan.
+// Returns the controls for the parts of a scan that the preparation can leave out.
 const viewRows = () => [
   keepRow("crumbs", "Keep small pieces", "Pieces of less than 0.5 % of what is seen"),
   keepRow("plane", "Keep table, background",
@@ -63,7 +65,7 @@ export class ScanPanel {
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
     $("#remarks").onclick = () => this.open();
     $("#offers .close").onclick = () => {
-      this.hidden = this.offeredKey; // until there are other findings
+      this.hidden = this.offeredKey; // hides the offer until the notes change
       $("#offers").hidden = true;
     };
     $("#crop-picture").onclick = cropOnPicture;
@@ -90,7 +92,7 @@ export class ScanPanel {
     const isFar = WHOLE[at] === 1;
     numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
     this.doc.change({options: {crop: cropText(numbers)}});
-    this.shown = null; // so that show() also undoes a refused cut, which would remove everything
+    this.shown = null; // lets show() also reset a control whose cut was refused because it would remove everything
     this.show();
   }
 
@@ -110,7 +112,7 @@ export class ScanPanel {
   show() {
     const {crop, crumbs, plane, denoise} = this.doc.now.options;
     const key = [crop, crumbs, plane, denoise, this.facts?.noise].join();
-    if (key === this.shown) return; // this runs for each event of a drag
+    if (key === this.shown) return; // this method runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
     if (!isUnfinished($("#crop"))) $("#crop").value = crop;
@@ -122,7 +124,7 @@ export class ScanPanel {
       this.showCut(cut, 100 * (WHOLE[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
   }
 
-  // Shows the notes on the scan that `facts` has; none for null.
+  // Shows the notes on the scan in `facts`; none for null.
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];
@@ -137,7 +139,8 @@ export class ScanPanel {
     this.show();
   }
 
-  // Returns the notes to show: the remarks, and a note on kept small pieces, which the engine does not report.
+  // Returns the notes to show: the remarks of the engine, and a note on small pieces that were kept, which the engine
+  // does not report.
   notesOn({remarks, depth_image: depth}) {
     const {crumbs} = this.doc.now.options;
     const kept = {text: "Small pieces are kept.", option: "crumbs", value: "drop", label: "Leave them out"};

@@ -1,14 +1,14 @@
-// Shows the panel of a scene, with the turn and the size of each model. A change makes another scene file, which is
-// opened.
+// Shows the panel of a scene with the rotation and the size of each model. When the user changes one, makes a new scene
+// file and opens it.
 
 import {$, make, pair, textField} from "./controls.js";
 import {typedNumber} from "./lengths.js";
 
 const nameOf = (path) => path.split(/[/\\]/).at(-1);
 const TURN = {label: "Turn", unit: "°", min: -360, max: 360}, SIZE = {label: "Size", unit: "", min: 1, max: 10000};
-const MOST_NAMES = 3; // models in the name of a scene
+const MOST_NAMES = 3; // most models that the name of a scene mentions
 
-// Returns a scene file with the models, side by side unless they have places.
+// Returns a scene file with the models. Models without positions are placed side by side.
 export function sceneFile(models) {
   const names = models.slice(0, MOST_NAMES).map(({file}) => nameOf(file).replace(/\.[a-z0-9]+$/i, ""));
   const name = names.join(" + ") + (models.length > MOST_NAMES ? " + …" : "");
@@ -16,7 +16,7 @@ export function sceneFile(models) {
 }
 
 export class ScenePanel {
-  // `open(models)` shows the scene of other models; `say` shows a line to the user.
+  // `open(models)` shows a scene with other models. `say` shows a line to the user.
   constructor({open, say}) {
     Object.assign(this, {open, say, models: []});
   }

@@ -1,5 +1,5 @@
-// Makes rows for options that are shapes with parameters, such as "wave:height=3,length=40,hollow" or the tool
-// "v:60:0.5": a menu of the shapes, and a field for each parameter of the chosen shape.
+// Makes the controls of options whose value is a shape with parameters, such as "wave:height=3,length=40,hollow" or the
+// tool "v:60:0.5": a menu of the shapes, and a field for each parameter of the chosen shape.
 
 import {make, pair, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
@@ -15,7 +15,7 @@ const tip = ["tip", {label: "Tip", ...mm, otherwise: "sharp"}];
 
 const shape = (label, ...parameters) => ({label, parameters: new Map(parameters)});
 
-// The parameters of each shape, the same as the engine's.
+// The parameters of each shape. They must be those of the engine.
 export const SHAPES = {
   base: {
     plane: shape("Plane"), fold: shape("Fold", height, angle, direction, hollow),
@@ -30,17 +30,17 @@ export const SHAPES = {
   tool: {"": shape("None"), ball: shape("Ball end", diameter), flat: shape("Flat end", diameter),
     v: shape("V bit", angle, tip)},
 };
-// The first texts of the shapes that need a size.
+// The initial texts of shapes that need a size.
 export const FIRST_TEXTS = {ball: "ball:3", flat: "flat:3", v: "v:60"};
-const IMAGE = "image"; // the shape that is set by choosing a base image in its own row
-// The parameters that each parameter replaces, as they exclude each other.
+const IMAGE = "image"; // chosen by the control of the base's height map
+// Maps each parameter to those that it replaces, because a shape cannot have both.
 const REPLACED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
 
 // Returns the parameters of a shape; none for a shape that this page does not have.
 const parametersOf = (option, name) => SHAPES[option][name]?.parameters ?? new Map();
 
-// Returns the shape that a text names, and the values of its parameters as texts. A parameter without a value, such as
-// "hollow", has the value "". A comma before a digit is a decimal comma.
+// Returns the name of the shape in a text, and a map from its parameters to their values as texts. A parameter without
+// a value, such as "hollow", has the value "". A comma before a digit is a decimal comma.
 export function parseShape(option, text) {
   const [name] = text.split(":", 1), rest = text.slice(name.length + 1), names = [...parametersOf(option, name).keys()];
   const entries = option === "tool" ? rest.split(":").map((value, i) => [names[i], value])
@@ -56,8 +56,8 @@ function shapeText(option, {name, values}) {
 }
 
 export class ShapeRow {
-  // Calls take(change) with a function that turns the option's present text into its new one, and say(text) to show a
-  // line to the user.
+  // Calls take(change) when the user changes the option; `change` turns the current text of the option into the new
+  // one. Calls say(text) to show a line to the user.
   constructor({option, label, title, take, say}) {
     Object.assign(this, {option, label, take, say, fields: []});
     this.input = make("select", {id: option, "data-option": option, "aria-label": label},
@@ -91,7 +91,7 @@ export class ShapeRow {
     return {name, about, input};
   }
 
-  // Takes the entry, unless its value is invalid or another shape was chosen meanwhile.
+  // Takes the value of a field, unless it is invalid or the user has chosen another shape meanwhile.
   changed(name, about, input) {
     const {name: shape, text: shown} = this.shown, typed = input.value.trim(), {checked} = input;
     const value = about.isWord || typed === "" ? "" : typedNumber(typed, about, this.say);
@@ -102,8 +102,8 @@ export class ShapeRow {
   }
 }
 
-// Returns the text with another value of a parameter, or without the parameter if the value is null. A parameter that
-// the shape needs then gets its first value instead.
+// Returns the text of the option with a new value of a parameter, or without the parameter if the value is null. If the
+// shape needs the parameter, null gives it its initial value.
 function withParameter(option, text, parameter, value) {
   const {name, values} = parseShape(option, text);
   const needed = parseShape(option, FIRST_TEXTS[name] ?? name).values.get(parameter);
@@ -118,6 +118,6 @@ function showValue({about, input}, text) {
   else if (!isUnfinished(input)) input.value = text === undefined ? "" : valueText(about, text);
 }
 
-// Returns a value in an option's text as its field shows it. Lengths are in the page's unit.
+// Converts a value in the text of an option to the text of its field. Lengths are converted to the page's unit.
 const valueText = ({unit}, text) =>
   (unit === "mm" ? shortLength(parseLength(text)) : String(parseLength(text, false)));

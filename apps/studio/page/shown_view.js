@@ -1,21 +1,22 @@
-// Keeps the view of the shown model, and waits for a requested view. When no request is left, document, engine and
-// picture have the same view, even after requests of other pages, and after cancelled or refused requests.
+// Keeps the view of the shown model, and waits for a requested view. When no request is left, the document, the engine
+// and the picture have the same view, even after other tabs have requested views, or requests were cancelled or
+// refused.
 
 import {isSameView, optionsOf, viewOf} from "./opening.js";
 
 export class ShownView {
-  // Calls showDocument() when it has changed the document, and failed(error) when a request fails.
+  // Calls showDocument() after it has changed the document, and failed(error) when a request fails.
   constructor({doc, stage, opened, showDocument, failed}) {
     Object.assign(this, {doc, stage, opened, showDocument, failed});
     this.clear();
   }
 
-  // Begins another document, which has no model yet.
+  // Prepares for another document, which has no model yet.
   clear() {
-    this.view = null; // the view that was shown last while no other was requested
+    this.view = null; // the last view that was shown while no other view was requested
   }
 
-  // Requests the document's view.
+  // Requests the preparation of the document's view.
   choose() {
     return this.opened.chooseView().catch((error) => {
       if (error.kind === "option" && !this.opened.asked) this.restore();
@@ -23,8 +24,8 @@ export class ShownView {
     });
   }
 
-  // Waits for the view of a state that another page has kept. This is needed even if the model has this view, as
-  // another view may have been requested meanwhile.
+  // Waits for the view of a state that another tab has stored. This is needed even if the model already has this view,
+  // since yet another view may have been requested meanwhile.
   adopt() {
     const {view, stage, opened} = this;
     if (!view || (!stage.isAwaiting && isSameView(view, opened.wantedView(view)))) return;
@@ -32,7 +33,8 @@ export class ShownView {
     opened.ensureView().catch(this.failed);
   }
 
-  // Call this when a model is shown, with the status that announced it. The engine may have sent newer statuses since.
+  // Must be called when a model is shown, with the status that announced the model. The engine may have sent newer
+  // statuses since.
   arrived(status) {
     const newest = this.opened.status;
     if (!status.busy && !status.error) this.view ??= status.shown;
@@ -40,7 +42,7 @@ export class ShownView {
     if (newest.error && !newest.busy) this.restore();
   }
 
-  // Ends the wait when the model has the view that this or another page requested last.
+  // Ends the wait when the model has the view that any tab requested last.
   settle({busy, error, shown}) {
     if (busy || error || this.opened.asked) return;
     this.view = shown;
@@ -51,7 +53,7 @@ export class ShownView {
     if (this.stage.isAwaiting) this.stage.await(false);
   }
 
-  // Returns to the former view if another one was cancelled or could not be prepared.
+  // Restores the former view after another one was cancelled or could not be prepared.
   restore() {
     const former = this.view ?? this.opened.status.shown;
     this.stage.await(false);

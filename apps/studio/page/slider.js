@@ -4,7 +4,7 @@ import {Pause, clamp, make} from "./controls.js";
 import {finish, isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "./lengths.js";
 
-// Mappings between values and positions on a slider, both ways.
+// Mappings from values to positions on a slider, and back.
 export const spread = {
   linear: {to: (v, min, max) => (v - min) / (max - min), from: (p, min, max) => min + p * (max - min)},
   root: {to: (v, min, max) => Math.sqrt((v - min) / (max - min)), from: (p, min, max) => min + p * p * (max - min)},
@@ -12,35 +12,36 @@ export const spread = {
 };
 
 const STEPS = 1000, MOST_DECIMALS = 4;
-export const REST_MS = 400; // a movement by keys or the wheel ends after this pause
+export const REST_MS = 400; // pause after which a movement by keys or the wheel has ended
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 
-// Returns the next round value in a direction, which is the next multiple of a step. The step is a tenth of the value's
-// power of ten, and at least `least`. With `isFine` it is ten times smaller.
+// Returns the next multiple of a step in the given direction. The step is a tenth of the largest power of ten up to the
+// value, and at least `least`. With `isFine` it is ten times smaller.
 export function nextValue(value, direction, isFine, least) {
-  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // 10 goes down by 0.1
+  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // below 10 the step is 0.1
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
   const steps = value / step;
   return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
 }
 
-// Returns the number of decimals of a typed value; 0 for a computed value, which has more decimals than can be typed.
+// Returns the number of decimals of a typed value; 0 for a computed value, which has more decimals than a user can
+// type.
 function decimalsOf(value) {
   return value === Number(value.toFixed(MOST_DECIMALS)) ? `${value}`.split(".")[1]?.length ?? 0 : 0;
 }
 
-// A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
-// spread, help}: the slider spans `hand`, the number is from `min` to `max`, and a double click sets it to `otherwise`.
-// Calls onInput(value, isTyped) while the slider moves, onEnd() when a movement is over, and say(text) if a number is
-// refused.
+// A slider with a label and a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
+// spread, help}. The slider spans the range `hand`, the number field allows `min` to `max`, and a double click sets the
+// value `otherwise`. Calls onInput(value, isTyped) while the slider moves, onEnd() when a movement ends, and say(text)
+// if a number is refused.
 export class Slider {
   constructor(field, onInput, onEnd, say) {
     Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});
     this.value = this.otherwise;
     this.rest = new Pause(onEnd, REST_MS);
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
-    // The type is not "number", because browsers would read "1/8in" as 18 there, and could not read "2,5".
+    // The field does not have the type "number": browsers would read "1/8in" as 18, and could not read "2,5".
     this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});
     this.name = make("span", {class: "name", title: this.help}, this.label);
     this.shownUnit = make("span", {class: "unit", "aria-hidden": "true"});
@@ -56,7 +57,7 @@ export class Slider {
     return this.unit === "mm";
   }
 
-  // Shows the unit of lengths, which may have changed.
+  // Shows the page's unit of lengths, which may have changed.
   showUnit() {
     const unit = shownUnit(this.unit), scale = this.isLength ? millimetresPerUnit() : 1;
     const name = unit === "in" ? "inches" : this.unitName ?? unit;
@@ -83,7 +84,7 @@ export class Slider {
     this.range.onkeydown = (event) => this.step(event, FORWARDS);
   }
 
-  // Takes the typed number with all its decimals, even if the slider has fewer.
+  // Takes the typed number with all its decimals, even if the slider shows fewer.
   typed() {
     const value = typedNumber(this.number.value, this, this.say);
     if (value === null) this.show(this.value);
@@ -91,13 +92,13 @@ export class Slider {
     this.onEnd();
   }
 
-  // Restores the number from before the typing, after Escape.
+  // Restores the number that the field had before the user typed, after Escape.
   takeBack() {
     this.show(this.value);
     this.number.select();
   }
 
-  // The wheel moves the slider only if it has the focus. Over other sliders it scrolls the panel.
+  // The wheel moves the slider only if the slider has the focus. Otherwise it scrolls the panel.
   wheel(event) {
     if (this.range.disabled || event.ctrlKey || !this.element.contains(document.activeElement)) return;
     event.preventDefault();
@@ -106,7 +107,7 @@ export class Slider {
     this.rest.begin();
   }
 
-  // Changes the number by arrow keys to the next round one, with Shift in smaller steps.
+  // Changes the number by arrow keys to the next round number, or by smaller steps with Shift.
   step(event, directions) {
     const direction = directions[event.key];
     if (!direction) return;
@@ -130,13 +131,13 @@ export class Slider {
     this.onInput(now, isTyped);
   }
 
-  // Returns a value with the slider's own decimals, in millimetres for a length.
+  // Returns a value rounded to the slider's decimals. A length is rounded in the page's unit, and returned in mm.
   rounded(value) {
     const number = Number(this.text(value, this.decimals));
     return this.isLength ? Number((number * millimetresPerUnit()).toFixed(MOST_DECIMALS)) : number;
   }
 
-  // Returns the number as text. It has the slider's own decimals, or more if more were typed.
+  // Returns the number as text, with the slider's decimals, or with more if the user typed more.
   text(value, decimals = Math.max(this.decimals, decimalsOf(value))) {
     return this.isLength ? lengthText(value, decimals) : value.toFixed(decimals);
   }
@@ -151,21 +152,20 @@ export class Slider {
     if (!isUnfinished(this.number)) this.number.value = text;
   }
 
-  // Marks a value on the slider, such as the largest that can be reached, with a title. Removes the mark if the value
-  // is null.
+  // Marks a value on the slider, such as the largest reachable one, with a tip. Removes the mark if the value is null.
   showMark(value, title = "") {
     this.mark.hidden = value === null || value > this.hand[1];
     this.range.title = value === null ? "" : title; // the mark itself is too thin for a pointer
     if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
   }
 
-  // Marks the number as one that the piece does not have, with the reason as text; "" removes this mark.
+  // Marks the number as invalid, with the reason as a tip; "" removes the mark.
   complain(text) {
     this.number.title = text;
     this.number.setAttribute("aria-invalid", text !== "");
   }
 
-  // Disables the slider, with the reason as text; "" enables it again.
+  // Disables the slider, with the reason as a tip; "" enables it.
   disable(why) {
     this.range.disabled = this.number.disabled = Boolean(why);
     this.element.classList.toggle("disabled", Boolean(why));

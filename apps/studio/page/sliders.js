@@ -1,5 +1,5 @@
-// The page's sliders, which fields.js lists, with the button that locks the height, and the choice of the method. They
-// show the document's values and change them. slider.js has the control itself.
+// The sliders of the page, as listed in fields.js, with the button that locks the height and the menu of methods. They
+// show the values of the document and change them. slider.js has the class of a single slider.
 
 import {defaultOf, namesOf, optionOf} from "./about.js";
 import {$, make} from "./controls.js";
@@ -8,18 +8,17 @@ import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 import {Slider, lockButton} from "./slider.js";
 
-// The sliders for the shape of the heights, other than sizes. They do not apply to a lithophane, which is made from
-// light and colours.
+// The sliders for the relief's shape, except sizes. They have no effect on a lithophane, which is made from brightness.
 const SHAPING = namesOf("shape").filter((name) => FIELDS[name] && optionOf(name).unit !== "MM");
 
-// The largest width on the plate depends on these options.
+// The options on which the largest width on the plate depends.
 const PLATE = namesOf("plate");
 
-// Returns the changes of the document for a slider. For another height, u must be found again.
+// Returns the changes of the document for a slider. After a change of the height, u has to be computed again.
 const partOf = (name, value) => ({options: {[name]: value}, ...(name === "height" ? {u: null} : {})});
 
 export class Sliders {
-  // `frame` returns the numbers of the newest picture, or null; `say` shows a line to the user.
+  // `frame` returns the facts of the newest picture, or null. `say` shows a line to the user.
   constructor({doc, entries, frame, say}) {
     Object.assign(this, {doc, entries, frame, say});
     this.lock = lockButton(() => this.toggleLock());
@@ -35,14 +34,14 @@ export class Sliders {
     $("#method").onchange = (event) => this.changeMethod(event.target.value);
   }
 
-  // Returns the sliders' elements by the names of their options.
+  // Returns an object that maps names of options to the sliders' elements.
   get elements() {
     return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
   }
 
   shownWidth = () => Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
 
-  // Shows the width, and marks the largest one that fits into a plate of a given size.
+  // Shows the width, and marks the largest width that fits a plate of given size.
   showWidth() {
     const most = this.frame()?.most_width_mm ?? null;
     const {width} = this.all;
@@ -50,7 +49,7 @@ export class Sliders {
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
-  // Shows the height that one vertical scale gives.
+  // Shows the height that follows from the option mm-per-value.
   showScaled() {
     if (hasScale(this.doc.now) && this.frame()) this.all.height.show(this.frame().height_mm);
   }
@@ -62,23 +61,23 @@ export class Sliders {
     if (name === "width" && value > most && isTyped)
       this.say(`The plate leaves ${withUnit(most)} for the longer side: the figure is as large as that.`);
     if (name === "width") this.showWidth();
-    else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was taken back
+    else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was cancelled
   }
 
-  // Returns the largest width that fits into the plate; null if the plate has no given size or was changed since the
-  // newest picture.
+  // Returns the largest width that fits the plate; null if the plate has no given size, or if the plate was changed
+  // after the newest picture.
   mostWidth() {
     const {options: shown, most_width_mm: most} = this.frame() ?? {}, {options} = this.doc.now;
     return most && PLATE.every((name) => shown[name] === options[name]) ? most : null;
   }
 
-  // Takes a typed number when the earlier entries are taken.
+  // Takes a typed number after the earlier entries.
   enter(name, value) {
     this.all[name].show(value);
     this.entries.add({name, label: FIELDS[name].label, part: () => partOf(name, value)});
   }
 
-  // Changes the method. A soft outline with the old method's default gets the default of the new method.
+  // Changes the method. If the soft outline has the default of the old method, it gets that of the new one.
   changeMethod(method) {
     const {options} = this.doc.now;
     const isUntouched = options.boundary === defaultOf("boundary", options.method);

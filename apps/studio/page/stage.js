@@ -1,5 +1,5 @@
-// The relief in the middle of the page: shows the engine's pictures, and turns, lights and cuts the relief by mouse
-// and keys.
+// The stage shows the relief in the middle of the page: it requests pictures from the engine, and lets the user turn,
+// light and section the relief by mouse and keys.
 
 import {Comparing} from "./comparing.js";
 import {$, Pause, clamp, make, paint} from "./controls.js";
@@ -12,13 +12,13 @@ import {TOOLS, takeKey} from "./tools.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
-const REST_MS = 160; // pause without changes before the fine picture
-const FINISH_MS = 500; // pause without changes before the finished piece
-const MOST_PIXELS = 7.9e6; // a little less than the engine's limit; a window on a screen of 5,120 x 2,880 has more
+const REST_MS = 160; // time without changes until the fine picture is requested
+const FINISH_MS = 500; // time without changes until the finished piece is requested
+const MOST_PIXELS = 7.9e6; // just below the engine's limit; a window on a screen of 5,120 x 2,880 has more
 
 export class Stage {
   // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
-  // view of the document must be prepared again.
+  // view of the document has to be prepared again.
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
@@ -26,13 +26,13 @@ export class Stage {
     this.overlay = $("#overlay");
     this.camera = {...FRONT};
     this.tool = "light";
-    this.share = 1; // share of the pixels along a side that are drawn while things move
-    // States to be shown are numbered. `wanted` is the number of the newest state, `drawn` that of the last state of
-    // which a picture was drawn. The other three are the numbers of the last state for which a kind of picture is done,
-    // that is, was drawn or has failed: `shown` for any picture, `fine` for a fine one, `finished` for the last one,
-    // which shows the finished piece if one is wanted.
+    this.share = 1; // fraction of the pixels along each side that is drawn while the picture keeps changing
+    // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` that of the last
+    // state that was drawn. The other three are numbers of the last state for which a picture was drawn or has failed:
+    // `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which shows the
+    // finished piece if one is wanted.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
-    Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting` has the callbacks of rest()
+    Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // resting: the callbacks of rest()
     this.pause = new Pause(() => this.pump());
     this.measure = new Measure(this);
     this.comparing = new Comparing(this);
@@ -57,19 +57,19 @@ export class Stage {
   invalidate() {
     ++this.wanted;
     this.changedAt = performance.now();
-    this.unwanted?.abort(); // the request for a picture at rest
+    this.unwanted?.abort(); // aborts the request for a fine picture
     this.showBusy();
     this.pump();
   }
 
-  // Begins another scan, which has no pictures yet, and removes all marks of the former one.
+  // Prepares for another scan, which has no pictures yet, and removes all marks of the former one.
   clear() {
     Object.assign(this, {isReady: false, model: 0, about: null, line: null});
     this.measure.clear();
     this.drawOverlay();
   }
 
-  // Shows that another model is being prepared, and meanwhile a coarse relief of its view.
+  // Shows that another model is being prepared. Meanwhile shows a turned relief.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
     this.turning.await(isAwaiting);
@@ -82,8 +82,7 @@ export class Stage {
     if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
   }
 
-  // Waits until the last picture of the document's present state is shown, or cannot be drawn. Returns whether it is
-  // shown.
+  // Waits until the last picture of the document's current state is shown or has failed. Returns whether it is shown.
   async rest() {
     await new Promise((resolve) => {
       this.resting.push(resolve);
@@ -92,7 +91,7 @@ export class Stage {
     return this.drawn === this.wanted;
   }
 
-  // Requests the relief's next picture: one at a time, and always of the newest state.
+  // Requests the next picture of the relief. There is one request at a time, always for the newest state.
   async pump() {
     if (this.isBusy || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
@@ -113,11 +112,11 @@ export class Stage {
       else this.adapt(performance.now() - start);
       this.shown = this.drawn = number;
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
-      else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: try again after a pause
+      else if (isLast) this.changedAt = performance.now(); // another tab has cancelled it: try again after a pause
     } catch (error) {
       const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
       if (!isCancelled) this.shown = this.fine = this.finished = number;
-      if (!isCancelled && isNewest) this.on.failed(error); // ignore errors of older states
+      if (!isCancelled && isNewest) this.on.failed(error); // errors of older states do not matter
       if (isCancelled && isNewest) this.changedAt = performance.now(); // try again after a pause
     }
     this.isBusy = false;
@@ -126,8 +125,8 @@ export class Stage {
     this.pump();
   }
 
-  // Returns whether the picture shows the piece as in its file. A picture of a plain piece counts, too, if making the
-  // piece would delay other pictures.
+  // Returns whether the picture shows the piece as it is exported. A frame of a plain piece also counts if other
+  // pictures would have to wait while the piece is made.
   get isLikeFile() {
     return this.about?.is_finished || (this.about?.is_plain && !this.engine.drawsMeanwhile);
   }
@@ -138,26 +137,26 @@ export class Stage {
     return {width: Math.round(width * scale), height: Math.round(height * scale)};
   }
 
-  // Requests a picture of the newest state. The last picture of a state shows the piece as export makes it.
+  // Requests a picture of the newest state. The last picture of a state shows the piece as it is exported.
   ask(isFine, isLast) {
     const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
     const frame = this.isTable ? null : this.frame(request, this.unwanted?.signal);
     return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
   }
 
-  // Returns a picture of the newest state. Its facts include the document's options, and whether it shows the coarse
-  // relief of a view that is not prepared yet, which has another size.
+  // Returns a picture of the newest state. Its facts also have the document's options and `isTurned`: whether it shows
+  // the turned relief of a view that is not prepared yet. Such a relief has another size.
   async frame(request, signal) {
     const {options} = this.doc.now, {image, about} = await this.engine.frame(request, {signal});
     return {image, about: {...about, options, isTurned: Boolean(request.turned)}};
   }
 
-  // Draws the relief. While things move, the next picture is requested before this one is shown.
+  // Draws the relief. While the picture keeps changing, requests the next picture before it shows this one.
   async drawRelief(isFine, {model, changedAt, number, frame}) {
     const {image, about} = await frame;
-    if (!this.isReady || model !== this.model) return; // another document or view is shown meanwhile
+    if (!this.isReady || model !== this.model) return; // another document or view was opened meanwhile
     if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
-      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // the error is reported when this picture is drawn
+      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // reported when this picture is drawn
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -165,12 +164,12 @@ export class Stage {
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine);
-    // The tool and the document may have changed meanwhile. The next picture takes account of that.
+    // The tool and the document may have changed meanwhile. The next picture will show that.
     if (this.tool === "section" && this.line && this.about) await this.measure.cut(this.line);
     if (this.tool === "measure") this.measure.pictured();
   }
 
-  // Returns whether this picture needs more answers of the engine, so that the next one may not be requested yet.
+  // Returns whether this picture needs more answers of the engine, so that the next picture must not be requested yet.
   get waitsForPicture() {
     return this.comparing.isShown || ["section", "measure"].includes(this.tool);
   }
@@ -188,7 +187,7 @@ export class Stage {
     }
   }
 
-  // Draws slow frames with fewer pixels from now on, and quick ones with more.
+  // Reduces the number of pixels of later frames if frames are slow, and increases it if they are fast.
   adapt(ms) {
     const {slowMs} = this.engine;
     this.mean = this.mean ? 0.7 * this.mean + 0.3 * ms : ms;
@@ -222,7 +221,7 @@ export class Stage {
 
   // --------------------------------------------------------------------- section
 
-  // Returns heights in mm along a line.
+  // Returns the heights along a line, in mm.
   heights = (from, to) => this.engine.profile(this.request({from, to}));
 
   // ------------------------------------------------------------------- positions
@@ -286,7 +285,7 @@ export class Stage {
     if (isStepwise) Object.assign(drag, {x, y});
   }
 
-  // Sets the cursor, which shows whether a drag would move a line's end or the divider.
+  // Sets a cursor that shows whether a drag would move the end of a line or the divider.
   hover({offsetX: x, offsetY: y}) {
     const line = {section: this.line, measure: this.measure.line}[this.tool];
     this.element.classList.toggle("at-divider", this.comparing.isAt(x));
@@ -321,8 +320,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Takes back the changes of the running drag, and ignores the rest of the drag. Returns whether there were any
-  // changes.
+  // Undoes the changes of the running drag, and ignores the rest of it. Returns whether there were any changes.
   takeBack() {
     const isEnded = ["turn", "place"].includes(this.drag?.tool);
     if (isEnded) {
@@ -341,7 +339,7 @@ export class Stage {
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }
 
-  // Zooms around a pixel.
+  // Zooms, and keeps the point under a pixel where it is.
   zoomBy(factor, atX, atY) {
     const {camera} = this, zoom = clamp(camera.zoom * factor, 0.3, 40), rest = 1 - camera.zoom / zoom;
     const [x, y] = this.toPlace(atX, atY);

@@ -1,4 +1,4 @@
-// Shows the start page: samples, and the documents that were changed last, with their pictures.
+// Shows the start page: the samples, and the documents that were changed last, with their pictures.
 
 import {about, engine} from "./about.js";
 import {$, fileSize, make, sentence} from "./controls.js";
@@ -8,7 +8,7 @@ const sampleName = (name) => sentence(name).replaceAll("_", " ");
 
 export const nameOf = (input) => (input?.sample ? sampleName(input.sample) : input?.name ?? "");
 
-// Fills the shelf of samples; `open` takes an input.
+// Fills the shelf of samples. `open` opens an input.
 export function showSamples(open) {
   const card = ({name, description}) => make("button", {onclick: () => open({sample: name, name})},
     make("img", {src: engine.addressOf(`sample-${name}.jpg`), alt: "", width: 320, height: 200}),
@@ -16,16 +16,16 @@ export function showSamples(open) {
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
 
-export const START = "#start"; // at the end of the page's address: opens the start page first
+export const START = "#start"; // ends an address of the page that shows the start page first
 
-// Shows the picture of a document; an icon if it has none. Returns the image.
+// Shows the picture of a document, or an icon if it has none. Returns the image element.
 function showPicture(image, picture) {
   const source = picture || engine.addressOf("icon.svg");
   if (image.getAttribute("src") !== source) Object.assign(image, {src: source, className: picture ? "" : "none"});
   return image;
 }
 
-// The shelf of kept documents: opens them, removes them, and shows how much space they take.
+// The shelf of stored documents: opens and removes them, and shows how much space they take.
 export class Shelf {
   constructor({engine, opened, keeper, open, failed}) {
     Object.assign(this, {engine, opened, keeper, open, failed});
@@ -35,7 +35,7 @@ export class Shelf {
     const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.canRemove && engine.kept()]);
     $("#recent-shelf").hidden = recent.length === 0;
     const names = recent.map(({document, is_there: isThere}) => `${document} ${isThere}`).join();
-    if (names === this.names) // a card that is replaced between the press and the release of a button gets no click
+    if (names === this.names) // a card that is replaced while the mouse button is down gets no click
       recent.forEach(({picture}, i) => showPicture($("#recent").children[i].querySelector("img"), picture));
     else
       $("#recent").replaceChildren();
@@ -62,10 +62,10 @@ export class Shelf {
     return make("li", {}, open, ...(this.engine.canRemove ? [make("button", remove, "×")] : []));
   }
 
-  // Removes a document. If it is the shown one, the page is loaded again without it.
+  // Removes a document. If it is the shown one, loads the page again without it.
   async remove(document) {
     const {engine, opened, keeper} = this, isShown = document === opened.id;
-    if (isShown) opened.id = ""; // so that it is not kept again
+    if (isShown) opened.id = ""; // prevents that it is stored again
     try {
       await engine.remove(document);
     } catch (error) {
@@ -73,14 +73,14 @@ export class Shelf {
       throw error;
     }
     keeper.forget(document);
-    this.names = null; // so that the cards are made anew, as the document may be an older one
+    this.names = null; // forces new cards, since the list may now have an older document
     if (!isShown) return this.show();
     location.hash = START;
     location.reload();
   }
 }
 
-// Returns a text that says how much is kept, and for how long.
+// Returns a text that says how much is stored, and for how long.
 function inTotal({documents, bytes}, shown) {
   if (documents === 0) return "";
   const scans = documents === 1 ? "1 scan" : `${documents} scans`;
@@ -91,7 +91,7 @@ function inTotal({documents, bytes}, shown) {
 
 const WIDTH = 320, HEIGHT = 200;
 
-// Returns a small picture of a canvas as a data address; "" if there is nothing on it.
+// Returns a small picture of a canvas as a data URL; "" if the canvas is empty.
 export function smallPicture(canvas) {
   if (canvas.width < 2) return "";
   const small = make("canvas"), context = small.getContext("2d");

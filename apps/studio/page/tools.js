@@ -1,11 +1,11 @@
 // The tools of the picture, with their functions for drags and arrow keys. A tool has
 //   does                    description of a drag, for the label of the picture
 //   isLevel                 whether the tool shows the relief from the front
-//   isStepwise              whether move() gets each step since the last event
+//   isStepwise              whether move() gets the movement since the last event
 //   press(stage, event)     called when a drag begins
-//   move(stage, to)         called during a drag; `to` is {x, y, dx, dy, event}: the pointer's place and its movement
+//   move(stage, to)         called during a drag; `to` is {x, y, dx, dy, event}: the pointer's position and movement
 //   release(stage, drag)    called when a drag has ended
-//   step(stage, x, y)       called for arrow keys, with small steps for Shift
+//   step(stage, x, y)       called for arrow keys, with smaller steps if Shift is pressed
 
 import {ARROWS, clamp} from "./controls.js";
 import {angles, degrees, direction} from "./lights.js";
@@ -15,8 +15,8 @@ function setLight(stage, azimuth, elevation) {
   stage.doc.change({light}, "light");
 }
 
-// Sets the light by the position of the pointer. In the middle of the picture the light comes from the viewer, and
-// towards the rim it gets lower.
+// Sets the light by the position of the pointer. At the centre of the picture the light comes from the viewer; towards
+// the edge it gets lower.
 function lightFrom(stage, {x, y}) {
   const {width, height} = stage.size, radius = Math.min(width, height) / 2;
   const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
@@ -25,7 +25,8 @@ function lightFrom(stage, {x, y}) {
   stage.drawOverlay();
 }
 
-// Moves the figure. With Shift, turns it about its middle when the drag ends, as the model is then prepared again.
+// Moves the figure. With Shift, rotates it about its centre; the rotation is applied when the drag ends, because the
+// model must then be prepared again.
 function place(stage, {dx, dy, event}) {
   const {drag, pixelsPerMm} = stage, [x, y] = stage.toPixels(stage.figureMiddle());
   const angleAt = (px, py) => degrees(Math.atan2(y - py, px - x));
@@ -83,10 +84,10 @@ export const TOOLS = {
     move: (stage, to) => drawLine(stage, stage.measure.line, to, (line) => stage.measure.setLine(line)),
   },
   divider: {move: ({comparing}, {x}) => comparing.drag(x)},
-  none: {}, // for a drag that was taken back
+  none: {}, // for a drag that was cancelled
 };
 
-// Handles keys on the relief: arrows apply to the chosen tool, + and - zoom.
+// Handles keys on the relief: arrow keys apply to the chosen tool, + and - zoom.
 export function takeKey(stage, event) {
   const {width, height} = stage.size, step = ARROWS[event.key], size = event.shiftKey ? 0.2 : 1;
   if (event.key === "+") return stage.zoomBy(1.2, width / 2, height / 2);

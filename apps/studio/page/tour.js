@@ -1,4 +1,5 @@
-// Shows the tour: five steps that explain the parts of the page. No step covers the part that it explains.
+// Shows the tour: five steps that explain the parts of the page. The text of a step does not cover the part that it
+// explains.
 
 import {$, make} from "./controls.js";
 import {offer, toast} from "./messages.js";
@@ -14,7 +15,7 @@ const OFFER_MS = 30000;
 const GAP = 24, EDGE = 10;
 
 export class Tour {
-  // enter() shows the relief that the tour leads through, and returns whether there is one.
+  // enter() shows the relief for the tour, and returns whether there is one.
   constructor(enter) {
     this.enter = enter;
     this.text = make("p", {"aria-live": "polite"});
@@ -31,7 +32,7 @@ export class Tour {
     addEventListener("resize", () => !this.element.hidden && this.place());
   }
 
-  // Offers the tour once per browser, when the first scan is open. takeBack() ends the offer when the user begins to
+  // Offers the tour once per browser, when the first scan is open. takeBack() removes the offer when the user starts to
   // work.
   offer() {
     if (localStorage.getItem("toured")) return;
@@ -43,7 +44,7 @@ export class Tour {
   follow(dialog) {
     dialog.onclose = () => {
       if (dialog.returnValue === "tour") this.start();
-      dialog.returnValue = ""; // Escape would leave it unchanged
+      dialog.returnValue = ""; // Escape would leave the value unchanged
     };
   }
 
@@ -68,7 +69,7 @@ export class Tour {
     this.next.focus();
   }
 
-  // Places the text beside the explained part if there is room, otherwise over its lower end.
+  // Places the text beside the explained part if there is enough space, otherwise over the part's lower end.
   place() {
     $(STEPS[this.step].at).scrollIntoView({block: "nearest"});
     const part = $(STEPS[this.step].at).getBoundingClientRect(), own = this.element.getBoundingClientRect();

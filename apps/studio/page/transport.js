@@ -2,14 +2,14 @@
 
 import {CANCELLED, EngineError, cancelled} from "./engine.js";
 
-const ASK = "status?"; // message of a new tab to the tab with the stream
+const ASK = "status?"; // message of a new tab to the tab that has the stream
 
 async function errorIn(response) {
   try {
     const {error} = await response.json();
     if (error) return new EngineError(error);
   } catch {
-    // not JSON: the message gives the status only
+    // the body is not JSON: the message only states the status
   }
   return new EngineError({kind: "request", text: `The engine answered ${response.status}.`});
 }
@@ -29,7 +29,8 @@ async function send(path, options) {
 export class Transport {
   traits = {takesSeveral: false, drawsMeanwhile: true, canRemove: true, slowMs: 55};
 
-  // The body of an upload is the file alone, with the name in the address. The request "leave" outlives the page.
+  // The body of an upload is the file itself; its name is in the address. The request "leave" is sent even if the page
+  // closes.
   async call(name, request, {files: [file] = [], signal} = {}) {
     const path = file ? `api/${name}?name=${encodeURIComponent(file.name)}` : `api/${name}`;
     const body = file ?? JSON.stringify(request), keepalive = name === "leave";
@@ -42,16 +43,16 @@ export class Transport {
 
   addressOf = (file) => file;
 
-  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So only the tab
-  // with the lock opens the stream, and passes its events on to the others. When that tab is closed, another one gets
-  // the lock.
+  // A browser opens at most six connections to a server for all its tabs together, and a stream of events uses one of
+  // them. So only the tab that has the lock opens the stream, and passes the events on to the others. When that tab is
+  // closed, another one gets the lock.
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());
     tabs.onmessage = ({data}) => data !== ASK && take(data);
     tabs.postMessage(ASK);
     navigator.locks.request(location.pathname, () => {
-      const last = new Map(); // statuses by document, and the run's name under `undefined`
+      const last = new Map(); // the last status of each document, and the name of the run under `undefined`
       const pass = (status) => {
         if (!status || !status.document) last.clear();
         if (status) last.set(status.document, status);
@@ -64,7 +65,7 @@ export class Transport {
     });
   }
 
-  // A broken stream reconnects by itself; a refused one does not.
+  // A stream that breaks reconnects by itself. A stream that was refused does not, so it is opened again.
   listen(pass) {
     const source = new EventSource("api/events");
     source.onmessage = (event) => pass(JSON.parse(event.data));

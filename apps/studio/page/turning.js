@@ -1,13 +1,14 @@
-// Turns the model on the picture. A drag shows the relief from other sides. The view at its end becomes that of the
+// Turns the model on the picture. A drag shows the relief from other sides, and the last view becomes that of the
 // document.
 
 import {SIDES, directionsOf, optionsOf, turnedByHand} from "./directions.js";
 import {cross, dot, upright} from "./vectors.js";
 
-const NEAR = Math.cos(6 * Math.PI / 180); // views within 6 degrees of a side or of level snap to it
-const HALF_TURN = 0.9; // length of a drag for half a turn, as a share of the picture's shorter side
+const NEAR = Math.cos(6 * Math.PI / 180); // a view within 6 degrees of a side or of level snaps to it
+const HALF_TURN = 0.9; // drag length for half a turn, as a fraction of the picture's shorter side
 
-// Returns the side if the view is near to one; otherwise the view, without its roll if that is small.
+// Returns the nearest side if the view is close to it. Otherwise returns the view, without its roll if the roll is
+// small.
 function snapped({towards, up}) {
   for (const side of Object.values(SIDES)) {
     if (dot(side.towards, towards) < NEAR) continue;
@@ -25,7 +26,7 @@ function snapped({towards, up}) {
 export class Turning {
   constructor(stage) {
     this.stage = stage;
-    this.shown = null; // directions of a view that is shown but not prepared yet
+    this.shown = null; // directions of the shown view if it is not prepared yet
   }
 
   show(directions) {
@@ -33,7 +34,7 @@ export class Turning {
     this.stage.invalidate();
   }
 
-  // Shows a coarse relief of the document's view while that view is being prepared.
+  // Shows a turned relief in the document's view while that view is being prepared.
   await(isAwaiting) {
     if (this.stage.drag?.tool === "turn") return;
     this.shown = isAwaiting ? directionsOf(this.stage.doc.now.options) : null;
@@ -53,15 +54,15 @@ export class Turning {
     isRoll ? this.turn(0, 0, dx * scale) : this.turn(dx * scale, dy * scale);
   }
 
-  // Turns by keys: 10 degrees at a time.
+  // Turns the model by arrow keys, 10 degrees each time.
   step(x, y) {
     this.begin();
     this.turn(x * Math.PI / 18, -y * Math.PI / 18);
     this.end();
   }
 
-  // Sets the document's view to that at the end of the turning. If the document has this view already, requests it
-  // again while another one is being prepared.
+  // Sets the document's view to the last view of the turn. If the document has this view already, requests it again if
+  // another view is being prepared.
   end() {
     const {stage} = this, {doc} = stage;
     if (!this.shown) return;

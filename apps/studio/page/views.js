@@ -1,9 +1,9 @@
-// Shows the dialog in which the user chooses the view: by turning the model in space, or as one of the six sides.
+// Shows the dialog in which the user chooses the view: one of the six sides, or any view by turning the model.
 
 import {$, ARROWS, Pause, make, oneAtATime, paint} from "./controls.js";
 import {SIDES, directionsOf, optionsOf, turnedByHand, viewName} from "./directions.js";
 
-const SIDE = {width: 120, height: 90}; // pixels of the picture of a side
+const SIDE = {width: 120, height: 90}; // size of a side's picture in pixels
 
 export class ViewDialog {
   constructor(engine, onApply, onFailed) {
@@ -22,13 +22,13 @@ export class ViewDialog {
     this.listen();
   }
 
-  // Shows a picture of the document's view beside its name. The name alone may mislead: sides refer to the file's axes,
-  // and a figure may lie on its back in the file.
+  // Shows a picture of the document's view beside the view's name. The name alone may be misleading: sides refer to the
+  // axes of the file, and a figure may lie on its back in the file.
   async tell({options, input}, isThere) {
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");
     const key = isThere && directions ? JSON.stringify([directions, input]) : "";
-    if (key === this.told) return; // this runs for each event of a drag
+    if (key === this.told) return; // this method runs for each event of a drag
     this.told = key;
     picture.hidden = true;
     if (!key) return;
@@ -64,7 +64,7 @@ export class ViewDialog {
 
   turn = (...angles) => this.look(turnedByHand(this.view, ...angles));
 
-  // Draws the model quickly, and with more pixels after a pause.
+  // Draws the model quickly, and again with more pixels after a pause.
   async draw() {
     this.rest.end();
     await this.drawQuickly();

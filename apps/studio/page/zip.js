@@ -1,25 +1,25 @@
-// Packs files of the browser into an uncompressed ZIP archive, as the engine takes a scan as one file.
+// Packs files of the browser into an uncompressed ZIP archive, because the engine takes a scan as one file.
 
 const TABLE = Uint32Array.from({length: 256}, (_, value) => {
   for (let bit = 0; bit < 8; ++bit) value = value & 1 ? (value >>> 1) ^ 0xedb88320 : value >>> 1;
   return value;
 });
 
-// Returns the CRC-32 of bytes, as defined for ZIP and PNG.
+// Returns the CRC-32 of the bytes, as ZIP and PNG define it.
 function checksum(bytes) {
   let sum = 0xffffffff;
   for (const byte of bytes) sum = (sum >>> 8) ^ TABLE[(sum ^ byte) & 255];
   return ~sum >>> 0;
 }
 
-// Returns the bytes of numbers, [[number, size in bytes], ...], each with the least significant byte first.
+// Returns the bytes of numbers, [[number, size in bytes], ...], least significant byte first.
 const packed = (numbers) =>
   Uint8Array.from(numbers.flatMap(([number, size]) => Array.from({length: size}, (_, i) => number / 256 ** i & 255)));
 
-const LOCAL = 0x04034b50, CENTRAL = 0x02014b50, END = 0x06054b50; // the signatures of the format's records
-const VERSION = 20, UTF8 = 1 << 11, FIRST_DAY = 33; // 1 January 1980: the same date for every file
+const LOCAL = 0x04034b50, CENTRAL = 0x02014b50, END = 0x06054b50; // signatures of the records of a ZIP file
+const VERSION = 20, UTF8 = 1 << 11, FIRST_DAY = 33; // the date of every file is 1 January 1980
 
-// Returns an archive of the files, which must have less than 4 GiB together.
+// Returns an archive of the files, which together must be smaller than 4 GiB.
 export async function zipOf(files, name) {
   const parts = [], directory = [];
   let offset = 0, directorySize = 0;

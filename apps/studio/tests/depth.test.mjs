@@ -1,5 +1,5 @@
-// Tests depth pictures and photos on the page: what is left out of them is told, shown and put back, and projects keep
-// how they are read.
+// Tests depth images and photos on the page: the pixels that are left out are reported and shown, and can be put back.
+// Projects store how the images are read.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
@@ -34,7 +34,8 @@ async function show(file) {
   await untilReady(page);
 }
 
-// Returns the colour of a pixel of the picture of what is left out, at a place in shares of its sides.
+// Returns the colour of a pixel in the picture that shows the uses of pixels. x and y are fractions of its width and
+// height.
 const colourAt = (x, y) => page.locator("#depth-picture").evaluate((canvas, [x, y]) => {
   const {width, height} = canvas;
   return [...canvas.getContext("2d").getImageData(Math.floor(x * width), Math.floor(y * height), 1, 1).data.slice(0, 3)];
@@ -43,7 +44,7 @@ const isGrey = ([r, g, b]) => r === g && g === b;
 const colourOf = (name) => use(name).locator(".dot").evaluate((dot) =>
   getComputedStyle(dot).backgroundColor.match(/\d+/g).map(Number));
 
-// Saves the project without its scan, and returns the path of its file.
+// Saves the project without its scan. Returns the path of the project file.
 async function savedProject() {
   await button("Save project").click();
   await page.getByText("Settings alone").click();
@@ -54,7 +55,7 @@ async function savedProject() {
   return file;
 }
 
-// Makes a project by the command line. Returns the bytes of its solid, and what was printed.
+// Makes the relief of a project by the command line. Returns the bytes of the solid, and the printed text.
 function madeOf(project) {
   const solid = path.join(folder, "made.stl");
   const {status, stderr} = spawnSync(PROGRAM, ["make", project, "-o", solid]);
@@ -145,7 +146,7 @@ test("gives heights one vertical scale, whose height follows from the values", a
   await untilReady(page);
   await enter(row("mm-per-value"), "0.01");
   await enter(row("ground"), "700");
-  const highest = 1400; // of the values, up to rounding
+  const highest = 1400; // largest value, up to rounding
   await eventually(async () => {
     const height = Number((await numbers().innerText()).match(/height ([\d.]+)/)[1]);
     assert.ok(Math.abs(height - 0.01 * (highest - 700)) < 0.1, height);

@@ -1,4 +1,5 @@
-// Tests that engine and page keep a document for each scan, even through crashes, and that projects can contain scans.
+// Tests that the engine and the page keep a document for each scan, even after crashes, and that projects can contain
+// scans.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, statSync,
@@ -58,7 +59,7 @@ test("neither replaces a document that it cannot read, nor removes a scan then",
   assert.match(String(told.body), /expected a folder of the studio that can be read: /);
   assert.deepEqual([told.status, kept.status], [500, 500]);
   await other.stop();
-  other = await studioIn("unread"); // as it starts, it removes scans that no document needs
+  other = await studioIn("unread"); // at its start a studio removes scans that no document needs
   await other.stop();
   assert.ok(existsSync(input.path));
 });
@@ -70,13 +71,13 @@ test("is found at the same address after it was killed", async () => {
   assert.equal(second.address, first.address);
   await second.stop();
   for (const name of ["", "address.json", "documents"].filter((each) => existsSync(path.join(place, each))))
-    assert.equal(statSync(path.join(place, name)).mode & 0o077, 0, name); // other users must not reach the token
+    assert.equal(statSync(path.join(place, name)).mode & 0o077, 0, name); // other users must not read the token
   const other = await studioIn("elsewhere");
   assert.notEqual(other.url.pathname, first.url.pathname);
   await other.stop();
 });
 
-// A page that changes its document every few milliseconds.
+// Simulates a page that changes its document every few milliseconds.
 class ScriptedPage {
   constructor(document, storage) {
     Object.assign(this, {document, changed: 0, confirmed: 0});
@@ -122,7 +123,7 @@ class MapStorage extends Map {
   }
 }
 
-// Kills the engine `times` times in the middle of a session.
+// Kills the engine `times` times while the page sends changes.
 async function killAtRandom(place, times) {
   const document = "00000000000000aa", storage = new MapStorage(), page = new ScriptedPage(document, storage);
   const file = path.join(place, "documents", `${document}.json`);
@@ -134,9 +135,9 @@ async function killAtRandom(place, times) {
     const {confirmed} = page;
     await page.engine.stop("SIGKILL");
     await dragging;
-    const kept = JSON.parse(readFileSync(file, "utf8")); // the file is whole at whatever moment the engine was killed
+    const kept = JSON.parse(readFileSync(file, "utf8")); // the file is complete whenever the engine is killed
     assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
-    while (page.keeper.isSending) await sleep(5); // then the engine has the newest change, or the browser keeps it
+    while (page.keeper.isSending) await sleep(5); // then the engine or the browser has the newest change
     const copy = JSON.parse(storage.getItem(document) ?? "{}");
     assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // engine and page together lose nothing
   }
@@ -153,8 +154,8 @@ test("loses nothing that it has confirmed when it is killed, at 50 moments, and 
   await Promise.all(places.map((place) => killAtRandom(place, 10)));
 });
 
-// Simulates a drag, with a clock that is set by hand and an engine whose answers take `answerMs`. Returns the longest
-// time in ms for which a change was not sent, and how often the page sent changes.
+// Simulates a drag, with a clock that the test sets and an engine that takes `answerMs` to answer. Returns the longest
+// time in ms during which a change was not sent, and the number of requests.
 async function paceOfDrag(durationMs, answerMs) {
   const own = globalThis.setTimeout, storage = new MapStorage(), waiting = [];
   const due = () => waiting.filter(({at}) => at <= clock);
@@ -184,7 +185,8 @@ async function paceOfDrag(durationMs, answerMs) {
   return {longest, times};
 }
 
-// If the engine is killed, it loses at most the changes of the last 100 ms, or of its last answer if that took longer.
+// An engine that is killed loses at most the changes of the last 100 ms, or those since its last answer if that took
+// longer.
 test("sends what a drag changes every 60 ms, so that 100 ms are lost at most", async () => {
   for (const answerMs of [0, 10, 30]) {
     const {longest, times} = await paceOfDrag(3000, answerMs);
@@ -223,7 +225,7 @@ test("packs a scan into a project, from which make and another machine make the 
   assert.deepEqual(unpacked.studio, project.studio);
   const asked = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(asked.is_there, false);
-  project.input.hash = unpacked.input.hash; // by this hash the engine finds the scan among its unpacked ones
+  project.input.hash = unpacked.input.hash; // the engine finds the unpacked scan by this hash
   const found = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(found.input.path, unpacked.input.path);
   for (let cut = 0; cut < saved.body.length; cut += Math.ceil(saved.body.length / 40))
@@ -257,7 +259,7 @@ test("packs the height map of a base, and keeps it with the document", async () 
   const {input, options: {"base-image": unpacked}} = await other.upload("p.relievo", readFileSync(packed), "project");
   assert.ok(readFileSync(unpacked).equals(readFileSync(map)));
   const {document} = await other.json("document", {input});
-  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // undo leads back to the image
+  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // undo restores the image
   await keep(other, document, {version: 1, changed: 5, at: 1, steps});
   await other.stop();
   const next = await studioIn("based");
@@ -274,7 +276,7 @@ test("keeps every document with its scan until it is removed, and says how much 
     await keep(other, ids[i], stateOf(inputs[i], 3, 5));
   }
   const models = [{file: inputs[0].path}, {file: inputs[1].path}];
-  const lost = await dropped(other, "lost.xyz", "0 0 1\n"); // no document of this scan is kept
+  const lost = await dropped(other, "lost.xyz", "0 0 1\n"); // a scan without a stored document
   const scene = await dropped(other, "scene.json", JSON.stringify({models}));
   const ofScene = (await other.json("document", {input: scene})).document;
   await keep(other, ofScene, stateOf(scene, 3, 5));
@@ -301,7 +303,7 @@ test("keeps every document with its scan until it is removed, and says how much 
   assert.equal(await remove(ids[3]), 200);
   await other.post("open", {input: inputs[4], tab: "crashed"});
   assert.equal(await remove(ids[4]), 409);
-  // The engine knows only the newest 64 tabs, so it forgets the crashed tab.
+  // The engine knows only the newest 64 tabs, so it forgets the tab that crashed.
   for (let i = 0; i < 64; ++i) await other.post("open", {input: inputs[5], tab: `${i}`});
   assert.equal(await remove(ids[4]), 200);
   assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);
@@ -342,7 +344,7 @@ test("lists a document while its scan is being opened, before anything of it is 
   await other.stop();
 });
 
-// LD_PRELOAD loads a library that replaces fsync() by a function that waits until the file GO exists.
+// Tests with a slow disk: LD_PRELOAD replaces fsync() by a function that waits until the file GO exists.
 test("follows the engine while the disk takes its time", async (t) => {
   const source = path.join(folder, "fsync.c"), library = path.join(folder, "fsync.so"), go = path.join(folder, "go");
   writeFileSync(source, `#include <stdlib.h>\n#include <unistd.h>\n#include <sys/syscall.h>
@@ -356,7 +358,7 @@ int fsync(int file) { while (access(getenv("GO"), F_OK)) usleep(5000); return sy
   const {document} = await other.json("document", {input: {path: scan}});
   rmSync(go);
   const answers = [], kept = keep(other, document, stateOf({path: scan}, 1, 1)).then(() => answers.push("kept"));
-  await sleep(200); // until the engine waits for the disk
+  await sleep(200); // by then the engine waits for the disk
   const events = http.get(`${other.address}api/events`), heard = new Promise((resolve) =>
     events.on("response", (stream) => stream.on("data", (data) => String(data).includes(document) && resolve())));
   const late = sleep(30000).then(() => answers.push("late"));
@@ -384,13 +386,13 @@ test("shows several documents at once, each with its own scan, settings and file
   for (const document of ids) assert.equal((await frame(document)).status, 200);
   await engine.post("leave", {tab: "tab0"});
   for (const sample of ["still_life"]) await engine.post("open", {input: {sample}, tab: "tab1"});
-  assert.equal((await frame(ids[1])).status, 200); // the newest document that no tab shows stays open
+  assert.equal((await frame(ids[1])).status, 200); // the newest document without a tab stays open
   const closed = await frame(ids[0]);
   assert.equal(closed.status, 409);
   assert.equal(JSON.parse(closed.body).error.kind, "closed");
 });
 
-// Fills the disk of a folder with one file, and returns its path.
+// Fills a disk with one file in it, and returns the file's path.
 function fill(disk) {
   const file = path.join(disk, "full"), to = openSync(file, "w");
   assert.throws(() => {

@@ -1,4 +1,4 @@
-// Starts the engine of a suite, and has functions for requests and files that several suites need.
+// Starts the engine of a test suite, and provides functions for requests and files.
 import assert from "node:assert/strict";
 import net from "node:net";
 import path from "node:path";
@@ -11,8 +11,8 @@ export let engine;
 export const OPTIONS = {width: 60, height: 2, view: "front"};
 export const FRAME = {options: OPTIONS, width: 200, height: 150};
 
-// Gives the suite an engine and a scan: a sample with `points` points. `begin` prepares everything else for the tests;
-// by default it opens the scan.
+// Gives the suite an engine and a scan, which is a sample of `points` points. `begin` prepares everything else for the
+// tests; by default it opens the scan.
 export function withEngine(sample, points, begin = () => engine.open({path: scan})) {
   before(async () => {
     writeSample(sample, points, scan);
@@ -22,7 +22,7 @@ export function withEngine(sample, points, begin = () => engine.open({path: scan
   after(() => engine?.stop());
 }
 
-// Starts another studio, whose state folder has the given name.
+// Starts another studio. `name` is the name of its state folder.
 export const studioIn = (name, ...args) => new EngineProcess(path.join(folder, name), ...args).ready();
 
 export function connect() {
@@ -31,7 +31,7 @@ export function connect() {
   return socket;
 }
 
-// Returns a request's first line and its header Host.
+// Returns the first line of a request and its header Host.
 export const head = (place, method = "POST", {pathname, host} = engine.url) =>
   `${method} ${pathname}${place} HTTP/1.1\r\nHost: ${host}\r\n`;
 

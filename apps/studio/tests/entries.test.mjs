@@ -1,4 +1,5 @@
-// Tests that entries are taken in the order in which they are typed and chosen. Exports and projects wait for them.
+// Tests that the page takes entries in the order in which the user types and chooses them, and that exports and
+// projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, openExport, option,
@@ -7,7 +8,7 @@ import {enter, eventually, holdRequests, openPanels, readStl, savedFiles, type, 
   writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
-let tried; // requests that try entries, held back until release()
+let tried; // requests that try entries and wait for release()
 
 withPage("green_man", 4000, () => chooseResolution());
 
@@ -63,7 +64,7 @@ for (const [how, press] of Object.entries({
     await press();
     const [{bytes}] = await files();
     assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
-    await type(option("height"), "1.25"); // types into the number beside a slider
+    await type(option("height"), "1.25"); // height is the number beside a slider
     await press();
     await page.locator("#export-size").getByText(/triangles$/).waitFor();
     await soon.match(() => page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
@@ -109,7 +110,7 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   const plateWidthAndRim = () => Promise.all(["plate", "width", "rim"].map(value));
   await soon.deepEqual(plateWidthAndRim, ["abc", "90.0", "2"]);
   await release();
-  await page.getByText(/^Plate size: expected/).waitFor(); // the rim width, typed after the refused size, is taken
+  await page.getByText(/^Plate size: expected/).waitFor(); // the entry after the refused one is taken
   await soon.deepEqual(plateWidthAndRim, ["200x150", "90.0", "2"]);
   await undo();
   await soon.equal(() => value("rim"), "");
@@ -132,7 +133,7 @@ test("takes a kind, and what is typed for it, after the entries before", async (
   await soon.ok(() => kind("Coin").isChecked());
   await kind("Plaque").click();
   await soon.equal(() => value("plate"), "140x110");
-  await kind("Lithophane").click(); // a lithophane's plate begins with the plaque's size
+  await kind("Lithophane").click(); // the plate of a lithophane begins with the size of the plaque
   await soon.equal(() => value("plate"), "140x110");
   await free();
 });
@@ -165,7 +166,7 @@ test("keeps a height that is typed while the picture of the one before is drawn,
   await letGo();
   assert.equal((await next).postDataJSON().options.height, 4);
   await untilReady(page);
-  assert.ok(Math.abs((await value("height")) - 4) < 0.2); // without a lock it is met roughly; it was 3.2
+  assert.ok(Math.abs((await value("height")) - 4) < 0.2); // it was 3.2; without a lock it is only roughly kept
   assert.match(await option("height").inputValue(), /^\d+\.\d\d$/);
   await free();
 });
@@ -181,7 +182,7 @@ test("goes on with what is being typed while the panel of another kind comes", a
   await page.keyboard.type("75");
   await page.keyboard.press("Enter");
   await soon.equal(() => value("thickness"), "2.75");
-  await page.locator("#kind-rows").getByLabel("Rim width").waitFor(); // the panel shows the coin's fields
+  await page.locator("#kind-rows").getByLabel("Rim width").waitFor(); // the panel now shows the fields of a coin
   await free();
 });
 
@@ -202,7 +203,7 @@ test("makes the piece of an export that is opened right after another one was gi
   await page.locator("#export").click();
   await page.locator("#export-size").getByText(/triangles$/).waitFor();
   await page.evaluate(() => {
-    document.querySelector("#export-cancel").click(); // the page receives this event later
+    document.querySelector("#export-cancel").click(); // the page receives the dialog's close event later
     document.querySelector("#export").click();
   });
   await files();

@@ -1,11 +1,11 @@
-// Tests that exports show their progress, and that a cancelled export leaves no work and no file behind.
+// Tests that exports show their progress, and that a cancelled export leaves no running work and no file.
 import assert from "node:assert/strict";
 import {button, engine, exportDialog as dialog, page, set, soon, test, withPage} from "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 withPage("still_life", 8000, async () => {
-  await button("Light table").click(); // this material shows no finished piece, so only exports make one
-  await enter(page.locator("#resolution"), "0.07"); // such a fine piece takes seconds
+  await button("Light table").click(); // the light table shows no finished piece, so only an export makes one
+  await enter(page.locator("#resolution"), "0.07"); // making such a fine piece takes seconds
   await untilReady(page);
   await page.evaluate(() => {
     window.seen = [];
@@ -29,7 +29,7 @@ async function cancel() {
 
 test("shows how far a piece has come", async () => {
   let seen = [];
-  for (let i = 0; i < 3 && seen.length === 0; ++i) { // repeated, as a busy browser may miss all values
+  for (let i = 0; i < 3 && seen.length === 0; ++i) { // repeated, since a busy browser may miss all values
     await enter(page.locator("#resolution"), String(0.07 - 0.005 * i));
     await untilReady(page);
     await open();
@@ -41,16 +41,16 @@ test("shows how far a piece has come", async () => {
 });
 
 test("ends the engine's work when it is cancelled, and saves no file of it", async () => {
-  await set("Height in mm", 4); // the piece of this height has not been made yet
+  await set("Height in mm", 4); // no piece of this height has been made yet
   await untilReady(page);
   await open();
   await eventually(async () => assert.notEqual(await making(), ""));
   await cancel();
   await open();
   await dialog().getByText(/triangles/).waitFor();
-  await dialog().getByRole("button", {name: "Export"}).click(); // begins to write the file
+  await dialog().getByRole("button", {name: "Export"}).click(); // starts to write the file
   await cancel();
-  await enter(page.locator("#resolution"), "2"); // another file, exported after the cancelled one
+  await enter(page.locator("#resolution"), "2"); // the export after the cancelled one makes another file
   await untilReady(page);
   await open();
   await dialog().getByText(/triangles/).waitFor();

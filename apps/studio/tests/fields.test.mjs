@@ -30,8 +30,8 @@ test("steps by round numbers with arrow keys", async () => {
   await slider("Steepest wall").press("ArrowRight");
 });
 
-// Drags from the middle of an element and presses Escape. That takes back the change of the value, and the rest of the
-// drag changes nothing.
+// Drags from the centre of an element and presses Escape. This must restore the value, and the rest of the drag must
+// change nothing.
 async function takesDragBack(locator, value, [dx, dy]) {
   const before = await value(), [x, y] = await middleOf(locator);
   await press([x, y], [x + dx, y + dy]);
@@ -105,7 +105,7 @@ test("keeps the figure's size on another plate, as long as it fits", async () =>
   await page.getByText("The figure was too large for its plate: now it is as large as fits.").waitFor();
   await untilPiece("60.00 × 50.00");
   await soon.ok(async () => (await longer()) < 50);
-  await enter(shift, "45,0"); // farther than the plate's edge
+  await enter(shift, "45,0"); // beyond the plate's edge
   await page.getByText("The plate has no room for the figure there: it stays where it is.").waitFor();
   await soon.equal(() => shift.inputValue(), "");
   await undo(2);
@@ -145,7 +145,7 @@ test("takes back what no piece can be made of", async () => {
 test("says why an entry is refused until the next one is taken, even one that changes nothing", async () => {
   const option = labelled, refused = (text) => toast().getByText(text).waitFor();
   const untilGone = () => toast().waitFor({state: "hidden"});
-  await page.evaluate(ignoreTimers, 8000); // messages would disappear by themselves after 8 s
+  await page.evaluate(ignoreTimers, 8000); // messages would disappear after 8 s
   await set("Height in mm", 5);
   await set("Height in mm", "high");
   await refused("Height: expected a number");
@@ -164,7 +164,7 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await enter(option("Margin in mm"), "5");
   await untilGone();
   await option("Outline").selectOption("hexagon");
-  await untilTaken(); // figures can be moved only then
+  await untilTaken(); // before that, the figure cannot be moved
   await radio("Place").click();
   await page.locator("#stage").click();
   await refused("Give the plate a size first: then the figure can be moved on it.");
@@ -213,11 +213,11 @@ test("knows what a draft angle allows, and exports no piece that cannot be made"
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e");
   await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
-  const height = new RegExp(`relief ${parseFloat(reached)}\\d* mm high,`); // the dialog has more digits
+  const height = new RegExp(`relief ${parseFloat(reached)}\\d* mm high,`); // the dialog shows more digits
   await soon.ok(() => dialog.getByText(height).isVisible());
   await soon.ok(() => button("Export", dialog).isEnabled());
   await button("Cancel", dialog).click();
-  const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // leans by more than the draft angle of 60 degrees
+  const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // more than the draft angle of 60 degrees needs
   await enter(option("Rim width"), (bevel + 1).toFixed(2));
   await enter(option("Rim bevel"), bevel.toFixed(2));
   await untilReady(page);
@@ -305,7 +305,7 @@ test("exports when Enter is pressed", async () => {
 test("says what was saved of an export that is cancelled", async () => {
   const dialog = exportDialog();
   let asked = 0;
-  await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // only the first file arrives
+  await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // lets only the first file pass
   for (const [written, saved] of [["2 of 2", "Saved: scan.stl."], ["1 of 2", "Nothing was saved."]]) {
     await openExport();
     await dialog.getByRole("checkbox", {name: /^3MF/}).check();
@@ -321,7 +321,7 @@ test("says what was saved of an export that is cancelled", async () => {
 const marked = async () => (await page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/)
   .getAttribute("title")).match(/[\d.]+ mm/)[0];
 
-// Returns the height and the thickness that the status line and the export dialog show.
+// Returns the height and the thickness in the status line and in the export dialog.
 async function toldSizes() {
   await untilReady(page);
   const shown = (await page.locator("#numbers").innerText()).match(/height ([\d.]+).*× ([\d.]+) mm/).slice(1);
@@ -335,7 +335,7 @@ test("tells the same height and thickness everywhere", async () => {
   await set("Height in mm", 3.175);
   await soon.equal(() => text("Height in mm"), "3.175");
   await untilTold(/height 3\.175 mm/);
-  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // only the plate, below the relief
+  await soon.equal(() => text("Plate thickness in mm"), "3.0"); // the thickness of the plate below the relief
   await soon.deepEqual(() => toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
   await radio("Measure").click();
   await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
@@ -361,7 +361,7 @@ test("marks the height that can be reached, and loosens what limits it", async (
   await soon.equal(() => field("Height in mm").getAttribute("aria-invalid"), "true");
   const reached = (await reach().innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
-  await page.keyboard.press("Control+e"); // the file does not have the height that was asked for
+  await page.keyboard.press("Control+e"); // the file will not have the requested height
   await exportDialog().getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
   await button("Cancel", exportDialog()).click();
   await button("Allow steeper walls").click();
@@ -371,7 +371,7 @@ test("marks the height that can be reached, and loosens what limits it", async (
 });
 
 test("marks the height that the view reaches which is shown", async () => {
-  await set("Height in mm", 3); // well within reach
+  await set("Height in mm", 3); // easily reached
   await untilReady(page);
   const front = await marked();
   for (const view of ["Left", "Front"]) {
@@ -444,7 +444,7 @@ test("shows no mark of the piece before while another scan opens", async () => {
   await page.locator("#file").setInputFiles(other);
   await page.getByText("other.ply", {exact: true}).waitFor();
   await soon.equal(() => marks(), 0);
-  await page.locator("#stage").click({position: {x: 30, y: 30}}); // there is nothing to move yet
+  await page.locator("#stage").click({position: {x: 30, y: 30}}); // there is no figure to move yet
   await page.mouse.wheel(0, 100);
   await page.locator("#stage").press("ArrowLeft");
   await eventually(() => open());

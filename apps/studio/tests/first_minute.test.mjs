@@ -1,5 +1,5 @@
-// Tests the first minute with a scan: the kinds of work to choose from, the tour, the findings about the scan, and
-// several files as one scene.
+// Tests the first minute with a scan: choosing a kind of work, the tour, the notes about the scan, and several files as
+// one scene.
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
@@ -23,14 +23,14 @@ const kind = radio;
 const offered = (name) => page.getByRole("group", {name: "Found on the scan"}).getByRole("button", {name});
 const note = (text) => page.locator("#notes").getByText(text);
 
-// Opens a scan in a page, and waits until its relief is there.
+// Opens a scan in a page, and waits until its relief is shown.
 async function openScan(file, points, of = page) {
   await of.locator("#file").setInputFiles(file);
   await of.getByText(`of ${points} points`).waitFor();
   await untilReady(of);
 }
 
-// Returns, for the picture of each kind, the number of pixels that are not empty and the sum of their colours.
+// Returns the number of non-empty pixels and the sum of their colours, for the picture of each kind of work.
 const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.map((canvas) => {
   const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
   let shown = 0, sum = 0;
@@ -90,7 +90,7 @@ test("takes no click before its program has begun, and none is lost", async () =
   const isHit = () => other.evaluate(({x, y, width, height}) =>
     document.querySelector("#help").contains(document.elementFromPoint(x + width / 2, y + height / 2)), box);
   await soon.equal(() => isHit(), false);
-  const clicked = button("Help", other).click(); // Playwright waits until the button takes clicks
+  const clicked = button("Help", other).click(); // Playwright waits until the button can be clicked
   begin();
   await clicked;
   await button("Take the tour", other).waitFor();
@@ -117,7 +117,7 @@ test("shows nothing of the document on the start page, and changes nothing there
 
 test("offers the tour no longer to whoever begins to work", async () => {
   const other = await (await browser.newContext()).newPage();
-  await other.addInitScript(ignoreTimers, 30000); // the offer would disappear by itself after 30 s
+  await other.addInitScript(ignoreTimers, 30000); // the offer would disappear after 30 s
   await other.goto(engine.address);
   const offered = button("Show me", other);
   await offered.waitFor();
@@ -129,7 +129,7 @@ test("offers the tour no longer to whoever begins to work", async () => {
   await other.close();
 });
 
-// The page learns by a request for facts that the exact relief is there. This request is held back here.
+// The page learns from its request for facts that the exact relief is ready. The test holds this request back.
 test("shows the kinds of work before the exact relief is there", async () => {
   const other = await page.context().newPage(), letGo = await holdRequests(other, "**/api/facts");
   const large = path.join(folder, "large.ply");
@@ -247,7 +247,7 @@ test("shows first, with each kind, the controls that matter for it", async () =>
   }
   await kind("Coin").click();
   const answered = page.waitForResponse("**/api/check");
-  await outline.selectOption("hexagon"); // a medal with another outline stays a medal
+  await outline.selectOption("hexagon"); // a medal with another outline is still a medal
   await answered;
   await page.locator('#kind-rows [aria-busy="true"]').waitFor({state: "detached"}); // the page has taken the outline
   await soon.equal(() => outline.inputValue(), "hexagon");
@@ -339,7 +339,7 @@ test("colours on the piece what a tool leaves standing", async () => {
   await page.getByText(/^The tool reaches [\d.]+ % of the front, and leaves up to [\d.]+ mm/).waitFor();
   let marked;
   await eventually(async () => assert.ok((marked = await orange()) > before + 5000, `${marked} after ${before}`));
-  await radio("Orbit").click(); // the marked parts stay orange in every view
+  await radio("Orbit").click(); // the parts with notes stay orange in every view
   await page.locator("#stage").focus();
   for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
   await untilReady(page);
@@ -367,7 +367,7 @@ test("moves, scales and turns the figure on its plate by hand", async () => {
   assert.ok(right > 2 && up > 1, `${right},${up}`);
   await soon.deepEqual(() => pieceSize(), before, "the plate stays as large as it was");
   await soon.equal(() => page.locator("#toast").getByText(/expected/).count(), 0);
-  const kept = await longer(); // the next drag goes too far: the figure stays on the plate and keeps its size
+  const kept = await longer(); // the next drag goes too far, so the figure returns to the plate and keeps its size
   await drag([x + 30, y - 20], ...[100, 200, 300, 400].map((across) => [x + across, y - 20]));
   await untilReady(page);
   await soon.equal(() => longer(), kept);
@@ -402,13 +402,14 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await page.getByText("ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
   await soon.equal(() => page.locator("#scene li").count(), 1);
-  await engine.stop(); // the engine keeps a scene's scans as long as it keeps the scene
+  await engine.stop(); // the engine stores the scans of a scene as long as the scene
   await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);
 });
 
-// The engine prepares no view before a document is open. The page learns from the engine's answer when it is open.
+// The engine refuses to prepare a view before the document is open, and the page only knows from the engine's answer
+// that it is open.
 test("takes what is changed while a scan is still opening", async () => {
   const other = await page.context().newPage(), answers = [];
   other.on("response", (response) => answers.push(response.status()));
@@ -428,7 +429,7 @@ test("takes what is changed while a scan is still opening", async () => {
   await openPanels(other);
   await enter(other.locator("#crop"), "0,0.4,1,1");
   await enter(field("Height in mm", other), "2.5");
-  await untilTimersRan(other, 300); // a request that the page sends too early has been sent by then
+  await untilTimersRan(other, 300); // by then the page has sent any request that it sends too early
   await other.evaluate(() => window.letOpen());
   await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
   await untilReady(other);
@@ -471,7 +472,7 @@ test("keeps the view that was asked for last when the one before it arrives late
   await other.close();
 });
 
-// Returns the normal at a random point of a ball.
+// Returns the normal at a random point of a sphere.
 function anyNormal(random) {
   const z = 2 * random() - 1, angle = 2 * Math.PI * random(), r = Math.sqrt(1 - z * z);
   return [r * Math.cos(angle), r * Math.sin(angle), z];
@@ -485,7 +486,7 @@ function writePoints(file, points) {
   writeFileSync(file, `${header}${lines.join("\n")}\n`);
 }
 
-// Writes a ball on a tilted table. The table measures 4 x 4 radii of the ball, and its points are noisy.
+// Writes a ball on a tilted table. The table is a square with sides of 4 radii of the ball, and its points are noisy.
 function writeBallOnTable(file) {
   const random = randomNumbers(1), n = [0, 0.766, 0.643], points = [];
   for (let i = 0; i < 6000; ++i) {
@@ -497,7 +498,7 @@ function writeBallOnTable(file) {
   writePoints(file, points);
 }
 
-// Writes a ball, and beside it a small ball with .4 % of its area.
+// Writes a ball, and beside it a small ball that has 0.4 % of its area.
 function writeBallWithCrumb(file) {
   const random = randomNumbers(1), ball = (count, radius, x) => Array.from({length: count}, () => {
     const normal = anyNormal(random), [a, b, c] = normal.map((y) => y * radius);
@@ -508,7 +509,7 @@ function writeBallWithCrumb(file) {
 
 test("leaves out a small piece, and keeps it or not at the press of a button", async () => {
   const file = path.join(folder, "crumb.ply"), crumbs = page.locator("#crumbs");
-  const untilWide = (least, most) => eventually(async () => { // waits for a ratio of width to height
+  const untilWide = (least, most) => eventually(async () => { // waits until width / height is in this range
     const wide = (await pieceSize()).reduce((x, y) => x / y);
     assert.ok(wide > least && wide < most, `${wide}`);
   });
@@ -518,7 +519,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
-  await untilWide(1.15, 1.25); // the width is 2.465 radii and the height 2, plus the margins
+  await untilWide(1.15, 1.25); // 2.465 radii by 2 radii, plus the margins
   await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();
@@ -540,7 +541,7 @@ test("tells what is taken out of a depth image as background, and advises nothin
   await page.locator("#file").setInputFiles(colours);
   await page.getByText("colours.png", {exact: true}).waitFor();
   await untilReady(page);
-  await page.locator("#depth-values").selectOption("depth"); // colours have none
+  await page.locator("#depth-values").selectOption("depth"); // a coloured picture has no depths
   const said = toast().getByText(/colours\.png/);
   await said.waitFor();
   await soon.match(() => said.innerText(), /Take their brightness, or save it as a picture in greys/);
@@ -569,7 +570,7 @@ test("finds a table, and leaves it out at the press of a button", async () => {
   await soon.equal(() => note(/fills its whole frame/).count(), 0);
 });
 
-// Writes the points of a wavy surface as a glTF file with its buffer in another file, and returns both paths.
+// Writes a glTF file with the points of a wavy surface, and its buffer in a second file. Returns both paths.
 function writeGltf() {
   const n = 60, places = [];
   for (let i = 0; i < n * n; ++i) {
@@ -578,7 +579,7 @@ function writeGltf() {
   }
   const bytes = Buffer.from(Float32Array.from(places).buffer);
   const gltf = {asset: {version: "2.0"}, scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0}],
-    meshes: [{primitives: [{mode: 0, attributes: {POSITION: 0}}]}], // 0: points
+    meshes: [{primitives: [{mode: 0, attributes: {POSITION: 0}}]}], // mode 0: points
     buffers: [{uri: "wave.bin", byteLength: bytes.length}], bufferViews: [{buffer: 0, byteLength: bytes.length}],
     accessors: [{bufferView: 0, componentType: 5126, count: n * n, type: "VEC3"}]};
   const files = [path.join(folder, "wave.gltf"), path.join(folder, "wave.bin")];

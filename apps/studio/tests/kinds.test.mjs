@@ -1,4 +1,5 @@
-// Tests that the page shows the numbers of the files for each kind of work, and that each kind has settings of its own.
+// Tests that the page shows the same numbers as the files for each kind of work, and that each kind has its own
+// settings.
 import assert from "node:assert/strict";
 import {choose, chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, soon,
   test, undo, undoAll, untilTaken, untilText, withPage} from "./page_suite.mjs";
@@ -17,10 +18,10 @@ async function set(values) {
   await untilTaken();
 }
 
-// Returns the document's options that the engine has kept.
+// Returns the options of the document that the engine has stored.
 const kept = async () => (await engine.newestStep(scan)).options;
 
-// Exports the piece that is shown. Returns the file's name and size, and the size that the dialog states.
+// Exports the shown piece. Returns the name and the size of the file, and the size that the dialog states.
 async function exported() {
   await openExport();
   const told = sizeIn(await page.locator("#export-size").innerText()), [{name, bytes}] = await exportFiles();
@@ -48,7 +49,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await page.getByRole("heading", {name: "Die of the coin"}).waitFor();
   await untilReady(page);
   const die = await exported();
-  await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // but for the form
+  await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // all but the form
   await soon.equal(async () => (await kept()).form, "die");
   assert.deepEqual([coin.name, die.name], ["scan-coin.stl", "scan-die.stl"]);
   await page.getByText(`The die itself is ${die.told.join(" × ")} mm.`).waitFor();
@@ -68,7 +69,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await soon.ok(() => radio("Plaque").isChecked());
 });
 
-// Returns those options of a document that the engine needs for heights.
+// Returns those options of a document on which heights depend.
 const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness, margin}) =>
   ({view, up, outline, diameter, width, height, rim, shift, thickness, margin, resolution: 0.1});
 
@@ -88,7 +89,7 @@ test("says in its hint what a seal is, and begins one of its own beside the die 
 });
 
 test("uses no tool for a lithophane, and has it again for a coin", async () => {
-  await set({resolution: "1"}); // coarse, as the reach of a tool takes long to compute
+  await set({resolution: "1"}); // coarse, since computing the reach of a tool takes long
   await option("tool").selectOption("Ball end");
   await page.getByText(/^The tool reaches/).waitFor();
   await option("finish").selectOption("Reachable");
@@ -132,7 +133,7 @@ test("names the files of each kind", async () => {
 
 test("says why a figure that fills its plate does not move", async () => {
   await set({plate: "90x120"});
-  const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly the longest side that fits
+  const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // just less than the longest that fits
   await set({width: longer});
   await choose("Place");
   const [x, y] = await middleOf(page.locator("#stage"));

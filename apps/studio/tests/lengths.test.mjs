@@ -1,4 +1,4 @@
-// Tests that the page reads numbers as the library does: both are tested with the same cases.
+// Tests that the page parses numbers as the library does: both are tested with the same cases.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {test} from "node:test";

@@ -12,13 +12,13 @@ const MIB = 2 ** 20;
 
 withEngine("shell", 20000);
 
-// Returns the most memory that the engine has used so far, in MiB.
+// Returns the peak memory of the engine in MiB.
 function mostMemory() {
   const [, kib] = readFileSync(`/proc/${engine.child.pid}/status`, "utf8").match(/VmHWM:\s+(\d+)/);
   return kib / 1024;
 }
 
-// Writes up to `size` bytes for as long as the server takes them. Returns the server's answer.
+// Writes up to `size` bytes, until the server takes no more. Returns the server's answer.
 function pour(head, size) {
   return new Promise((resolve) => {
     const socket = connect(), part = Buffer.alloc(MIB, "x");
@@ -143,13 +143,13 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// A connection buffers less than the 7 MB of an answer. So it occupies a thread until the server gives it up.
+// A connection cannot buffer the 7 MB of an answer. So a thread is blocked until the server closes the connection.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {
     const first = Array.from({length: 10}, () => new Promise((resolve) => {
       const socket = connect();
-      socket.once("readable", () => resolve(socket.read(1)?.toString())); // reads one byte and nothing more
+      socket.once("readable", () => resolve(socket.read(1)?.toString())); // reads one byte and no more
       socket.write(`${head("api/frame")}Content-Length: ${body.length}\r\n\r\n${body}`);
       deaf.push(socket);
     }));

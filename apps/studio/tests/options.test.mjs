@@ -1,4 +1,4 @@
-// Tests that every option of the engine's table has a control on the page, and that values set there reach the engine.
+// Tests that every option in the engine's table has a control on the page, and that values set there reach the engine.
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -14,7 +14,7 @@ let options;
 withBrowser(async () => {
   writeSample("still_life", 5000, scan);
   writeBallBeforeWall(depth);
-  // These tests compare requests, not pictures, so pictures get a quarter of the pixels.
+  // These tests compare requests and not pictures, so pictures have a quarter of the pixels.
   const fewer = found.name === "chromium" ? {deviceScaleFactor: 0.5} : {}; // Firefox's driver may not support this
   const first = await (await browser.newContext({viewport: DESK, ...fewer})).newPage();
   await first.addInitScript(() => { // Firefox's driver does not report the bodies of requests
@@ -31,7 +31,7 @@ withBrowser(async () => {
   return first;
 });
 
-// For each option, `value` is a value that is not its default. If its control is shown only with other options or with
+// For each option, `value` is a value that is not the default. If the control is shown only with other options or for
 // one kind of work, `first` or `kind` has these.
 const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
@@ -56,7 +56,7 @@ const CASES = {
 
 const control = (name) => page.locator(`[data-option="${name}"]`);
 
-// Sets a shape and its parameters by the menu and the fields below it.
+// Sets a shape with the menu, and its parameters with the fields below it.
 async function setShape(option, text) {
   const {name, first, values, labels} = await page.evaluate(async ([option, text]) => {
     const {FIRST_TEXTS, SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
@@ -69,7 +69,7 @@ async function setShape(option, text) {
   for (const [parameter, value] of values) await enter(row.getByLabel(labels[parameter]), value);
 }
 
-// Sets an option by its control, as a user does.
+// Sets an option with its control, as a user does.
 async function set(name, value) {
   const it = control(name);
   if (["base", "wrap", "tool"].includes(name)) return setShape(name, value);
@@ -102,11 +102,11 @@ test("has a control for each option of the table", async () => {
   assert.deepEqual(beyond, [], "fields stick out of their rows");
 });
 
-// Browsers differ only in how controls are set, so Firefox sets one control of each kind.
+// Browsers differ only in how their controls are operated, so in Firefox one control of each kind is enough.
 const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "plane", "denoise", "plate", "rim"];
 const cases = Object.entries(CASES).filter(([name]) => found.name !== "firefox" || KINDS.includes(name));
 
-// Opens a file unless it is shown.
+// Opens a file unless the page shows it.
 async function show(file) {
   const name = path.basename(file);
   if (await page.locator("#title").textContent() === name) return;
@@ -161,7 +161,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await soon.equal(() => field("Tool: Angle").inputValue(), "60");
   await enter(field("Tool: Tip"), "0.5");
   await reaches(({options}) => options.tool === "v:60:0.5");
-  await enter(field("Tool: Angle"), ""); // a V bit must have an angle
+  await enter(field("Tool: Angle"), ""); // a V bit needs an angle
   await untilText(field("Tool: Angle"), "60");
   await control("tool").selectOption({label: "Ball end"});
   await enter(field("Tool: Diameter"), "1/8in");
@@ -202,7 +202,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await untilReady(page);
 });
 
-// Makes height maps under the names of files.
+// Makes height maps with these file names.
 const makeMaps = (...files) => files.forEach((file) =>
   run("make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", file, "--heightmap-size", 64));
 
@@ -225,7 +225,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
   await baseImage().getByText("map.tif").waitFor();
 
-  await baseImage().locator("input").setInputFiles(scan); // a scan is no image, so it is refused and nothing changes
+  await baseImage().locator("input").setInputFiles(scan); // a scan is no image: it is refused, nothing changes
   await page.getByText("expected a picture of depths (PNG, TIFF").waitFor();
   await soon.match(async () => (await sent()).options["base-image"], /map\.tif$/);
   await baseImage().getByRole("button", {name: "Remove the base image"}).click();
@@ -265,7 +265,7 @@ test("opens a project whose height is a share of the diagonal, and has that heig
   await untilReady(page);
   const inMm = page.getByRole("spinbutton", {name: /^Height/}).first();
   await soon.equal(async () => Number(await inMm.inputValue()).toFixed(1), height.toFixed(1));
-  await reaches(({options}) => !("height-of-diagonal" in options)); // the pictures of the kinds of work
+  await reaches(({options}) => !("height-of-diagonal" in options)); // requests for the pictures of kinds of work
 });
 
 test("keeps tone curve and steps, which the paper's method does not have, for the other method", async () => {
@@ -311,7 +311,7 @@ test("shows a relief without its base image when that is gone, says so, and take
   await reaches(({options}) => !("base" in options) && !("base-image" in options));
   await untilReady(page);
   await page.getByText("image.png is gone", {exact: true}).waitFor({state: "attached"});
-  await page.waitForFunction(areKindsDrawn); // drawing the kinds sends requests, too
+  await page.waitForFunction(areKindsDrawn); // drawing the pictures of the kinds sends requests, too
   await baseImage().locator("input").setInputFiles(image);
   await reaches(({options}) => options.base === "image" && options["base-image"]?.endsWith("/image.png"));
 });

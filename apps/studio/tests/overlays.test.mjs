@@ -1,4 +1,5 @@
-// Tests texts and lines over and beside the piece, on a desk and a phone: messages, labels of measures, numbers.
+// Tests texts and lines over and beside the piece, on a desk and a phone: messages, labels of measurements, and
+// numbers.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
   plateLength, press, radio, scan, soon, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
@@ -24,7 +25,7 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await offer();
   await button("Locate it").click();
   await toast().getByText("Located.").waitFor();
-  await page.evaluate(() => window.takeBack()); // the offer is gone already, so the message stays
+  await page.evaluate(() => window.takeBack()); // the offer has gone already, so the message stays
   await soon.ok(() => toast().isVisible());
   await button("Dismiss").click();
 });
@@ -38,7 +39,7 @@ test("keeps the labels of measures apart", async () => {
       all.map((rect) => rect.getBoundingClientRect().toJSON()));
     await eventually(async () => assert.equal((await labels()).length, 5));
     const stage = await page.locator("#stage").boundingBox(), figure = await page.locator("#overlay .bounds").boundingBox();
-    if (screen === SCREENS[0]) // other screens have no room beside the plate: labels are in the corners
+    if (screen === SCREENS[0]) // other screens have no space beside the plate, so their labels are in the corners
       for (const label of await labels()) assert.ok(!overlap(label, figure), `${JSON.stringify(label)} on the figure`);
     for (const {x, y, width, height} of (await labels()).slice(0, 2)) {
       const [left, top] = [Math.max(stage.x + 5, x + width / 2 - 20), y + height / 2 + 8];
@@ -55,7 +56,7 @@ test("keeps the labels of measures apart", async () => {
   }
 });
 
-// Returns {length, mm} of the bar in the picture's corner.
+// Returns {length, mm} of the scale bar: its length in pixels, and in mm of the piece.
 const scaleBar = () => page.evaluate(() => {
   const {width} = document.querySelector("#overlay path.scale").getBoundingClientRect();
   const [, number, unit] = document.querySelector("#overlay text.scale").textContent.match(/^([\d.]+) (mm|in)$/);
@@ -83,7 +84,7 @@ test("tells the scale by a bar of a round length, and by rulers that begin at th
   await page.getByLabel("Unit of lengths").selectOption("mm");
   const before = await scaleBar();
   await page.locator("#stage").focus();
-  for (let step = 0; step < 8; ++step) await page.keyboard.press("+"); // 4.3 times as large
+  for (let step = 0; step < 8; ++step) await page.keyboard.press("+"); // zooms to 4.3 times the size
   await untilReady(page);
   await eventually(async () => {
     const bar = await scaleBar();
@@ -105,7 +106,7 @@ test("draws no more pixels on a large screen than the engine makes", async () =>
   await large.close();
 });
 
-// Returns, for each quarter of the figure, the offset in pixels between the edges of the model and of the relief.
+// Returns the offset in pixels between the edge of the model and that of the relief, for each quarter of the figure.
 const edgesOff = () => page.evaluate(async () => {
   const {width, height} = document.querySelector("#picture");
   const edges = (id) => {
@@ -136,8 +137,8 @@ const edgesOff = () => page.evaluate(async () => {
   });
 });
 
-// Returns the opacity of the model's picture just within the left, right, upper and lower side of the piece, and at the
-// corners of the piece's box, which a round piece does not fill.
+// Returns the opacity of the model's picture just inside the left, right, upper and lower edge of the piece, and at the
+// corners of the piece's box. A round piece does not cover the corners.
 const plateOpacity = () => page.evaluate(() => {
   const canvas = document.querySelector("#before"), [wide, high] = window.piece, context = canvas.getContext("2d");
   const near = [[-0.48, 0], [0.48, 0], [0, -0.48], [0, 0.48]], corners = [-0.45, 0.45].flatMap((x) => [[x, -0.45], [x, 0.45]]);
@@ -161,7 +162,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
     for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
     await eventually(async () => {
       await untilReady(page);
-      const off = (await edgesOff()).sort((a, b) => a - b); // sloping walls or the rim may move one quarter's edges
+      const off = (await edgesOff()).sort((a, b) => a - b); // sloping walls or the rim may shift one quarter's edges
       assert.ok(off[2] <= 2, `${kind}: ${off}`);
       if (kind === "coin") assert.deepEqual(await plateOpacity(), [255, 255, 255, 255, 0, 0, 0, 0]);
     });
@@ -225,12 +226,12 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
     return {at, ...steps[at].options};
   };
   const [whole, wide, before] = [Number(await longer.inputValue()), await plate(), await step()];
-  const pinch = async (degrees) => { // fingers move from 100 pixels apart to 60, and turn left
+  const pinch = async (degrees) => { // fingers move from 100 pixels apart to 60, and turn counterclockwise
     await send("touchStart", fingers(100).slice(0, 1));
     await send("touchStart", fingers(100));
     for (let i = 1; i <= 8; ++i) await send("touchMove", fingers(100 - 5 * i, i * degrees / 8));
   };
-  await pinch(4); // fingers that scale also turn a little
+  await pinch(4); // fingers that only scale turn a little, too
   await send("touchEnd", []);
   const untilScaled = () => eventually(async () => {
     const {width} = await step();
@@ -250,7 +251,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await send("touchEnd", []);
   await eventually(async () => assert.notEqual((await step()).up, ""));
   const turned = await step(), [upX, upY] = turned.up.split(",").map(Number);
-  // The model turns to the left, so `up` turns to the right.
+  // The model turns counterclockwise, so `up` turns clockwise.
   assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up);
   assert.equal(turned.at, before.at + 1);
   await untilScaled();

@@ -1,4 +1,4 @@
-// Works with the studio as its users do, in Chromium or Firefox. Finds elements by role and label.
+// Uses the studio as its users do, in Chromium or Firefox. Finds elements by role and label.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -17,7 +17,7 @@ withBrowser(async (isAnew) => {
   first.on("console", (message) => message.type() === "error" &&
     complaints.push(`${message.text()} ${message.location().url}`));
   await first.goto((await startEngine()).address);
-  await untilListening(first); // from then on panels stay open
+  await untilListening(first); // from then on the page remembers open panels
   await openPanels(first);
   if (isAnew) await showFile(scan, first);
   return first;
@@ -30,7 +30,7 @@ async function pressKey(locator, key, times) {
   for (let i = 0; i < times; ++i) await locator.press(key);
 }
 
-// Returns the bytes of the relief's picture when it no longer changes.
+// Returns the bytes of the relief's picture once it no longer changes.
 async function picture() {
   const read = () => stage().locator("canvas").first().evaluate((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -42,8 +42,8 @@ async function picture() {
   return Buffer.from(await read(), "base64");
 }
 
-// Returns the mean difference of two pictures' reds, up to 255. Pictures of a locked height may differ a little, as
-// frames meet it only to a thousandth.
+// Returns the mean difference between the red values of two pictures, from 0 to 255. Pictures of a locked height may
+// differ a little, since the height of frames is exact only to a thousandth.
 function difference(a, b) {
   if (a.length !== b.length) return 255;
   let sum = 0;
@@ -51,14 +51,14 @@ function difference(a, b) {
   return sum / a.length;
 }
 
-// Waits until the picture equals the other one or, if `isSame` is false, differs from it.
+// Waits until the picture equals `other` or, if `isSame` is false, differs from it.
 const becomes = (other, isSame) => eventually(async () => {
   const found = difference(await picture(), other);
   assert.ok(isSame ? found < 0.05 : found > 0.2, `pictures differ by ${found}`);
 });
 const becomesSame = (other) => becomes(other, true), becomesOther = (other) => becomes(other, false);
 
-// Returns the height of the newest frame, which may differ from the height that was asked for.
+// Returns the height of the newest frame, which may differ from the requested height.
 async function heightShown() {
   const title = await numbers().getAttribute("title");
   return Number(title.match(/reached ([\d.]+)/)[1]);
@@ -69,7 +69,7 @@ const untilHeight = (wanted, tolerance) => eventually(async () => {
   assert.ok(Math.abs(shown - wanted) <= tolerance, `the height stays at ${shown} instead of ${wanted}`);
 });
 
-// Shows the relief in the view of that name.
+// Shows the relief in the view with that name.
 async function show(side) {
   await chooseView(side);
   await untilReady(page);
@@ -124,7 +124,7 @@ test("moves a slider that has the focus by wheel, and any by double click", asyn
   await slider("Steepest wall").hover();
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
-  await eventually(async () => { // repeated, as a slow machine may make two clicks of a double click
+  await eventually(async () => { // repeated, since a slow machine may turn a double click into two clicks
     await doubleClick(slider("Steepest wall"));
     assert.equal(await value("Steepest wall in degrees"), 76);
   });
@@ -182,7 +182,7 @@ test("undoes and redoes, step by step", async () => {
   await untilHeight(3, 0.01);
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
-  let steps = 0; // more than one on a slow machine, which presses the keys with pauses
+  let steps = 0; // a slow machine presses the keys with pauses, which makes several steps
   do await undo(); while (++steps < 30 && (await value("Edge emphasis value")) > 0);
   await soon.equal(() => value("Edge emphasis value"), 0);
   while (steps-- > 0) await button("Redo").click();
@@ -220,7 +220,7 @@ test("has sliders, defaults and units of the engine's options", async () => {
     const range = [await number.getAttribute("aria-valuemin"), await number.getAttribute("aria-valuemax")];
     assert.deepEqual(range, [`${min}`, `${max}`], name);
   }
-  const {"base-image": image, ...ofTable} = first; // the image is a file, and the table has no row for files
+  const {"base-image": image, ...ofTable} = first; // an image is a file, and the table has no option for files
   assert.equal(image, "");
   for (const name of Object.keys(ofTable)) option(name);
   for (const name of Object.keys(fields)) {
@@ -253,7 +253,7 @@ test("names what it reads and offers each outline, form and format of the engine
   await added.close();
 });
 
-// Returns the values of the curve that the page draws, as fractions from 0 to 1.
+// Returns the values of the curve as the page draws it, from 0 to 1.
 const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAttribute("d")).split(/[ML]/).slice(1)
   .map((place) => 1 - Number(place.split(" ")[1]) / 150);
 
@@ -311,17 +311,17 @@ test("turns, lights, cuts and compares", async () => {
   const ends = async () => overlay.locator("circle.end").evaluateAll((all) =>
     all.map((circle) => ["cx", "cy"].map((name) => Number(circle.getAttribute(name)))));
   const [[x1, y1], [x2, y2]] = await ends();
-  await drag([box.x + x2, box.y + y2], middle); // moves the second end, and not the first
+  await drag([box.x + x2, box.y + y2], middle); // moves the second end of the line, but not the first
   await eventually(async () => {
     const [[x, y], [x3]] = await ends();
-    assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // the place is rounded to pixels
+    assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // positions are rounded to pixels
     assert.ok(Math.abs(x3 - box.width / 2) < 2, `${x3} of ${x2}`);
   });
   await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();
   await soon.ok(async () => (await page.locator("#section-chart text").count()) > 6);
   await page.locator("#section-chart").hover();
   await page.getByText(/^2\d\.\d+ mm along, height -?[\d.]+ mm$/).waitFor();
-  await drag(middle, [box.x + box.width - 4, middle[1]]); // ends beyond the plate, where there are no heights
+  await drag(middle, [box.x + box.width - 4, middle[1]]); // ends outside the plate, where there are no heights
   await page.getByText(/Section, 110\.0 mm long/).waitFor();
   await radio("Measure").click();
   await overlay.getByText("110.00 mm", {exact: true}).waitFor();
@@ -329,10 +329,10 @@ test("turns, lights, cuts and compares", async () => {
   await page.mouse.move(...middle);
   await overlay.getByText(/^Height [\d.]+ mm$/).waitFor();
   let y = middle[1];
-  await eventually(async () => { // repeated, as the picture may still be small as beside a section
+  await eventually(async () => { // repeated, since the picture may still be small, as it is beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
     const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
-    const plate = await plateLength(); // 110 mm in pixels
+    const plate = await plateLength(); // 110 mm, in pixels
     assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
     const line = await overlay.locator("line.cut").boundingBox();
     const label = await overlay.getByText(told, {exact: true}).boundingBox();
@@ -353,7 +353,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   const middle = await middleOf(stage()), turned = [middle[0] + 80, middle[1] + 30];
   await press(middle, turned);
   await becomesOther(first);
-  await viewIs("Front"); // the name stays until the view rests
+  await viewIs("Front"); // the name does not change while the view changes
   await page.keyboard.press("Escape");
   await page.mouse.move(middle[0] + 90, middle[1], {steps: 3});
   await page.mouse.up();
@@ -377,7 +377,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await viewIs("Front");
   await stage().press("ArrowRight");
   await viewIs("Turned by hand");
-  await stage().press("ArrowLeft"); // the view snaps to the side that it left
+  await stage().press("ArrowLeft"); // the view snaps to the side from which it came
   await viewIs("Front");
   await becomesSame(first);
   await radio("Light").click();
@@ -490,7 +490,7 @@ test("can be used by the keyboard alone", async () => {
     .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0 &&
       element.dataset.reached !== "yes").map((element) => element.outerHTML.slice(0, 90)));
   const all = (await missed()).length;
-  // After the page's last element, Tab would go to the bars of the browser.
+  // After the last element of the page, Tab would move to the browser's own controls.
   for (let i = 0; i < all + 30 && (await missed()).length > 0; ++i) {
     await page.evaluate(() => (document.activeElement.dataset.reached = "yes"));
     if ((await missed()).length > 0) await page.keyboard.press("Tab");
@@ -498,7 +498,7 @@ test("can be used by the keyboard alone", async () => {
   await soon.deepEqual(() => missed(), [], `of ${all}`);
   const material = () => page.locator("#materials [aria-checked=true]").getAttribute("data-material");
   const before = await material();
-  await page.locator("#materials [aria-checked=true]").focus(); // within a group, arrow keys choose
+  await page.locator("#materials [aria-checked=true]").focus(); // arrow keys choose within a group
   await page.keyboard.press("ArrowRight");
   await soon.notEqual(() => material(), before);
   await button("Undo").focus();
@@ -547,7 +547,7 @@ test("shows whole names, the top of the help and the whole first picture on a ph
   await page.setViewportSize(PHONE);
   await untilReady(page);
   await button("Relievo, start page").click();
-  // Reads all styles in one step, as the page may replace its cards between two steps of a locator.
+  // Reads all styles in one call, since the page may replace its cards between two calls.
   await eventually(async () => assert.deepEqual(await page.evaluate(() => {
     const styles = [...document.querySelectorAll("#recent span")].map((name) => getComputedStyle(name));
     return [...new Set(styles.map(({display, textOverflow}) => `${display} ${textOverflow}`))];

@@ -1,4 +1,4 @@
-// Opens the page of a suite in a browser, and acts as its user, who finds elements by role and label.
+// Opens the page of a test suite in a browser, and acts as its user: finds elements by role and label.
 import assert from "node:assert/strict";
 import {rmSync} from "node:fs";
 import path from "node:path";
@@ -11,10 +11,10 @@ export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), s
 export const DESK = {width: 1280, height: 800}, TABLET = {width: 820, height: 1180}, PHONE = {width: 390, height: 844};
 export let browser, engine, page;
 
-let beginSuite; // starts the browser and everything else that a suite needs
+let beginSuite; // starts the browser and everything else that the suite needs
 
-// Gives the suite a browser. begin(isAnew) prepares everything else for the tests, and may return the page that they
-// share; `isAnew` is true if the suite begins again after a failed test.
+// Gives the suite a browser. begin(isAnew) prepares everything else for the tests, and may return a page that they
+// share. `isAnew` is true if the suite starts again after a failed test.
 export function withBrowser(begin) {
   beginSuite = async (isAnew) => {
     browser = await found.launch();
@@ -29,7 +29,7 @@ async function endSuite() {
   await engine?.stop();
 }
 
-// A test of the page. If it fails, the suite begins anew, so that the next test finds the state that it expects.
+// A test of the page. If it fails, the suite starts again, so that the next test finds the state that it expects.
 export const test = (name, act) => plainTest(name, {skip}, async (context) => {
   try {
     await act(context);
@@ -41,7 +41,7 @@ export const test = (name, act) => plainTest(name, {skip}, async (context) => {
   }
 });
 
-// Gives the suite a page with all panels open, which shows a sample with that many points.
+// Gives the suite a page that shows a sample of that many points, with all panels open.
 export function withPage(sample, points, begin = () => {}) {
   withBrowser(async () => {
     writeSample(sample, points, scan);
@@ -53,14 +53,14 @@ export function withPage(sample, points, begin = () => {}) {
   });
 }
 
-// Starts another engine in place of the one that was stopped.
+// Starts another engine after the first one was stopped.
 export async function startEngine(...args) {
   engine = await new EngineProcess(state, ...args).ready();
   return engine;
 }
 
-// Has the assertions of node:assert, for values that a function reads from the page. They are repeated until they
-// succeed, as the browser may have received a click or a key that the page has not.
+// Provides the assertions of node:assert for values that a function reads from the page. They are repeated until they
+// succeed, because the page may handle a click or a key later than the browser reports it.
 export const soon = Object.fromEntries(["equal", "notEqual", "ok", "deepEqual", "match", "doesNotMatch"].map((name) =>
   [name, (read, ...wanted) => eventually(async () => assert[name](await read(), ...wanted))]));
 
@@ -84,13 +84,13 @@ export async function undo(times = 1, of = page) {
   for (let i = 0; i < times; ++i) await button("Undo", of).click();
 }
 
-// Undoes steps until none is left, or isEnough() is true. The button may be disabled meanwhile.
+// Undoes steps until none is left or isEnough() returns true. The button may become disabled meanwhile.
 export async function undoAll(of = page, isEnough = () => false) {
   const once = button("Undo", of);
   while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
 }
 
-// Waits until no entry is being tried, and the piece is shown as its file will be.
+// Waits until no entry is being tried, and the picture shows the piece as it is exported.
 export async function untilTaken(of = page) {
   await soon.equal(() => of.locator("#trying").textContent(), "");
   await untilReady(of);
@@ -108,7 +108,8 @@ export async function chooseView(side, of = page) {
   await of.locator("#view-name").getByText(side, {exact: true}).waitFor();
 }
 
-// Opens another scan or a project by the dialog of the browser. Firefox's driver reports only the first such dialog.
+// Opens a scan or a project with the browser's dialog. Firefox's driver reports only the first such dialog, so in
+// Firefox the file is set directly.
 export async function openFile(file, of = page) {
   if (found.name === "firefox") return of.locator("#file").setInputFiles(file);
   const chooser = of.waitForEvent("filechooser");
@@ -123,7 +124,7 @@ export async function middleOf(locator) {
   return [x + width / 2, y + height / 2];
 }
 
-// Presses the button at a place and moves through others, without releasing the button.
+// Presses the mouse button at `from` and moves through other positions. Does not release the button.
 export async function press(from, ...through) {
   await page.mouse.move(...from);
   await page.mouse.down();
@@ -136,7 +137,7 @@ export async function drag(from, ...through) {
 }
 
 // Shows the relief on a touch screen. Returns its page `touched`, its DevTools session `cdp`, send(type, points),
-// close(), and fingers(apart, degrees), which returns the places of two fingers about the middle of the picture.
+// close(), and fingers(apart, degrees), which returns the positions of two fingers around the centre of the picture.
 export async function touchScreen(viewport, isMobile = false) {
   const context = await browser.newContext({viewport, hasTouch: true, isMobile}), touched = await context.newPage();
   const cdp = await context.newCDPSession(touched);
@@ -163,7 +164,7 @@ export const visiblePoints = async (of = page) =>
 export const pieceSize = async () =>
   (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
 
-// Returns the length in pixels of the plate's dimension line.
+// Returns the length of the plate's dimension line in pixels.
 export const plateLength = (of = page) => of.locator("#overlay line.dimension").evaluateAll((lines) =>
   Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
 
@@ -174,7 +175,7 @@ export async function openExport(of = page) {
   await of.locator("#export-size").getByText(/triangles$/).waitFor();
 }
 
-// Exports by the dialog, which must be open. Returns {name, bytes} of each file.
+// Exports from the dialog, which must be open. Returns {name, bytes} of each file.
 export async function exportFiles(count = 1, of = page) {
   await of.locator("#export-size").getByText(/triangles$/).waitFor();
   const saved = await savedFiles(found, of, count, () => of.locator("#export-go").click());
@@ -182,7 +183,7 @@ export async function exportFiles(count = 1, of = page) {
   return saved;
 }
 
-// Exports the piece that is shown. Returns its file's name and bytes, its size, and whether it is closed.
+// Exports the shown piece. Returns the name and the bytes of its file, its size, and whether it is closed.
 export async function exported(of = page) {
   await openExport(of);
   const [file] = await exportFiles(1, of);

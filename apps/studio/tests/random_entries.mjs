@@ -1,4 +1,5 @@
-// Types, chooses, undoes and exports at random moments and speeds, and compares fields, status line, dialog and file:
+// Types, chooses, undoes and exports at random times and speeds, and compares the fields, the status line, the dialog
+// and the file:
 //   node apps/studio/tests/random_entries.mjs SEQUENCES SEED
 // Sequence i of seed S is the first sequence of seed S + i.
 import assert from "node:assert/strict";
@@ -8,7 +9,7 @@ import {button, exportFiles, found, option, radio} from "./page_suite.mjs";
 import {areKindsDrawn, enter, eventually, openPanels, readStl, showScan, temporaryFolder, untilReady,
   writeSample} from "./support.mjs";
 
-// Returns a function that returns numbers from 0 to 1, the same ones for the same seed.
+// Returns a generator of random numbers between 0 and 1, which depend only on the seed.
 export function randomNumbers(seed) {
   let state = seed >>> 0;
   return () => {
@@ -20,12 +21,12 @@ export function randomNumbers(seed) {
 }
 
 const KINDS = ["Plaque", "Coin", "Carving", "Seal", "Lithophane", "Bent"];
-// All numbers in these ranges fit each other, so the engine takes them.
+// The engine accepts any combination of numbers in these ranges.
 const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0.5, 2], diameter: [24, 60], rim: [0.5, 1.5],
   "rim-height": [0.3, 2]};
 const REFUSED = {plate: "abc", diameter: "0", rim: "-1", height: "high", shift: "9", thickness: "-1"};
 const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
-// The other fields that an entry may change.
+// The other fields that change with an entry in these fields.
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
 
 export class RandomEntries {
@@ -41,7 +42,7 @@ export class RandomEntries {
     return list[Math.floor(this.random() * list.length)];
   }
 
-  // Makes a random number of entries, then checks that the page shows and exports all that was typed.
+  // Makes a random number of entries, then checks that the page shows and exports everything that was entered.
   async run() {
     const {page} = this, first = await this.snapshot();
     for (let n = Math.floor(this.between(3, 8)); n > 0; --n) await this.act();
@@ -50,7 +51,7 @@ export class RandomEntries {
     const last = await this.snapshot(), steps = await this.pressAll("Undo");
     await untilReady(page);
     assert.deepEqual(await this.snapshot(), first, "the first state, after all was undone");
-    await this.pressAll("Redo", steps); // `steps` does not count entries that were undone earlier
+    await this.pressAll("Redo", steps); // `steps` does not include entries that were undone earlier
     await untilReady(page);
     assert.deepEqual(await this.snapshot(), last, "the last state, after all was redone");
     await this.pressAll("Undo");
@@ -69,7 +70,7 @@ export class RandomEntries {
     return String(number(RANGES[name]));
   }
 
-  // Types into a field if it is shown, and mostly confirms the entry.
+  // Types into a field if it is shown, and usually confirms the entry.
   async type() {
     const name = this.oneOf(NUMBERS), text = this.valueFor(name);
     if (!(await this.enter(name, text))) return;
@@ -114,7 +115,7 @@ export class RandomEntries {
     await this.press("Redo");
   }
 
-  // First leaves the field, so that the page takes what was typed. This may enable or disable the button.
+  // First leaves the field, so that the page takes the typed text. This may enable or disable the button.
   async press(name) {
     const pressed = button(name, this.page);
     this.done.push(name);
@@ -125,7 +126,7 @@ export class RandomEntries {
     this.typed = {};
   }
 
-  // Presses a button until it is disabled, at most `most` times. Returns how often it was pressed.
+  // Presses a button until it is disabled, at most `most` times. Returns the number of presses.
   async pressAll(name, most = Infinity) {
     const pressed = button(name, this.page);
     let steps = 0;
@@ -134,14 +135,14 @@ export class RandomEntries {
   }
 
   async open() {
-    this.unconfirmed = null; // leaving the field takes the entry
+    this.unconfirmed = null; // leaving the field confirms the entry
     const isByKey = this.random() < 0.5;
     this.done.push(isByKey ? "Ctrl E" : "Export");
     await (isByKey ? this.page.keyboard.press("Control+e") : this.page.locator("#export").click());
     await this.page.locator("#export-size").getByText(/triangles$/).waitFor();
   }
 
-  // Opens the export dialog, compares its numbers, and cancels it.
+  // Opens the export dialog, compares its numbers with the page, and cancels the dialog.
   async look() {
     await this.open();
     await this.compare();
@@ -187,7 +188,7 @@ export class RandomEntries {
     this.near(numbers(found), numbers(wanted), `what was typed as ${name}`);
   }
 
-  // Returns the kind, and the texts of the fields of NUMBERS that are shown.
+  // Returns the kind of work, and the texts of those fields of NUMBERS that are shown.
   snapshot() {
     return this.page.evaluate((names) => {
       const seen = {kind: document.querySelector('#kinds [aria-checked="true"]').textContent};
@@ -200,7 +201,7 @@ export class RandomEntries {
   }
 }
 
-// Shows a small scan, whose pieces are made quickly. Returns {page, close}.
+// Shows a small scan, of which pieces are made quickly. Returns {page, close}.
 export async function showSmallScan() {
   const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
   writeSample("green_man", 2000, scan);
@@ -211,8 +212,8 @@ export async function showSmallScan() {
   await enter(page.locator("#resolution"), "1");
   for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
   await untilReady(page);
-  // The steps up to here do not belong to a sequence. A single step replaces them, which the page shows when it is
-  // opened again.
+  // The steps so far do not belong to a sequence, so a single step replaces them. The page shows it after it is
+  // reloaded.
   const begun = await eventually(async () => {
     const step = await engine.newestStep(scan);
     assert.equal(step.options.width, 30);

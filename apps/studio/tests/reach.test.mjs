@@ -1,5 +1,5 @@
-// Tests the page on low screens, with large type, with forced colours and under a finger: all parts can be seen and
-// reached, and only the intended gestures move them.
+// Tests the page on low screens, with large fonts, with forced colours and with touch: users can see and reach all
+// parts, and only the intended gestures move them.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, slider, soon, test, touchScreen, undo,
   undoAll, withPage} from "./page_suite.mjs";
@@ -23,14 +23,14 @@ test("moves the divider of the comparison by its line, and nothing else", async 
     await soon.ok(async () => Math.abs(await page.locator("#split").inputValue() / 1000 - to) < 0.01);
   }
   await soon.ok(() => button("Undo").isDisabled(), "the light stays where it is");
-  await drag([x + 0.8 * width, y + 0.5 * high]); // a drag beside the line moves the light
+  await drag([x + 0.8 * width, y + 0.5 * high]); // a drag that does not start at the line moves the light
   await soon.ok(() => button("Undo").isEnabled());
   await soon.ok(async () => Math.abs(await line() - 0.5) < 0.01);
   await undo();
   await compare.click();
 });
 
-// Returns the colour of an element at a place: `right` and `down` are fractions of its width and height.
+// Returns the colour of an element at the fractions `right` and `down` of its width and height.
 const colour = async (locator, right, down) => {
   const bytes = await locator.screenshot();
   return page.evaluate(async ([text, right, down]) => {
@@ -81,7 +81,7 @@ test("leaves the picture room at a zoom of 200 %", async () => {
     assert.ok(stage.width >= 300 && stage.height >= 180, `${tool}: ${stage.width} x ${stage.height}`);
     await soon.ok(() => page.locator(part).isVisible());
   }
-  // The opened notes have the same offers as on a higher screen.
+  // The opened notes offer the same as on a higher screen.
   await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.locator("#notes").getByRole("button", {name: "Keep the noise"}).waitFor();
   await radio("Light").click();
@@ -136,7 +136,7 @@ test("puts names, numbers and sliders in one order, curves within their box, and
     const [name, value, range] = await Promise.all([page.getByText("Denoise", {exact: true}),
       page.locator("#denoise-value"), page.locator("#denoise")].map((it) => it.boundingBox()));
     assert.ok(name.x + name.width < value.x && range.y >= name.y + name.height - 3 && range.width > 200);
-    await preset().selectOption("Even"); // this curve runs along the upper end of its box
+    await preset().selectOption("Even"); // this curve runs along the top of its diagram
     const box = await page.locator("#curve svg").boundingBox();
     for (const part of ["path.drawn", "circle"])
       for (const it of await page.locator(`#curve ${part}`).all()) {
@@ -154,10 +154,10 @@ test("puts names, numbers and sliders in one order, curves within their box, and
     await page.setViewportSize(DESK);
   });
 
-// Runs in the page: returns the controls and other parts that a message covers.
+// Runs in the page. Returns the controls and other parts that a message covers.
 function covered() {
   const toast = document.querySelector("#toast").getBoundingClientRect();
-  const visible = (it) => { // returns the part of an element within all its scrolling parents
+  const visible = (it) => { // returns the part of an element that is visible in all its scrolling parents
     const box = it.getBoundingClientRect();
     let [left, top, right, bottom] = [box.left, box.top, box.right, box.bottom];
     for (let parent = it.parentElement; parent; parent = parent.parentElement) {

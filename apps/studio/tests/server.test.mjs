@@ -1,4 +1,4 @@
-// Sends requests to the server: requests of its page, foreign requests, broken ones, and too many.
+// Sends requests to the server: those of its page, those of other sites, broken ones, and too many.
 import assert from "node:assert/strict";
 import {spawn} from "node:child_process";
 import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
@@ -15,13 +15,13 @@ withEngine("shell", 20000);
 const status = async (answer) => (await answer).status;
 const facts = () => engine.json("facts");
 
-// Returns the facts that come with a picture's pixels. `part` replaces parts of the usual request.
+// Returns the facts that come with a picture. `part` replaces parts of the usual request.
 async function frame(part = {}) {
   const answer = await engine.post("frame", {...FRAME, ...part});
   assert.equal(answer.status, 200, String(answer.body));
   return JSON.parse(answer.headers["x-relievo"]);
 }
-// Returns the shorter side of the relief's box divided by the longer one.
+// Returns the shorter side of the relief's box divided by the longer side.
 async function shape() {
   const {size} = await facts();
   return size[1] / size[0];
@@ -160,7 +160,8 @@ test("says what it expected in each field", async () => {
   assert.match(String(deleted.body), /expected GET or POST/);
 });
 
-// Returns all stages that the sources name in begin_stage(progress, "..."), progress.stage("..."), each("...").
+// Returns all names of stages that the sources use in begin_stage(progress, "..."), progress.stage("...") and
+// each("...").
 function stagesInSources() {
   const root = fileURLToPath(new URL("../../..", import.meta.url)), stages = new Set(["waiting"]);
   for (const folder of ["src", "apps"])
@@ -254,9 +255,9 @@ test("gives up a fine picture when another is asked for", async () => {
   const large = {...FRAME, width: 1600, height: 1500, fine: true};
   assert.equal((await engine.post("frame", large)).status, 200);
   const fine = engine.post("frame", {...large, light: [1, 0, 1]});
-  await sleep(50); // drawing takes several times as long
+  await sleep(50); // drawing takes several times longer
   assert.equal((await engine.post("frame", FRAME)).status, 200);
-  const {status, body} = await fine; // not an error's status, as browsers write errors to their console
+  const {status, body} = await fine; // not the status of an error, since browsers log errors in their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);
   assert.equal((await engine.post("frame", large)).status, 200);
 });
@@ -313,12 +314,12 @@ test("keeps a document as it is while the opening of another is cancelled", asyn
   await engine.prepare({view: "front"});
 });
 
-// Copies a generated scan with all vectors turned about x, so that z points up instead of y, as in many scanners'
-// files.
+// Copies a generated scan with all vectors rotated about x, so that z points up instead of y, as in the files of many
+// scanners.
 function writeUpright(scan, file) {
   const bytes = readFileSync(scan);
   const start = bytes.indexOf("end_header\n") + "end_header\n".length;
-  for (let at = start; at < bytes.length; at += 12) { // three floats each: places and normals
+  for (let at = start; at < bytes.length; at += 12) { // three floats each: positions and normals
     const [y, z] = [bytes.readFloatLE(at + 4), bytes.readFloatLE(at + 8)];
     bytes.writeFloatLE(-z, at + 4);
     bytes.writeFloatLE(y, at + 8);
@@ -338,7 +339,7 @@ test("finds the face of a scan, and sets it upright, whichever way the scanner h
   assert.equal(found[0].view, "front");
   assert.equal(found[1].view, "bottom");
   assert.deepEqual(found[1].rotation.map(Math.abs), [1, 0, 0, 0, 0, 1, 0, 1, 0]);
-  assert.equal(found[1].rotation[5], 1); // the scan's upward axis points up on the relief
+  assert.equal(found[1].rotation[5], 1); // the scan's upward axis also points up on the relief
   for (const i of [0, 1]) assert.ok(Math.abs(found[1].size[i] / found[0].size[i] - 1) < 0.01, `${found[1].size}`);
   await engine.open({path: scan});
 });
@@ -478,7 +479,7 @@ function chunks(size) {
   return `${part.length.toString(16)}\r\n${part}\r\n`.repeat(size / part.length + 1) + "0\r\n\r\n";
 }
 
-// Returns the status of a request whose headers Node would not send.
+// Sends a request with headers that Node would not send. Returns the status of the answer.
 function rawStatus(action, headers, body) {
   return new Promise((resolve, reject) => {
     const socket = connect();
@@ -500,7 +501,7 @@ function rawStatus(action, headers, body) {
   });
 }
 
-// Sends a request whose header states `promised` bytes, and closes the connection `ms` later.
+// Sends a request whose header announces `promised` bytes, and closes the connection `ms` later.
 function cut(action, body, ms, promised = body.length) {
   return new Promise((resolve) => {
     const socket = connect();
@@ -512,14 +513,15 @@ function cut(action, body, ms, promised = body.length) {
   });
 }
 
-// After a change of the view, the first turn of a mesh measures points on all its sides. A picture takes less time.
+// After a change of the view, the first turn of a mesh takes longer than a picture, since it samples points on all
+// sides of the mesh.
 test("draws while the model is turned, and gives up a turn when another comes", async () => {
   const mesh = path.join(folder, "mesh.ply");
   run("make", scan, "-o", mesh, "--height", 4, "--width", 60, "--quiet");
   const input = {path: mesh}, {document} = await engine.json("open", {input, tab: "turning", points: 20000});
   const untilIdle = () => engine.until(({model, busy}) => model > 0 && !busy, document);
   await untilIdle();
-  await engine.post("view", {document, view: "left", points: 20000}); // the first turn must measure points on all sides
+  await engine.post("view", {document, view: "left", points: 20000}); // the first turn must sample points on all sides
   await untilIdle();
   const order = [], ask = async (name, part) => {
     const answer = await engine.post("frame", {...FRAME, document, ...part});
@@ -527,10 +529,10 @@ test("draws while the model is turned, and gives up a turn when another comes", 
     return answer.status;
   };
   const turned = (x) => ({turned: {towards: [x, 0.1, 1], up: [0, 1, 0]}});
-  assert.equal(await ask("shown", {}), 200); // makes the next picture quick
+  assert.equal(await ask("shown", {}), 200); // makes the next picture fast
   order.length = 0;
   const first = ask("first turn", turned(0.3));
-  await sleep(150); // until the turn has begun
+  await sleep(150); // by then the turn has begun
   const shown = ask("shown", {}), second = ask("second turn", turned(0.4));
   assert.deepEqual([await first, await shown, await second], [202, 200, 200]);
   assert.ok(order.indexOf("shown") < order.indexOf("second turn"), `${order}`);

@@ -1,4 +1,4 @@
-// Tests that pictures, the finished piece and its file state the same sizes.
+// Tests that pictures, the finished piece and its file have the same sizes.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {engine, scan, withEngine} from "./engine_suite.mjs";
@@ -42,14 +42,14 @@ async function frame(request) {
 const near = (a, b, within, text) =>
   assert.ok(a.every((x, i) => Math.abs(x - b[i]) <= within), `${text}: ${a} is not ${b}`);
 
-// The sizes of pieces without base, rim and bend are known before they are finished.
+// For these pieces, the size is known before the piece is finished: they have no base, rim or wrap.
 const LEVEL = ["plaque", "round corners", "circle without a rim", "plate with a size", "lithophane", "height out of reach"];
 
 async function compare(name, options, extra = {}) {
   const quick = await frame({options, ...extra}), fine = await frame({options, fine: true, ...extra});
   const last = await frame({options, fine: true, finished: true, ...extra});
   assert.ok(last.is_finished && last.is_size_exact);
-  const wanted = {...options, height: last.height_mm}; // the page asks for the file in this way
+  const wanted = {...options, height: last.height_mm}; // the page requests the file in this way
   const piece = await engine.json("piece", {options: wanted});
   const stl = readStl((await engine.post("export", {options: wanted, format: "stl"})).body);
   near(piece.size_mm, stl.size, 2e-5, "piece and file");

@@ -1,4 +1,4 @@
-// Lists the states of the studio's page, for tests and pictures. Each state begins and ends at the plain relief: one
+// Lists the states of the studio's page, for tests and pictures. Each state starts and ends at the plain relief: one
 // scan from a file, with all panels open.
 import {button, choose, field, undo} from "./page_suite.mjs";
 import {enter, untilReady} from "./support.mjs";
@@ -16,7 +16,7 @@ const undone = (times) => async (page) => {
 };
 const kind = (name) => ({enter: (page) => choose(name, page), leave: undone(1)});
 
-// Asks for a height that cannot be reached even with steps at depth jumps.
+// Requests a height that is out of reach even with steps at depth jumps.
 const highest = async (page) => {
   await enter(field("Steepest wall in degrees", page), "30");
   await enter(field("Height in mm", page), "900");
@@ -30,7 +30,7 @@ const exporting = async (page) => {
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
 };
 
-// Each step of the tour is entered from the plain relief, not from the step before it.
+// Each step of the tour is reached from the plain relief, not from the step before it.
 const tourStep = (step) => ({
   part: ".tour", leave: escape, enter: async (page) => {
     await button("Help", page).click();
@@ -61,7 +61,7 @@ export const STATES = {
   "the start page": {enter: press("Relievo, start page"), leave: press("Back to the relief")},
 };
 
-// Opens several scans as a scene, which is a document of its own.
+// Opens several scans as a scene, which has its own document.
 export async function showScene(page, scans) {
   await page.locator("#file").setInputFiles(scans);
   await page.locator("#scene").waitFor();

@@ -1,4 +1,5 @@
-// Tests that each state of the page fits each screen, has all its controls within reach, and breaks no rule of axe.
+// Tests that each state of the page fits each screen, that all its controls can be reached, and that it breaks no rule
+// of axe.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, soon, startEngine, test,
   withBrowser} from "./page_suite.mjs";
@@ -8,7 +9,7 @@ import {openPanels, untilReady, writeScans} from "./support.mjs";
 const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
 const missing = axe ? false : "axe-core is not installed (npm ci --prefix apps/studio/tests)";
 
-const LOW = {width: 640, height: 400}; // a desk at a zoom of 200 %
+const LOW = {width: 640, height: 400}; // a desk screen at a zoom of 200 %
 const SCREENS = [DESK, PHONE, LOW, TABLET, {width: 3840, height: 2160}];
 let scans;
 
@@ -21,7 +22,7 @@ withBrowser(async (isAnew) => {
   return first;
 });
 
-// Opens the first scan, with all panels open and without the offer of the tour.
+// Opens the first scan with all panels open, and closes the offer of the tour.
 async function openScan(of) {
   await of.locator("#file").setInputFiles(scans[0]);
   await untilReady(of);
@@ -30,8 +31,8 @@ async function openScan(of) {
   await button("Dismiss", of).click();
 }
 
-// Runs in the page: returns the parts that scroll though they must not. No part may scroll sideways. The parts around
-// the picture may not scroll upwards; on a desk, dialogs and the start page may not either.
+// Runs in the page. Returns the parts that scroll although they must not. No part may scroll horizontally. The parts
+// around the picture may not scroll vertically; on a desk, dialogs and the start page may not either.
 function scrolling() {
   const name = (it) => it.id || it.className || it.localName, all = [...document.querySelectorAll("*")];
   const around = "html, body, main, .studio, .work, #stage, #table, .status";
@@ -43,7 +44,7 @@ function scrolling() {
   return [...upwards, ...sideways].map(name);
 }
 
-// Runs in the page: returns the elements that reach beyond the screen on the left or the right.
+// Runs in the page. Returns the elements that extend beyond the left or right edge of the screen.
 function beyond() {
   return [...document.querySelectorAll("body *")].filter((it) => it.checkVisibility() && !it.closest("defs"))
     .filter((it) => {
@@ -52,7 +53,7 @@ function beyond() {
     }).map((it) => it.outerHTML.slice(0, 90));
 }
 
-// Runs in the page: returns the controls of a part that a user cannot reach, even by scrolling.
+// Runs in the page. Returns the controls of a part that a user cannot reach even by scrolling.
 function unreached(part) {
   const problem = (it) => {
     it.scrollIntoView({block: "nearest", inline: "nearest"});
@@ -71,7 +72,7 @@ function unreached(part) {
     .filter(([what]) => what);
 }
 
-// Runs in the page: returns the texts that are cut off. A scan's title may be cut off if it stands beside the buttons.
+// Runs in the page. Returns the texts that are cut off. A scan's title may be cut off if it is beside the buttons.
 function cut() {
   const title = innerWidth < 800 && innerHeight > 560 ? "#title, " : "";
   return [...document.querySelectorAll(`${title}button, legend, h2, #numbers, .labels span, .pair > span`)]
@@ -80,8 +81,8 @@ function cut() {
     .map((it) => it.outerHTML.slice(0, 90));
 }
 
-// Runs in the page: returns the texts that are smaller than 12.5 pixels, or than a larger limit if all type is larger.
-// Texts in drawings are as large as they state only after the drawing has been redrawn at its new size.
+// Runs in the page. Returns the texts smaller than 12.5 pixels, or smaller than a larger limit if the page's font is
+// larger. Texts in drawings have their stated size only after the drawing was redrawn at its new size.
 function small() {
   const least = 12.5 / 14.5 * parseFloat(getComputedStyle(document.documentElement).fontSize);
   const hasText = (it) => it.matches("input, select") || [...it.childNodes].some((node) =>
@@ -91,8 +92,8 @@ function small() {
     .filter((it) => !it.matches(".mark") && size(it) < least).map((it) => [size(it), it.outerHTML.slice(0, 90)]);
 }
 
-// Runs in the page: returns the rows of tools if there is more than one on a desk, or more than two on a phone. Low
-// screens show the tools in a column, so they pass.
+// Runs in the page. Returns the rows of tool buttons if there are more than one on a desk, or more than two on a phone.
+// Low screens show the tools in a column, which is always accepted.
 function wrapped() {
   if (innerHeight <= 560) return [];
   const boxes = [...document.querySelectorAll(".tools button")].map((it) => it.getBoundingClientRect());
@@ -100,7 +101,7 @@ function wrapped() {
   return innerWidth === 820 || middles.size <= (innerWidth < 800 ? 2 : 1) ? [] : [...middles];
 }
 
-// Returns, by kind, the faults of the page on a screen. The page must already have the screen's size.
+// Returns the faults of the page on a screen, by kind. The page must already have the screen's size.
 async function misfits(screen, part) {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   const all = [];
@@ -109,7 +110,7 @@ async function misfits(screen, part) {
   return all.filter(({found}) => found.length > 0);
 }
 
-// Axe checks the page in these media. In Firefox the last one suffices, as axe reads styles and not pixels.
+// Axe checks the page in these media. In Firefox the last one is enough, since axe reads styles and not pixels.
 const ALL_MEDIA = [{screen: PHONE}, {screen: PHONE, colorScheme: "dark"}, {colorScheme: "dark"},
   {forcedColors: "active"}, {}];
 const MEDIA = found.name === "firefox" ? ALL_MEDIA.slice(-1) : ALL_MEDIA;
@@ -121,14 +122,14 @@ async function assertFits(part = "body") {
   }
 }
 
-// Returns the rules of axe that elements of the page break, each with its element.
+// Returns the rules of axe that elements of the page break, each with the element.
 async function findings() {
   if (!await page.evaluate(() => "axe" in window)) await page.evaluate(axe);
   return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
     .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
 }
 
-// Runs as a test within the state's test. If axe is missing, it is reported as skipped; in CI it fails.
+// Runs as a subtest of the state's test. If axe is missing, the subtest is skipped; in CI it fails.
 const hasNoFindings = (state) => state.test("has no findings of axe", {skip: !process.env.CI && missing}, async () => {
   assert.ok(!missing, missing);
   for (const {screen = DESK, colorScheme = "light", forcedColors = "none"} of MEDIA) {
@@ -166,7 +167,7 @@ for (const [name, {enter, leave, part}] of Object.entries(STATES))
 
 test("fits every screen: a scene", async (state) => {
   await showScene(page, scans);
-  // Closes the message that work is kept, which would stay for eight seconds.
+  // Closes the message that documents are stored, which would stay for eight seconds.
   await page.locator("#toast").evaluate((toast) => toast.hidden || toast.querySelector(".close").click());
   await assertFits();
   await hasNoFindings(state);

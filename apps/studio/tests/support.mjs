@@ -1,4 +1,4 @@
-// Helps the studio's tests: runs the engine, and its page in Chromium or Firefox, and makes temporary files.
+// Helps the tests of the studio: runs the engine, runs the page in Chromium or Firefox, and makes temporary files.
 import assert from "node:assert/strict";
 import {spawn, spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
@@ -12,7 +12,7 @@ const FIREFOX = [process.env.FIREFOX, "/usr/bin/firefox-esr", "/usr/bin/firefox"
 const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
   "--disable-background-networking", "--disable-component-update"];
 
-// The longest time that a test waits for anything. It is long, as the machine may be busy with other work.
+// The longest time that a test waits for anything. It is long because the machine may be busy.
 export const PATIENCE_MS = 240000;
 
 const folders = [];
@@ -25,7 +25,8 @@ export function temporaryFolder() {
   return folders.at(-1);
 }
 
-// Imports a module of the page that imports no other. Imports its text, as Node 18 would take its file for CommonJS.
+// Imports a module of the page that imports no other module. Imports its text, since Node 18 would treat the file as
+// CommonJS.
 export const pageModule = (name) => {
   const text = readFileSync(new URL(`../page/${name}`, import.meta.url), "utf8");
   return import(`data:text/javascript,${encodeURIComponent(text)}`);
@@ -33,10 +34,10 @@ export const pageModule = (name) => {
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-// Runs `relievo studio` with a state folder of its own.
+// Runs `relievo studio` with its own state folder.
 export class EngineProcess {
   constructor(state, ...args) {
-    const page = process.env.RELIEVO_PAGE ? ["--page", process.env.RELIEVO_PAGE] : []; // another folder of the page
+    const page = process.env.RELIEVO_PAGE ? ["--page", process.env.RELIEVO_PAGE] : []; // the folder of another page
     this.child = spawn(PROGRAM, ["studio", "--no-browser", "--state", state, ...page, ...args]);
     this.errors = "";
     this.child.stderr.on("data", (data) => (this.errors += data));
@@ -57,7 +58,8 @@ export class EngineProcess {
     return this;
   }
 
-  // Sends one request; returns {status, headers, body}. `target` is sent as it is: dots in its path are not resolved.
+  // Sends one request and returns {status, headers, body}. `target` is sent unchanged: dots in its path are not
+  // resolved.
   request(target, {method = "GET", headers = {}, body} = {}) {
     const {port} = this.url;
     const options = {host: "127.0.0.1", port, method, path: target, headers: {Connection: "close", ...headers}};
@@ -73,7 +75,7 @@ export class EngineProcess {
     });
   }
 
-  // Sends a request about the document that was opened last, unless the body names another or is a text.
+  // Sends a request about the document that was opened last, unless the body names another document or is a text.
   post(action, json, options = {}) {
     const isText = typeof json === "string" || Buffer.isBuffer(json);
     const body = isText ? json : JSON.stringify({document: this.document, ...json});
@@ -108,7 +110,7 @@ export class EngineProcess {
     });
   }
 
-  // Asks for the status of a document, with pauses, until isMeant(status) is true; by default, until nothing is being
+  // Requests the status of a document repeatedly until isMeant(status) is true; by default, until nothing is being
   // prepared.
   async until(isMeant = ({busy}) => !busy, document = this.document, pauseMs = 20) {
     for (const end = Date.now() + PATIENCE_MS; Date.now() < end; await sleep(pauseMs)) {
@@ -122,19 +124,19 @@ export class EngineProcess {
     return JSON.parse((await this.get("api/about")).body);
   }
 
-  // Sends a file as the page does. Returns the answer with its status.
+  // Sends a file as the page does. Returns the answer and its status.
   async upload(name, body, action = "upload") {
     const target = `${this.url.pathname}api/${action}?name=${encodeURIComponent(name)}`;
     const answer = await this.request(target, {method: "POST", body});
     return {status: answer.status, ...JSON.parse(answer.body)};
   }
 
-  // Returns the kept document of an input.
+  // Returns the stored document of an input.
   async kept(input) {
     return (await this.json("document", {input})).kept;
   }
 
-  // Returns the newest step of a kept scan.
+  // Returns the newest step of the stored document of a scan.
   async newestStep(scan) {
     const {steps, at} = await this.kept({path: scan});
     return steps[at];
@@ -146,7 +148,7 @@ export class EngineProcess {
   }
 }
 
-// Runs the program, which must succeed.
+// Runs the program and asserts that it succeeds.
 export function run(...args) {
   const made = spawnSync(PROGRAM, args.map(String));
   assert.equal(made.status, 0, String(made.stderr));
@@ -155,7 +157,7 @@ export function run(...args) {
 // Writes a sample with that many points into a file.
 export const writeSample = (sample, points, file) => run("sample", sample, "-o", file, "--points", points);
 
-// Writes two scans into a folder under names that are not those of samples. Returns their paths.
+// Writes two scans into a folder, with names other than those of samples. Returns their paths.
 export function writeScans(folder, points) {
   const scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
   for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], points, scan);
@@ -172,7 +174,8 @@ export function writeDepths(file, width, height, depthAt) {
   writeFileSync(file, Buffer.from(numbers.buffer));
 }
 
-// Writes a depth image of a ball before a wall: depths of 810 to 900 before 4000, in a disc with a radius of 30 pixels.
+// Writes a depth image of a ball in front of a wall. The ball is a disc of radius 30 pixels with depths from 810 to
+// 900; the wall has the depth 4000.
 export const writeBallBeforeWall = (file) => writeDepths(file, 120, 90, (x, y) => {
   const off = Math.hypot(x - 60, y - 45);
   return off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
@@ -181,16 +184,17 @@ export const writeBallBeforeWall = (file) => writeDepths(file, 120, 90, (x, y) =
 export const openPanels = (page) => page.locator("details").evaluateAll((all) =>
   all.forEach((panel) => (panel.open = true)));
 
-// Waits until the relief is shown as it will be exported.
+// Waits until the picture shows the relief as it is exported.
 export async function untilReady(page) {
   await page.getByText(/points.*height/).waitFor();
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
 }
 
-// Waits until the page's program has begun: before that, the page takes no clicks, but scripts could change its fields.
+// Waits until the page has started. Before that, the page takes no clicks, although scripts could already change its
+// fields.
 export const untilListening = (page) => page.locator("body:not([inert])").waitFor();
 
-// Holds back the requests of a page to an address. Returns a function that lets these and all later requests go.
+// Holds back all requests of a page to an address. Returns a function that lets these and all later requests go.
 export async function holdRequests(page, address) {
   let letGo;
   const held = new Promise((resolve) => (letGo = resolve));
@@ -201,18 +205,18 @@ export async function holdRequests(page, address) {
   return letGo;
 }
 
-// Waits by the page's own clock, so that all its timers of less than that time have run, however busy the machine is.
+// Waits by the clock of the page, so that all its timers of at most `ms` have run, however busy the machine is.
 export const untilTimersRan = (page, ms) =>
   page.evaluate((ms) => new Promise((resolve) => setTimeout(resolve, ms)), ms);
 
-// Runs in the page: from now on, timers of at least that time do nothing, so that a message stays until something else
-// removes it. ignoreTimers(Infinity) ends this.
+// Runs in the page. From now on timers of `leastMs` or more do nothing, so that a message stays until something else
+// removes it. ignoreTimers(Infinity) restores all timers.
 export const ignoreTimers = (leastMs) => {
   const all = (window.allTimers ??= window.setTimeout.bind(window));
   window.setTimeout = (act, ms, ...args) => (ms >= leastMs ? 0 : all(act, ms, ...args));
 };
 
-// Starts an engine with a scan, and shows it in a new page of the browser. Returns {engine, page}.
+// Starts an engine with a scan, and opens its page in the browser. Returns {engine, page}.
 export async function showScan(browser, {state, scan, screen = {width: 1280, height: 800}}) {
   const page = await (await browser.newContext({viewport: screen})).newPage();
   const engine = await new EngineProcess(state, scan).ready();
@@ -221,27 +225,28 @@ export async function showScan(browser, {state, scan, screen = {width: 1280, hei
   return {engine, page};
 }
 
-// Runs in the page: returns whether each kind of work shows a picture of the exact relief.
+// Runs in the page. Returns whether each kind of work shows a picture of the exact relief.
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button")].every((card) =>
   card.dataset.drawn === "exact");
 
-// Replaces the text of a field key by key, as browsers distinguish typed text from text that a script sets. Waits until
-// the field takes keys: while it is disabled, keys would go to the field that had the focus.
+// Replaces the text of a field key by key, because browsers distinguish typed text from text that a script sets. Waits
+// until the field is enabled: before that, keys would go to the field that had the focus.
 export async function type(field, text) {
-  await field.page().bringToFront(); // Firefox sends keys to no other page
+  await field.page().bringToFront(); // Firefox sends keys only to the page in front
   await eventually(async () => {
     await field.selectText({timeout: 2000});
     const isSelected = await field.evaluate((input) => document.activeElement === input &&
       !input.disabled && input.selectionEnd - input.selectionStart === input.value.length);
     if (!isSelected) throw new Error(`not selected: ${field}`);
   });
-  // Keys are sent to the page, not to the field, as Playwright clears the selection of fields on a page without focus.
+  // The keys are sent to the page and not to the field, because Playwright clears the selection of fields on a page
+  // without focus.
   const {keyboard} = field.page();
   await (text === "" ? keyboard.press("Delete") : keyboard.type(text));
 }
 
-// Clicks twice. Firefox's driver counts clicks only within one chain of actions, so two single clicks arrive. In
-// Firefox the event of a double click is therefore sent by hand.
+// Clicks twice. Firefox's driver counts clicks only within one chain of actions, so in Firefox this makes two single
+// clicks, and the event of a double click is sent separately.
 export async function doubleClick(locator) {
   await locator.dblclick();
   if (locator.page().context().browser().browserType().name() === "firefox") await locator.dispatchEvent("dblclick");
@@ -252,7 +257,7 @@ export async function enter(field, text) {
   await field.press("Enter");
 }
 
-// Repeats a check until it no longer throws, as a page shows the effects of events a little later.
+// Repeats a check until it no longer throws, because a page shows the effects of an event a little later.
 export async function eventually(check) {
   for (const end = Date.now() + PATIENCE_MS; ;) {
     try {
@@ -264,15 +269,15 @@ export async function eventually(check) {
   }
 }
 
-// Prints which tool is missing, and returns this as the reason why tests of the page are skipped.
+// Prints which tool is missing. Returns that as the reason for skipping the tests of the page.
 function without(missing) {
   const skip = `${missing}: the page is not tested`;
   console.log(`SKIPPED: ${skip}`);
   return {skip};
 }
 
-// Sets PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS, so that a test that does
-// not wait for the values that it checks fails, as it would on a busy machine.
+// Sets PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS. With a delay, a test fails
+// if it does not wait for the values that it checks, as it would on a busy machine.
 function patient(browser) {
   const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
   const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed
@@ -285,8 +290,8 @@ function patient(browser) {
   return browser;
 }
 
-// Returns {launch, skip} of the browser that the environment names, by default Chromium. `skip` is false, or says what
-// is missing. The channel makes Playwright drive Firefox by WebDriver BiDi.
+// Returns {launch, skip} of the browser that the environment names, by default Chromium. `skip` is false or says what
+// is missing. `channel` makes Playwright drive Firefox by WebDriver BiDi.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
   const isFirefox = name === "firefox";
   const executablePath = (isFirefox ? FIREFOX : CHROMIUM).find((candidate) => candidate && existsSync(candidate));
@@ -295,7 +300,7 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
   try {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
     const folder = isFirefox ? temporaryFolder() : null; // for downloads
-    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // a panel would take the focus
+    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // its panel would take the focus
     const settings = {executablePath, timeout: PATIENCE_MS}, start = () => (isFirefox
       ? firefox.launch({...settings, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
       : chromium.launch({...settings, args: CHROMIUM_FLAGS}));
@@ -306,7 +311,7 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
 }
 
 // Returns {name, bytes} of the files that a page saves after `trigger`, sorted by name. Firefox's driver does not
-// report downloads, so in Firefox the files are looked for in the folder of downloads.
+// report downloads, so in Firefox the files are read from the folder of downloads.
 export async function savedFiles({folder}, page, count, trigger) {
   if (folder) {
     await trigger();
@@ -334,7 +339,8 @@ export async function savedFiles({folder}, page, count, trigger) {
   return (await Promise.all(files)).sort((a, b) => (a.name < b.name ? -1 : 1));
 }
 
-// Returns the number of triangles of a binary STL, the size of their box, and whether every edge has two triangles.
+// Returns the number of triangles in a binary STL, the size of their bounding box, and whether every edge has two
+// triangles.
 export function readStl(bytes) {
   const count = bytes.readUInt32LE(80), box = {min: Array(3).fill(Infinity), max: Array(3).fill(-Infinity)};
   const edges = new Map(), at = (offset) => [0, 4, 8].map((i) => bytes.readFloatLE(offset + i));

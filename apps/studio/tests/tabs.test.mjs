@@ -14,7 +14,7 @@ withBrowser(async () => {
   for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]])
     writeSample(sample, points, fileOf(sample));
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
-  await context.addInitScript(() => { // a deaf tab ignores the events that the engine sends
+  await context.addInitScript(() => { // this tab ignores the events of the engine
     Object.assign(window, {told: [], missed: []});
     new BroadcastChannel(location.pathname).onmessage = ({data}) => window.told.push(data);
     window.EventSource = class extends EventSource {
@@ -62,7 +62,7 @@ const openScan = async (of, sample) => {
   await untilPoints(of, {shell: "6,000", green_man: "5,000"}[sample]);
 };
 
-// Waits until the engine has kept the height that a tab shows, and all tabs have heard of it.
+// Waits until the engine has stored the height that a tab shows, and all tabs show it.
 const untilTold = (of, tabs) => eventually(async () => {
   const document = new URL(of.url()).hash.slice(1), {recent} = await engine.json("recent");
   const kept = await engine.kept(recent.find((entry) => entry.document === document).input);
@@ -87,7 +87,7 @@ test("shows two scans in two tabs, and mixes up nothing", async () => {
     assert.match(file.name, name);
     assert.ok(Math.abs(file.size[2] - 3 - mm) < 0.01, `${file.size}`);
   }
-  for (const each of [tab, other]) await each.reload().then(() => untilReady(each)); // each stays with its document
+  for (const each of [tab, other]) await each.reload().then(() => untilReady(each)); // each tab keeps its document
   await soon.deepEqual(titles, ["scan.ply", "shell.ply"]);
   for (const each of [tab, other]) await each.close();
 });
@@ -187,7 +187,7 @@ test("shows what another page kept later, and says so where a change of its own 
   await untilHeight(tab, "5.50");
   await soon.ok(async () => !await toast(tab).isVisible());
   await tab.evaluate(() => (window.isDeaf = true));
-  await keep(4.75, 600000); // later than this page's next change, however busy the machine is
+  await keep(4.75, 600000); // later than the next change on this page, however busy the machine is
   await tab.waitForFunction((changed) => window.missed.some((status) => status.kept?.changed === changed),
     kept.changed);
   await soon.equal(() => height(tab).inputValue(), "5.50");
@@ -204,7 +204,7 @@ test("shows the newer work that it finds with the next engine, and says so", asy
   const file = path.join(state, "documents", `${document}.json`), newer = JSON.parse(readFileSync(file));
   assert.equal(newer.changed, kept.changed);
   newer.steps[newer.at].options.height = 6.5;
-  writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 1200000})); // as if another page had kept this
+  writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 1200000})); // as if another tab had stored it
   await startEngine();
   await untilSaid(tab, "The engine is back. It had newer work on this scan, which is shown here.");
   await untilHeight(tab, "6.50");
@@ -233,7 +233,7 @@ test("opens a project saved with its scan in another studio, where the scan is n
 });
 
 test("asks for a scan that has moved, takes no other for it unasked, and goes on with it", async () => {
-  await engine.stop(); // the engine may have ended by itself, as no page was open for a while
+  await engine.stop(); // the engine may have ended already, since no page was open for a while
   await startEngine(scan);
   const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
   await openScan(tab, "shell");
@@ -264,7 +264,7 @@ test("asks for a scan that has moved, takes no other for it unasked, and goes on
   await eventually(async () => assert.equal(await title(tab).innerText(), "shell.ply"));
   await untilReady(tab);
   await soon.deepEqual(() => kept(), before);
-  await locate(fileOf("green_man")); // locates a wrong file by mistake
+  await locate(fileOf("green_man")); // chooses a wrong file by mistake
   await answerWith("Locate another file", moved);
   await untilPoints(tab, "20,000");
   await soon.equal(() => height(tab).inputValue(), "6.50");
@@ -292,7 +292,7 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
   await button("Back to the relief", tab).click();
   await untilPoints(tab, "150,000");
   rmSync(path.join(place, "documents"), {recursive: true});
-  writeFileSync(path.join(place, "documents"), ""); // a file in place of the folder, so that nothing can be kept
+  writeFileSync(path.join(place, "documents"), ""); // a file in place of the folder, so that nothing can be stored
   await choose(tab, fileOf("green_man"));
   const said = toast(tab).getByText(/^Your work is not kept/);
   await said.waitFor();

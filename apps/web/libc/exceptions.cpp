@@ -1,10 +1,10 @@
-// C++ exceptions end the program, as clang's target has no library that can throw them. The host throws an
-// exception of its own, and must then discard the instance.
+// C++ exceptions end the program: this target of clang has no library that can throw them. The host throws
+// its own exception instead, and must then discard the instance of the module.
 #include <cstddef>
 #include <cstring>
 #include <new>
 
-// Ends the program in the host, which provides this as a function of the module "relievo".
+// Ends the program. The host provides this function in the module "relievo".
 __attribute__((import_module("relievo"), import_name("fail"))) extern "C" [[noreturn]] void relievo_host_fail(
     const char* reason, std::size_t size);
 
@@ -14,7 +14,7 @@ namespace {
   relievo_host_fail(reason, std::strlen(reason));
 }
 
-// Called when malloc() has no memory left, before std::bad_alloc would be thrown.
+// operator new calls this handler when malloc() has no memory left, before it would throw std::bad_alloc.
 struct AtStart {
   AtStart() {
     std::set_new_handler([] { fail("memory"); });

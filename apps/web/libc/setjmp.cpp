@@ -1,13 +1,13 @@
-// Implements the functions that clang calls for setjmp() and longjmp(). A jump throws an exception of WebAssembly,
-// which the code that clang makes catches.
+// Implements the functions that clang calls for setjmp() and longjmp(). A jump is a WebAssembly exception;
+// the code that clang generates catches it.
 #include <cstdint>
 
 namespace {
 
-// A jmp_buf.
+// The content of a jmp_buf.
 struct State {
-  void* call;           // of the function that has called setjmp()
-  std::uint32_t place;  // number of that setjmp() in the function, from 1
+  void* call;           // identifies the call of the function that contains the setjmp()
+  std::uint32_t place;  // number of that setjmp() within the function, from 1
   struct {
     void* state;
     int value;
@@ -23,7 +23,7 @@ void __wasm_setjmp(State* state, std::uint32_t place, void* call) {
   state->place = place;
 }
 
-// Returns the place to go to; 0 if another call has to catch the jump.
+// Returns the number of the setjmp() to return to; 0 if another call of a function must catch the jump.
 std::uint32_t __wasm_setjmp_test(const State* state, void* call) {
   return state->call == call ? state->place : 0;
 }

@@ -1,4 +1,5 @@
-// The header of C, which Debian's wasi-libc lacks, for sources that are compiled with -mllvm -wasm-enable-sjlj.
+// Replaces the standard header, which Debian's wasi-libc lacks, for sources that are compiled with -mllvm
+// -wasm-enable-sjlj.
 #pragma once
 
 extern "C" {

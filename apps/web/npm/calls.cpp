@@ -21,8 +21,7 @@
 #include "relievo/samples/sample.h"
 #include "relievo/scan/surface.h"
 
-// Reports progress to the host, which provides this as a function of the module "relievo". Returns 1 to
-// cancel.
+// Reports progress to the host. Returns 1 to cancel. The host provides this function in the module "relievo".
 __attribute__((import_module("relievo"), import_name("progress"))) extern "C" int relievo_host_progress(
     const char* stage, std::size_t size, double fraction);
 
@@ -33,7 +32,7 @@ using Json = nlohmann::json;
 using Kept =
     std::variant<std::shared_ptr<FinishedRelief>, std::shared_ptr<PreparedModel>, std::shared_ptr<FrameInMm>>;
 
-// Reports its progress to the host, which may cancel the work at the beginning of a stage.
+// Reports its progress to the host, which may cancel at the beginning of a stage.
 struct HostProgress : Progress {
   HostProgress()
       : Progress([this](std::string_view stage, double fraction) {
@@ -41,7 +40,7 @@ struct HostProgress : Progress {
         }) {}
 };
 
-// Returns the objects that calls have made, by their numbers. They stay until a call releases them.
+// Returns the objects that calls have made, keyed by their numbers. An object stays until a call releases it.
 std::map<int, Kept>& kept() {
   static std::map<int, Kept> all;
   return all;
@@ -68,8 +67,8 @@ std::string text(const Json& json, const char* key, std::string otherwise = {}) 
 }
 
 // Reads {"inputs": [paths], "options": {name: number or text}, "camera": text, "base_image": path,
-// "stream_above_mb": number}; each may be missing. Options have the names of the command line; lengths may be
-// texts with a unit. Errors: kind option, naming the option.
+// "stream_above_mb": number}. All keys are optional. Options have the names of the command line; a length may
+// be a text with a unit. Errors: kind option, with the option's name.
 Result<MakeOrder> order_from(const Json& json) {
   MakeOrder order;
   const Json options = json.contains("options") ? json["options"] : Json::object();
@@ -86,7 +85,7 @@ Result<MakeOrder> order_from(const Json& json) {
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");
   if (json.contains("stream_above_mb"))
-    order.in.most_points = std::numeric_limits<double>::infinity();  // the caller knows how much fits
+    order.in.most_points = std::numeric_limits<double>::infinity();  // the caller knows how many fit
   order.in.stream_above_mb = number(json, "stream_above_mb", order.in.stream_above_mb);
   if (const auto inputs = json.find("inputs"); inputs != json.end() && inputs->is_array())
     for (const Json& path : *inputs)
@@ -94,7 +93,7 @@ Result<MakeOrder> order_from(const Json& json) {
   return order;
 }
 
-// Returns the object that an earlier call has made; `key` is the argument that has its number.
+// Returns the object that an earlier call made. The argument `key` has its number.
 template <typename T>
 Result<std::shared_ptr<T>> find(const Json& json, const char* key) {
   const auto found = kept().find(integer(json, key, 0));
@@ -138,7 +137,8 @@ Result<CallAnswer> make_sample_file(const Json& json) {
 
 // --------------------------------------------------------------------------------------------------- results
 
-// Returns one file of a relief: {"relief", "path", "kind"}, where `kind` is one of the kinds of ReliefFiles.
+// Returns one file of a relief from the arguments {"relief", "path", "kind"}. `kind` is the name of a field
+// of ReliefFiles.
 Result<CallAnswer> file(const Json& json) {
   RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
   ReliefFiles files;
@@ -246,7 +246,7 @@ Result<CallAnswer> picture(const Json& json) {
       bytes_of_all(made.image.pixels)};
 }
 
-// Returns the name that a user may have meant: {"name", "names"}.
+// Returns the name that a user may have meant, from the arguments {"name", "names"}.
 Result<CallAnswer> nearest(const Json& json) {
   std::vector<std::string> names;
   if (const auto known = json.find("names"); known != json.end() && known->is_array())

@@ -1,9 +1,9 @@
-// Lets the engine read files of the browser block by block.
+// Lets the engine read a file of the browser block by block.
 
-const PIECE = 4 << 20; // bytes that are read at once
+const PIECE = 4 << 20; // size of a block in bytes
 
-// Returns a file as npm/src/files.js describes it. Works only in workers, which can read blobs synchronously. Throws if
-// the browser cannot read the blob.
+// Returns a file as npm/src/files.js describes it. Works only in workers, because only they can read blobs
+// synchronously. Throws if the browser cannot read the blob.
 export function fileOf(blob) {
   const reader = new FileReaderSync();
   let start = 0, piece = new Uint8Array();

@@ -1,5 +1,5 @@
-// Puts the studio's page into one file: build.mjs MODULE FOLDER writes relievo.html. Beside it, writes the files with
-// which a browser can install the page from a server.
+// Packs the studio's page into one file: `build.mjs MODULE FOLDER` writes relievo.html into the folder, and the files
+// that a browser needs to install the page from a server.
 import {execFileSync} from "node:child_process";
 import crypto from "node:crypto";
 import fs from "node:fs";
@@ -13,7 +13,7 @@ const esbuild = createRequire(path.join(here, "../../../npm/test/"))("esbuild");
 const [module, folder] = process.argv.slice(2);
 const read = (name) => fs.readFileSync(path.join(page, name), "utf8");
 
-// Replaces the page's own transport.js, which uses HTTP.
+// Replaces apps/studio/page/transport.js, which sends requests by HTTP.
 const otherTransport = {
   name: "engine in a worker",
   setup: (build) => build.onResolve({filter: /\/transport\.js$/}, () => ({path: path.join(here, "transport.js")})),
@@ -46,7 +46,7 @@ const script = (await bundlePage()).trim(), style = bundle({entryPoints: [path.j
 const worker = bundle({entryPoints: [path.join(here, "worker.js")]}, {format: "iife"}).trim();
 const packed = zlib.gzipSync(fs.readFileSync(module), {level: 9}).toString("base64");
 
-// The browser refuses to load or send anything that this policy does not name.
+// The browser refuses to load from or send to any address that this policy does not allow.
 const policy = `default-src 'none'; script-src ${hashOf(script)} 'wasm-unsafe-eval'; style-src ${hashOf(style)}; ` +
   "img-src data: blob:; worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'";
 

@@ -1,8 +1,8 @@
-// Returns the names of documents, and finds the files of their inputs.
+// Names documents, and finds the files of their inputs.
 
 const MASK = (1n << 64n) - 1n;
 
-// Returns the name of the document of an input, as document_of() in apps/studio/store.cpp does.
+// Returns the name of the document for an input. document_of() in apps/studio/store.cpp computes the same name.
 export function documentOf({sample, path}) {
   let hash = 0xCBF29CE484222325n;
   for (const byte of new TextEncoder().encode(sample ? `sample:${sample}` : `path:${path}`))
@@ -10,24 +10,24 @@ export function documentOf({sample, path}) {
   return hash.toString(16).padStart(16, "0");
 }
 
-// Returns the digits of a scan's hash; "" for samples, and for scans that were never read.
+// Returns the hexadecimal digits of a scan's hash; "" for a sample, and for a scan that was never read.
 export const scanOf = ({path = "", hash = ""}) =>
   path.match(/^scans\/([0-9a-f]{16})\//)?.[1] ?? hash.match(/:([0-9a-f]{16})$/)?.[1] ?? "";
 
-// Returns the input of a document's state; null for a value that is no such state.
+// Returns the current input in the state of a document; null if the value is not such a state.
 export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 
 export const BASE_IMAGE = "base-image"; // the option with the path of a base's height map
 
-// Returns the hash digits of all files that the state of a document needs.
+// Returns the hashes, in digits, of all files that the state of a document needs.
 export const scansOf = (state) => [scanOf(inputOf(state)),
   ...state.steps.map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
 
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // endings of files that accompany a model
 
-// Returns the file to open: the only file, the scene, or the model to which the other files belong. For several models,
-// returns a new scene with the models side by side.
+// Returns the file to open: the only file, the scene file, or the only model, to which the other files belong. If there
+// are several models, returns a new scene file that places them side by side.
 export function mainOf(files) {
   const scene = files.find((file) => endingOf(file) === "json");
   if (files.length === 1 || scene) return scene ?? files[0];
@@ -37,7 +37,7 @@ export function mainOf(files) {
   return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
 }
 
-// Replaces the browser's blobs in files, [[path, file], ...], by their bytes.
+// Returns the list files, [[path, file], ...], with bytes in place of the browser's blobs.
 export function bytesOf(files) {
   return Promise.all(files.map(async ([path, file]) =>
     [path, file instanceof Blob ? new Uint8Array(await file.arrayBuffer()) : file]));

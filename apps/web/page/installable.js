@@ -1,4 +1,4 @@
-// Makes browsers offer to install the page if it is served with relievo.webmanifest and relievo-offline.js beside it.
+// Makes browsers offer to install the page, if a server also provides relievo.webmanifest and relievo-offline.js.
 if (location.protocol.startsWith("http")) {
   const link = document.createElement("link");
   link.rel = "manifest";

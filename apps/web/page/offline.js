@@ -1,10 +1,10 @@
-// The service worker of a page from a server: keeps the page, so that it opens without a network.
+// The service worker of a page from a server. It stores the page, so that the page opens without a network.
 const NAME = "relievo";
 
 addEventListener("install", (event) => event.waitUntil(skipWaiting()));
 addEventListener("activate", (event) => event.waitUntil(clients.claim()));
 
-// Answers with the newest page if the network responds, otherwise with the page that was kept.
+// Answers with the newest page if the server responds, otherwise with the stored page.
 addEventListener("fetch", (event) => {
   const isPage = event.request.mode === "navigate" || event.request.url.endsWith(".webmanifest");
   if (event.request.method === "GET" && isPage) event.respondWith(newest(event.request));

@@ -1,8 +1,8 @@
-// Keeps documents and scans in the browser (IndexedDB): documents with their pictures, and the files of scans.
+// Stores documents with their pictures, and the files of scans, in the browser (IndexedDB).
 import {EngineError} from "../../studio/page/engine.js";
 import {bytesOf, inputOf, scansOf} from "./inputs.js";
 
-const MOST_RECENT = 24; // kept documents, with their scans
+const MOST_RECENT = 24; // most documents to store, each with its scan
 
 const done = (request) => new Promise((resolve, reject) => {
   request.onsuccess = () => resolve(request.result);
@@ -16,7 +16,7 @@ const ended = (transaction) => new Promise((resolve, reject) => {
 
 const hasNoRoom = (error) => error?.name === "QuotaExceededError";
 
-// Returns the reason of an error, in words for users.
+// Returns the reason for an error, in words for users.
 function reason(error) {
   if (hasNoRoom(error)) return "the browser has no room left for this page";
   return `the browser does not allow it (${error?.name ?? error})`;
@@ -25,7 +25,7 @@ function reason(error) {
 export class BrowserStore {
   notice = "";
   #base = null;
-  #memory = {documents: new Map(), scans: new Map()}; // data that the browser could not keep; lost with the page
+  #memory = {documents: new Map(), scans: new Map()}; // data that the browser could not store, until the page closes
 
   async open() {
     try {
@@ -48,12 +48,12 @@ export class BrowserStore {
     return inMemory ?? (this.#base && done(this.#base.transaction(name).objectStore(name).get(key)));
   }
 
-  // Changes an entry. next() takes the present value and returns the new one; the errors that it throws are passed on.
+  // Changes an entry. next() takes the current value and returns the new one. An error that next() throws is thrown on.
   async #change(name, key, next) {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
     const whole = ended(transaction);
-    whole.catch(() => {}); // it is awaited below, unless `next` throws
+    whole.catch(() => {}); // if next() throws, nobody awaits `whole`: avoids an unhandled rejection
     const now = await done(store.get(key));
     let changed;
     try {
@@ -72,11 +72,11 @@ export class BrowserStore {
     }
   }
 
-  // Returns {id, state, picture, touched} of a document; nothing if it is not kept.
+  // Returns {id, state, picture, touched} of a document; nothing if it is not stored.
   document = (id) => this.#get("documents", id);
 
-  // Keeps the state of a document. Throws an error of kind "older" if a newer state is kept, "output" if this state
-  // cannot be kept.
+  // Stores the state of a document. Throws an error of kind "older" if a newer state is already stored, and of kind
+  // "output" if the browser cannot store this state.
   keepDocument(id, state) {
     return this.#change("documents", id, (kept) => {
       if (kept?.state?.changed > state.changed) throw new EngineError({kind: "older", text: "a newer state is kept"});
@@ -88,8 +88,8 @@ export class BrowserStore {
 
   touch = (id) => this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
 
-  // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}. Private windows of WebKit cannot keep blobs,
-  // so their bytes are kept there.
+  // Stores the files of a scan: {digits, main, files: [[path, blob], ...]}. Private windows of WebKit cannot store
+  // blobs; there the bytes are stored instead.
   async keepScan(scan) {
     const keep = (kept) => this.#change("scans", scan.digits, () => kept);
     try {
@@ -102,7 +102,7 @@ export class BrowserStore {
 
   scan = (digits) => (digits ? this.#get("scans", digits) : undefined);
 
-  // Returns the documents that were used last, the newest first.
+  // Returns the most recently used documents, the newest first.
   async recent() {
     const kept = this.#base ? await done(this.#base.transaction("documents").objectStore("documents").getAll()) : [];
     const all = new Map([...kept.map((each) => [each.id, each]), ...this.#memory.documents]);

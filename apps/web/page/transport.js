@@ -1,12 +1,12 @@
-// Sends requests to the WebAssembly engine, which runs in a worker, and to the store of documents in the browser.
-// Replaces apps/studio/page/transport.js; engine.js there describes transports.
+// Sends requests to the WebAssembly engine, which runs in a worker, and to the browser's store of documents. Replaces
+// apps/studio/page/transport.js; apps/studio/page/engine.js describes transports.
 import {compile} from "../../../npm/src/compile.js";
 import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
 import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
-const MOST_UPLOAD = 2 ** 31; // bytes: half of the memory that WebAssembly has
-const RUN = TAB; // the engine lives as long as its page
+const MOST_UPLOAD = 2 ** 31; // in bytes: half of the largest memory of WebAssembly
+const RUN = TAB; // a run of the engine lasts as long as its page
 const content = (id) => document.getElementById(id).textContent;
 const closed = () => new EngineError({kind: "closed", text: "expected a document that is open"});
 
@@ -20,22 +20,22 @@ const LIMITS = [
 ];
 
 export class Transport {
-  // slowMs: the aim is 30 frames per second.
+  // slowMs: a slower frame misses the aim of 30 frames per second.
   traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
-  #pictures = null; // pictures of the page, by name
+  #pictures = null; // addresses of the page's pictures by name
   #worker = null;
-  #waiting = new Map(); // requests by number of the message
+  #waiting = new Map(); // unanswered requests by the number of their message
   #last = 0;
   #opened = {document: "", input: null}; // the document that was opened last
-  #isOpen = new Set(); // documents that are open in this worker
-  #statuses = new Map(); // by document, as last reported
-  #kept = new Map(); // by document: the time and the tab of its last keeping
+  #isOpen = new Set(); // documents that the worker has open
+  #statuses = new Map(); // the last reported status of each document
+  #kept = new Map(); // per document, when it was stored last, and by which tab
   #onStatus = () => {};
   #say = () => {};
   #tabs = null;
-  // Requests that the page answers itself. The program `relievo studio` answers them by files and threads.
+  // Answers to requests that need no engine. The program `relievo studio` answers them with its files and threads.
   #own = {
     about: () => this.#about(), document: ({input}) => this.#find(input), open: (request) => this.#open(request),
     upload: (_, files) => this.#upload(files), project: ({name}, [file]) => this.#readProject(name, file),
@@ -67,8 +67,8 @@ export class Transport {
     worker.postMessage({module});
   }
 
-  // Ends the worker. Requests for pieces and files get `error`, other waiting requests `others`. The next request
-  // starts another worker.
+  // Ends the worker. Rejects unanswered requests: those for pieces and files with `error`, all others with `others`.
+  // The next request starts a new worker.
   #end(error, others = error) {
     this.#worker?.terminate();
     this.#worker = null;
@@ -83,7 +83,8 @@ export class Transport {
     if (this.#worker && this.#status().busy) this.#end(cancelled(), closed());
   }
 
-  // In WebKit the worker of a page opened from disk cannot read files. The page then reads each file as a whole.
+  // In WebKit the worker of a page that was opened from disk cannot read files. Then the page reads each file as a
+  // whole.
   async #work(call, request, files = []) {
     try {
       return await this.#send(call, request, files);
@@ -102,13 +103,13 @@ export class Transport {
     });
   }
 
-  // Sends a call for a document. Throws if the worker does not have the document open.
+  // Sends a call for a document. Throws if the worker does not have that document open.
   async #ask(call, request) {
     if (!this.#isOpen.has(request.document)) throw closed();
     return this.#work(call, request, await this.#imageOf(request.options));
   }
 
-  // Returns the files that the options name, which may be the height map of a base.
+  // Returns the files that the options name: the height map of a base, or none.
   async #imageOf(options) {
     const path = options?.[BASE_IMAGE];
     return path ? this.#filesOf({path}) : [];
@@ -129,13 +130,13 @@ export class Transport {
     waiting?.resolve({about, body: isFile ? new Blob([body], {type}) : body});
   }
 
-  // Ends the engine after it ran out of memory or failed, and reports that the document cannot be shown.
+  // Ends the worker after the engine ran out of memory or failed, and reports the error as the document's status.
   #failed(error) {
     this.#end(new EngineError(error), closed());
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
-  // Ends the worker, because messages do not reach it while it computes.
+  // Ends the worker, because it handles no messages while it computes.
   #cancel() {
     this.#end(cancelled(), closed());
     this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});
@@ -180,7 +181,7 @@ export class Transport {
         if (this.#statuses.has(document)) this.#tell(this.#statuses.get(document));
       };
     } catch {
-      // other tabs see newer work when they are reloaded
+      // other tabs see the newer state when they are reloaded
     }
     onStatus({run: RUN});
   }
@@ -195,7 +196,7 @@ export class Transport {
     return {document, input: found, is_there: Boolean(input.sample || scan), kept};
   }
 
-  // Opens a document. Ends the preparation of another one.
+  // Opens a document, and ends the preparation of any other.
   async #open({document: _, input, ...view}) {
     const document = documentOf(input);
     if (!this.#isOpen.has(document)) this.#endPreparation();
@@ -203,7 +204,7 @@ export class Transport {
     this.#statuses.delete(document);
     await this.#work("open", {input, ...view}, await this.#filesOf(input));
     this.#isOpen.add(document);
-    await this.#store.touch(document).catch(() => {}); // the page reports work that is not kept
+    await this.#store.touch(document).catch(() => {}); // later failures to store the document are reported
     return {document};
   }
 
@@ -239,7 +240,7 @@ export class Transport {
     return {...project, ...(await this.#find(input))};
   }
 
-  // Keeps a file that was part of the project that was read last.
+  // Stores a file that was packed in the project that was read last.
   async #keepUnpacked(path) {
     if (!path) return;
     const {body: file} = await this.#work("unpacked", {path}), name = path.slice(path.lastIndexOf("/") + 1);

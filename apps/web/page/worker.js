@@ -1,15 +1,16 @@
-// The page's worker, which runs the engine in WebAssembly. It takes {id, call, request, files} and answers {id, status,
-// type, about, body}, {id, error} or, when it cannot go on, {id, error, isOver}. It also sends {statuses} when a status
-// has changed.
+// The worker that runs the WebAssembly engine for the page. It receives {id, call, request, files}, and answers {id,
+// status, type, about, body} or {id, error}, or {id, error, isOver} if the engine cannot continue. It also sends
+// {statuses} when a status has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
 
 const BEGINS_WORK = new Set(["open", "view"]);
 
 let engine, timer;
-let isDue = false; // work was requested and has not begun
+let isDue = false; // whether a preparation was requested and has not begun
 
-// Prepares the view that was requested last. Waiting messages are handled before, as they may request another view.
+// Prepares the view that was requested last. It first lets waiting messages be handled, as they may request another
+// view.
 function work() {
   isDue = false;
   try {

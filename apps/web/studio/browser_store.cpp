@@ -29,7 +29,7 @@ std::unique_ptr<studio::DroppedScan> BrowserStore::begin_scan(const std::string&
 }
 
 Result<ScanSource> BrowserStore::keep(studio::DroppedScan& scan) {
-  auto& kept = static_cast<ScanInMemory&>(scan);  // begin_scan() made it
+  auto& kept = static_cast<ScanInMemory&>(scan);  // begin_scan() made it, so it has this type
   const std::string hash = kept.hash.text();
   ScanSource source{{}, cat("scans/", hash.substr(hash.find(':') + 1), "/", kept.name), kept.name, hash};
   bytes_[source.path] = std::move(kept.bytes);

@@ -1,4 +1,4 @@
-// Keeps scans for the studio in a browser, where the page keeps the documents.
+// Keeps scans of the studio in memory. In a browser the page itself stores documents.
 #pragma once
 
 #include <map>
@@ -7,18 +7,18 @@
 
 namespace relievo::app::web {
 
-// Names scans by their hash, and keeps their bytes until the page takes them. Keeps no documents: the page
-// does so in apps/web/page/store.js.
+// Names scans by their hash, and keeps their bytes until the page takes them. It keeps no documents;
+// apps/web/page/store.js does.
 class BrowserStore final : public studio::Store {
  public:
   std::unique_ptr<studio::DroppedScan> begin_scan(const std::string& name) const override;
   Result<ScanSource> keep(studio::DroppedScan& scan) override;
 
-  // Returns the bytes of a scan that was kept under that path; an empty vector on a second call.
+  // Returns the bytes of the scan that was kept under that path. A second call returns an empty vector.
   std::vector<std::byte> take_bytes(const std::string& path) { return std::exchange(bytes_[path], {}); }
 
  private:
-  std::map<std::string, std::vector<std::byte>> bytes_;  // by path
+  std::map<std::string, std::vector<std::byte>> bytes_;  // maps paths to contents
 };
 
 }  // namespace relievo::app::web

@@ -1,5 +1,5 @@
-// Answers the calls of the studio's page: the actions that the page sends to the native studio by HTTP, and
-// calls that replace the files and threads of that program.
+// Answers the calls of the studio's page: the requests that the native studio gets by HTTP, and calls that
+// replace its files and threads.
 #include "web/calls.h"
 
 #include "common/files.h"
@@ -8,8 +8,8 @@
 #include "studio/answers.h"
 #include "web/studio/browser_store.h"
 
-// Passes the statuses of the open documents, as JSON, to the host when one has changed. The host provides
-// this as a function of the module "relievo".
+// Sends the statuses of the open documents, as JSON, to the host after one has changed. The host provides
+// this function in the module "relievo".
 __attribute__((import_module("relievo"), import_name("statuses"))) extern "C" void relievo_host_statuses(
     const char* json, std::size_t size);
 
@@ -45,8 +45,8 @@ CallAnswer call_answer(const studio::Answer& from, Json about) {
   return {std::move(about), {bytes.begin(), bytes.end()}};
 }
 
-// Takes a project file, which the page has added under a path. The call "unpacked" then returns the bytes of
-// each file that is in it.
+// Reads a project file that the page has added under a path. Later, the call "unpacked" returns the bytes of
+// each file in it.
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
   const studio::BodyReader whole = [&](const auto& take) { return take(text_in(bytes)).has_value(); };

@@ -1,5 +1,5 @@
-// Tests the page in one file in Debian's browsers, from disk and from a static server: from a scan to an exported
-// solid.
+// Tests the page as one file in Debian's browsers, from a scan to an exported solid. The page is opened from disk and
+// from a static server.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
@@ -16,7 +16,7 @@ const native = process.env.RELIEVO;
 const browsers = {chromium: await findBrowser("chromium"), firefox: await findBrowser("firefox")};
 let scans; // a folder of scans
 
-// Returns a scan of `rows` rows with `rows` points each.
+// Returns a scan as a grid of `rows` x `rows` points.
 function waves(rows) {
   const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${rows * rows}\n` +
     "property float x\nproperty float y\nproperty float z\nend_header\n";
@@ -134,7 +134,7 @@ for (const [name, {skip}] of Object.entries(browsers))
 
 for (const place of ["from disk", "from a server"])
   test(`WebKit, ${place}: from a scan to a solid`, {skip: missingWebKit()}, async (t) => {
-    const CONTROL_A = "\uE009a\uE000", ENTER = "\uE007"; // WebDriver's codes of these keys
+    const CONTROL_A = "\uE009a\uE000", ENTER = "\uE007"; // key codes of WebDriver
     const folder = temporaryFolder(t), address = place === "from disk" ? fileAddress : await serve(t);
     const page = await WebKitPage.open(t, address, folder);
     await page.untilThereIs("#samples button");

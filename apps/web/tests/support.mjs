@@ -1,4 +1,4 @@
-// Has a static server and helpers for files, for the tests of the page.
+// Provides a static server and helpers for files to the tests of the page.
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
@@ -19,7 +19,7 @@ const file = path.join(pageFolder, "relievo.html");
 export const fileAddress = pathToFileURL(file).href;
 const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".webmanifest": "application/manifest+json"};
 
-// Returns the policy that docs/web.md names for servers, with the hashes of this page.
+// Returns the policy that docs/web.md recommends for servers, with the hashes of this page.
 function serverPolicy() {
   const own = fs.readFileSync(file, "utf8").match(/http-equiv="Content-Security-Policy" content="([^"]*)"/)[1];
   const [script] = own.match(/script-src ('sha256-\S+')/).slice(1), [style] = own.match(/style-src ('sha256-[^']+')/).slice(1);
@@ -27,7 +27,8 @@ function serverPolicy() {
     "img-src data: blob:; worker-src 'self' blob:; manifest-src 'self'; connect-src 'self'";
 }
 
-// Starts a static server of the page's folder, with the policy of serverPolicy(). Returns the page's address.
+// Starts a static server for the page's folder, which sends the policy of serverPolicy(). Returns the address of the
+// page.
 export async function serve(t) {
   const server = http.createServer((request, response) => {
     const wanted = path.join(pageFolder, path.basename(new URL(request.url, "http://localhost").pathname));
@@ -40,8 +41,8 @@ export async function serve(t) {
   return `http://127.0.0.1:${server.address().port}/relievo.html`;
 }
 
-// Returns the address of a page with a module that has at most 256 MiB of memory. The module is not a script, so the
-// page's policy still fits.
+// Returns the address of a page whose module can use at most 256 MiB of memory. The policy of the page has hashes of
+// scripts, but not of the module, so it need not change.
 export function pageWithLittleMemory(t) {
   const page = fs.readFileSync(file, "utf8"), [all, before, packed] = page.match(/(<script id="engine"[^>]*>)([^<]*)/);
   const module = zlib.gunzipSync(Buffer.from(packed, "base64"));
@@ -52,7 +53,7 @@ export function pageWithLittleMemory(t) {
   return pathToFileURL(place).href;
 }
 
-// Returns the offset in a module of the section that describes the memory.
+// Returns the offset of the section of a module that describes its memory.
 function memorySection(module) {
   const MEMORY = 5;
   for (let at = 8; at < module.length;) {
@@ -79,8 +80,7 @@ export async function eventually(look, seconds = 60) {
   }
 }
 
-// Returns admesh's figures of a solid: {facets, size, repairs}. `repairs` is the number of its checks that found a
-// fault.
+// Returns {facets, size, repairs}, as admesh measures them on a solid. `repairs` counts the checks that found a fault.
 export function admesh(solid) {
   const text = execFileSync("admesh", [solid], {encoding: "utf8"});
   const number = (pattern) => Number(text.match(pattern)?.[1] ?? NaN);

@@ -1,14 +1,14 @@
-// Drives WebKit by WebDriver, as no npm package does: uses Debian's webkit2gtk-driver with its MiniBrowser on a display
-// of Xvfb.
+// Drives WebKit by WebDriver: Debian's webkit2gtk-driver with its MiniBrowser, on a display of Xvfb. No npm package can
+// do that.
 import {spawn} from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import {eventually} from "./support.mjs";
 
 const BROWSER = "/usr/lib/x86_64-linux-gnu/webkit2gtk-4.1/MiniBrowser";
-const ELEMENT = "element-6066-11e4-a52e-4f735466cecf"; // WebDriver's key for elements
+const ELEMENT = "element-6066-11e4-a52e-4f735466cecf"; // WebDriver's key for the identifier of an element
 
-// Returns why WebKit's test cannot run; false if it can.
+// Returns the reason why the tests in WebKit cannot run; false if they can.
 export function missingWebKit() {
   const lacks = ["/usr/bin/xvfb-run", "/usr/bin/WebKitWebDriver", BROWSER].find((file) => !fs.existsSync(file));
   return lacks ? `SKIPPED: ${lacks} is not there: run scripts/prepare --web` : false;
@@ -16,7 +16,7 @@ export function missingWebKit() {
 
 // A page in WebKit.
 export class WebKitPage {
-  // Opens an address; downloads go into the folder.
+  // Opens the address in a new browser. Its downloads are stored in `folder`.
   static async open(t, address, folder) {
     const port = 20000 + process.pid % 20000;
     const driver = spawn("xvfb-run", ["-a", "WebKitWebDriver", `--port=${port}`], {
@@ -25,7 +25,7 @@ export class WebKitPage {
     const page = new WebKitPage();
     page.folder = folder;
     t.after(async () => {
-      await page.#command("DELETE", "").catch(() => {}); // there may be no session
+      await page.#command("DELETE", "").catch(() => {}); // the session may have ended already
       process.kill(-driver.pid);
     });
     page.address = `http://127.0.0.1:${port}`;
@@ -74,7 +74,7 @@ export class WebKitPage {
     return eventually(() => this.run("return new RegExp(arguments[0]).test(document.body.innerText)", pattern), 120);
   }
 
-  // Waits for a file that the page saves until it no longer grows. Returns its path.
+  // Waits until a file that the page saves stops growing. Returns its path.
   saved(name) {
     const file = path.join(this.folder, name);
     let size = 0;
