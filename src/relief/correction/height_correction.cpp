@@ -33,10 +33,10 @@ constexpr float least_tension = .1F;
 // The stiffness of a tie, per length of silhouette in cells; the unit is the tension across a cell.
 constexpr float tie_per_cell = .8F;
 // The forces that keep the near order (docs/decisions/near-order.md). `pair_distances` are the distances of
-// the paired nodes, as shares of the longer side. `large_difference` is a depth difference, as a share of the
-// depth range; a pair with at least this difference should differ in height by `largest_step` of the relief's
-// height. The stiffness is in units of the tension across a cell of `cell_size`. It fades out at the
-// silhouette, where the relief stands off the base anyway.
+// paired nodes, as shares of the longer side. If the depths of a pair differ by d, as a share of the depth
+// range, the nearer node should be higher by `largest_step` * tanh(d / `large_difference`) of the relief's
+// height. `order_stiffness` is in units of the tension across a cell of `cell_size`. The forces fade out at
+// the silhouette, where the relief stands off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
