@@ -29,7 +29,7 @@ Result<Job> load(std::span<const std::byte> file, std::string_view name);
 // A frame of a live model. It is valid until that model makes its next frame.
 struct LiveFrame {
   const Frame* frame = nullptr;
-  // as FrameMaker::write_gains() returns them; empty without SurfaceDetail
+  // As FrameMaker::write_gains() returns them; empty without SurfaceDetail.
   std::span<const float> gains = {};
   double stretch = 1;  // factor of the heights in pictures
   double mm_per_unit = 1;

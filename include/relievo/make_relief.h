@@ -75,7 +75,7 @@ struct ReliefReport : ScanReport {
   // Largest difference between the simplified front and the full one, if a tolerance or a number of triangles
   // was requested.
   std::optional<double> simplification_error_mm;
-  // numbers of triangles: of the front, and of the front with all samples
+  // Numbers of triangles: of the front, and of the front with all samples.
   std::size_t front_triangles = 0, full_triangles = 0;
 
   // The dimensions of a wrap: the diameter of the ground, the angle that the plate covers, and the length of

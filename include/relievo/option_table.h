@@ -67,7 +67,7 @@ struct OptionRow {
   std::string_view help;                       // one line, without range and default
   OptionValue initial = {};                    // the default, if it is a fixed value
   std::string_view otherwise = {};             // the default in words, if it is not a fixed value
-  // the value in a new document of the studio, if that differs from the default
+  // The value in a new document of the studio, if that differs from the default.
   std::string_view in_studio = {};
   bool is_stated = false;  // whether the studio writes it into projects even if it is the default
   bool is_hidden = false;  // true if the studio's page has no control for it, but keeps it in projects

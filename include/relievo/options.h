@@ -42,21 +42,18 @@ struct NumericOptions {
   double steps = 0;                      // least share of the height for depth jumps, see Shape
   std::optional<double> planes;          // least step between parts, see Shape; see effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // approximate number in subspace mode
-  double corner_mm = 5;  // radius of the corners of Outline::round
-  // least width of the flat ground around the relief; see effective_margin_mm()
-  std::optional<double> margin_mm;
-  std::optional<double> thickness_mm;  // least thickness of the plate; see effective_thickness_mm()
-  std::optional<double> rim_mm;        // width of a raised rim along the outline; no rim
-  // height of the rim above the ground; the relief's height, if its bevel fits
-  std::optional<double> rim_height_mm;
+  double corner_mm = 5;                  // radius of the corners of Outline::round
+  std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
+  std::optional<double> thickness_mm;    // least thickness of the plate; see effective_thickness_mm()
+  std::optional<double> rim_mm;          // width of a raised rim along the outline; no rim
+  std::optional<double> rim_height_mm;   // height of the rim; the relief's height, if its bevel fits
   std::optional<double> rim_bevel_mm;    // width of the rim's bevel; 0.3 of the rim's height
   std::optional<double> text_mm;         // height of the text's capital letters; 0.6 of the margin
   std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament
   std::optional<double> points;          // number of visible points to sample; see usual_points()
-  // Distance between samples; width / 700 or rho, whichever is smaller.
-  std::optional<double> resolution_mm;
-  std::optional<double> tolerance_mm;  // largest error of the simplified mesh; no simplification
-  std::optional<double> triangles;     // largest number of triangles of the solid; no limit
+  std::optional<double> resolution_mm;   // distance between samples; the smaller of width / 700 and rho
+  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; no simplification
+  std::optional<double> triangles;       // largest number of triangles of the solid; no limit
 
   bool operator==(const NumericOptions&) const = default;
 };

@@ -18,7 +18,7 @@ struct SessionStatus {
   bool is_preparing = false;
   std::string stage;    // current stage of the preparation, see Progress
   double fraction = 0;  // share of the preparation that is done, in [0, 1]
-  // error of the last preparation, if it failed or was cancelled; empty during a preparation
+  // Error of the last preparation, if it failed or was cancelled; empty during a preparation.
   std::optional<Error> error;
   // Whether the points are measured and the first coarse relief, if wanted, is made. This is long before the
   // first model of the points is ready.

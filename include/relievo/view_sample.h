@@ -30,7 +30,7 @@ struct SampleNote {
 };
 
 struct ViewSample {
-  // points in the scene's axes; the file's cloud itself if no point was changed
+  // Points in the scene's axes; the file's cloud itself if no point was changed.
   std::shared_ptr<const Cloud> cloud;
   std::size_t left_out = 0;  // number of outliers of all models together
   std::vector<SampleNote> notes;

@@ -80,7 +80,7 @@ class Expansion {
   }
 
  private:
-  // one more, because append() also writes a zero, although it does not count it
+  // One more, because append() also writes a zero, although it does not count it.
   std::array<double, capacity + 1> components_;
   std::size_t size_;
 };

@@ -16,7 +16,7 @@ struct CurveNode {
 
 struct FairCurveOptions {
   double spacing = 1;  // distance between the curve's points
-  // half the length of curve that each point is fitted to; a larger window gives a smoother curve
+  // Half the length of curve that each point is fitted to; a larger window gives a smoother curve.
   double window = 4;
 };
 

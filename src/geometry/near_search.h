@@ -35,7 +35,7 @@ class NearSearch {
 
  private:
   static constexpr std::size_t most_together = 16;
-  // radius of a common query, as a multiple of the radius of the smallest ball
+  // Radius of a common query, as a multiple of the radius of the smallest ball.
   static constexpr double widest = 4;
   static constexpr int dimension = Point::RowsAtCompileTime;
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double grain = 1e-6;            // corners are multiples of it
 constexpr double touching = 1.5 * grain;  // a corner this close to a side lies on it
-// distance from a side's midpoint at which the winding numbers on both sides are computed
+// Distance from a side's midpoint at which the winding numbers on both sides are computed.
 constexpr double beside = 4 * grain;
 constexpr int most_rounds = 6;
 

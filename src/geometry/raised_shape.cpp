@@ -17,7 +17,7 @@ namespace {
 constexpr double fan_step = std::numbers::pi / 18;  // largest angle between rays from a reflex corner
 constexpr double least_opening = .02;  // corners sharper than 11 degrees have no points above their foot
 constexpr int halvings = 30;
-// share of a wall's width; points nearer to each other than that are merged
+// Share of a wall's width; points nearer to each other than that are merged.
 constexpr double least_share = .05;
 constexpr double rounding_mm = 2e-6;  // of union_boundary()
 

@@ -104,7 +104,7 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 // on the triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
-  // square of the least share of the change that counts as along the edge
+  // Square of the least share of the change that counts as along the edge.
   constexpr double least_along = .05;
   constexpr double most_share = 1.5;  // shares much larger than this are noise, and are reduced
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
@@ -122,7 +122,7 @@ template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
   const Vec2 edge = b - a;
-  // position of the projection of s onto the edge
+  // Position of the projection of s onto the edge.
   const double foot = (s - a).dot(edge) / edge.squaredNorm();
   const double along_a = -(1 - foot), along_b = -foot;
   const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;

@@ -45,7 +45,7 @@ class PointTable {
 
  private:
   struct Slot {
-    // bits of the hash; most differing points differ in them, so their coordinates need not be read
+    // Bits of the hash; most differing points differ in them, so their coordinates need not be read.
     std::uint32_t check;
     Index number;
   };

@@ -93,7 +93,7 @@ struct Format {
   Content content;
   bool (*is_format)(const Source&);
   Result<RawCloud> (*read)(const Source&);
-  // null if files are always read as a whole
+  // Null if files are always read as a whole.
   Result<StreamRecords> (*find_rows)(const Source& head) = nullptr;
 };
 

@@ -126,7 +126,7 @@ class PcdHeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    // then the product does not overflow
+    // Then the product does not overflow.
     const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})

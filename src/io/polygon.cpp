@@ -21,7 +21,7 @@ namespace {
 // collinear corners to floats.
 constexpr double rounding = 1e-6;
 
-// limit for non-convex polygons, for which the time is quadratic
+// Limit for non-convex polygons, for which the time is quadratic.
 constexpr std::size_t most_corners = 10'000;
 
 std::vector<std::array<Index, 3>> fan_of(std::size_t corners) {

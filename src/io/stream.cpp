@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t head_size = 1 << 20;   // in bytes; larger than any header
 constexpr std::size_t piece_size = 8 << 20;  // bytes read at a time
-// number of points in the sample, and number of points per read
+// Number of points in the sample, and number of points per read.
 constexpr std::size_t sample_points = 200000, sample_run = 200;
 
 // Reads and decodes the rows of the file in blocks.
@@ -215,7 +215,7 @@ class ViewGrid {
   struct Sum {
     Vec3 at = Vec3::Zero();
     Vec3f normal = Vec3f::Zero();
-    // integers, because adding 1 to a float above 2^24 has no effect
+    // Integers, because adding 1 to a float above 2^24 has no effect.
     std::array<std::uint32_t, 3> colour = {};
     std::uint32_t count = 0;
   };

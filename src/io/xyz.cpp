@@ -85,7 +85,7 @@ class XyzReader {
   SourceLines lines_;
   std::vector<std::size_t> slots_;  // per column: index in values_; most_wanted if the column is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
-  // promised_: number of points up to the end of this scan; before_block_: before it
+  // promised_: number of points up to the end of this scan; before_block_: before it.
   std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
   std::vector<Vec3f> colours_;  // as in the file

@@ -42,7 +42,7 @@ struct XyzLayout {
   bool has_names = false;                                   // whether a line has names of the columns
   bool has_normals = false, has_colours = false;
   bool has_scan_positions = false;  // the first two columns are a scanner's row and column
-  // number of points according to the first line, if that states it
+  // Number of points according to the first line, if that states it.
   std::optional<std::int64_t> promised_points;
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // first line of data, counted from 1

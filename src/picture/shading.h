@@ -38,7 +38,7 @@ struct Lit {
   Light light;       // the shares of light that reach the point
   Vec3f place;       // position on the plate, in mm
   float height = 0;  // as a share of the relief's height; 0 at its lowest point
-  // offset from the middle, in units of half the body's longer side; in [-1, 1]
+  // Offset from the middle, in units of half the body's longer side; in [-1, 1].
   Vec2f from_middle = Vec2f::Zero();
 };
 

@@ -18,9 +18,9 @@ namespace {
 
 // Shares of the tolerance for curved bases and for flips of thin triangles' edges.
 constexpr double bending_share = .25, turning_share = .01;
-// precision of files; used if only the number of triangles is limited
+// Precision of files; used if only the number of triangles is limited.
 constexpr double least_error_mm = 1e-4;
-// width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off
+// Width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off.
 constexpr double rim_bevel = .3;
 
 // The limit for slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the 0.999 of

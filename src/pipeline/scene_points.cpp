@@ -195,7 +195,7 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
-    // models are scaled, each by a factor of its own
+    // Models are scaled, each by a factor of its own.
     if (placed.cloud.units_per_value) all.units_per_value = 0;
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {

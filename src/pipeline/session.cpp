@@ -38,7 +38,7 @@ struct Shared {
   std::shared_ptr<Progress> turning;           // progress of the newest turn(), until that returns
   std::optional<TurnedRelief> first;           // relief in first_view, until there is a model
   View first_view;
-  // not null while `first` is being made; meanwhile status() says that turn() is not possible
+  // Not null while `first` is being made; meanwhile status() says that turn() is not possible.
   std::shared_ptr<Progress> making_first;
 
   void cancel_turning() {

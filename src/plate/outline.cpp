@@ -137,7 +137,7 @@ double size_around(Points points, const Vec2& centre, const std::vector<Side>& s
 }
 
 std::vector<Vec2> to_polygon(const std::vector<Side>& sides, const Vec2& centre, double size) {
-  // two arcs may meet where the straight side between them has no length
+  // Two arcs may meet where the straight side between them has no length.
   constexpr double least_side_mm = 1e-4;
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < sides.size(); ++i) {

@@ -71,7 +71,7 @@ std::vector<Vec2> rim_inner_polygon(const PlateOutline& outline, const RimOption
 
 struct GroundOptions {
   RimOptions rim;
-  // distance between points on outline and ground; infinity for no additional points
+  // Distance between points on outline and ground; infinity for no additional points.
   double spacing = std::numeric_limits<double>::infinity();
 };
 

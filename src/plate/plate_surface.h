@@ -21,7 +21,7 @@ struct PlateSurface {
 };
 
 inline constexpr Colour plate_colour = {200, 200,
-                                        // light grey, for ground, walls and bottom of a coloured relief
+                                        // Light grey, for ground, walls and bottom of a coloured relief.
                                         200};
 
 // Gives plate_colour to the points that were added after the coloured front.

@@ -92,7 +92,7 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     for (Index& i : t) i = other[i];
     triangles.push_back(t);
   }
-  // front_triangles stays valid, because no front triangle lies entirely on a side
+  // front_triangles stays valid, because no front triangle lies entirely on a side.
   plate.triangles = std::move(triangles);
   drop_unused(plate);
   return {};

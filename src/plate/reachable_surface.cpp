@@ -19,7 +19,7 @@ namespace {
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
 constexpr double least_left_mm = 1e-3;  // smaller residuals count as reached
-// largest distance by which a point is lifted; beyond that it is removed
+// Largest distance by which a point is lifted; beyond that it is removed.
 constexpr double most_lift_mm = .01;
 
 // The heights of a surface, and the heights that the tool leaves.

@@ -62,7 +62,7 @@ NormalMap normals_of(const Image<float>& z);
 
 // Images of the scan's own normals and depths, level outside the relief.
 struct ModelPicture {
-  // distance from silhouette and jumps; also the radius of SSIM's window
+  // Distance from silhouette and jumps; also the radius of SSIM's window.
   static constexpr int safe_distance_px = 5;
 
   BarycentricMap grid;

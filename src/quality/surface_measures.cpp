@@ -12,7 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr std::size_t half_window = 12;  // half the width of the moving mean, in triangles
-// largest angle between the model's normals at the two ends of an edge
+// Largest angle between the model's normals at the two ends of an edge.
 constexpr double smooth_turn_deg = 10;
 constexpr double quantile_of_facets = .99;
 

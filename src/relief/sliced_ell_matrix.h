@@ -55,7 +55,7 @@ class SlicedEllMatrix {
 
   struct Pattern {
     std::size_t size = 0;
-    // by lane: number of the point within its window; surplus lanes repeat the last point
+    // By lane: number of the point within its window; surplus lanes repeat the last point.
     std::vector<std::uint8_t> points;
     std::vector<Index> begin;  // slots of slice s: others[begin[s]] up to others[begin[s + 1]]
     std::vector<Others> others;

@@ -135,7 +135,7 @@ double value(const Vec3& point) {
   double d = ellipsoid(p - Vec3(0, 0, -0.10), Vec3(0.72, 0.84, 0.16));
   for (const Leaf& leaf : leaves) d = leaf_value(leaf, p, d);
   if (ellipsoid(p, Vec3(0.58, 0.78, 0.74)) < d) {
-    // prevents a crease where the two halves meet
+    // Prevents a crease where the two halves meet.
     const double softened = std::sqrt(square(p.x()) + square(0.012));
     d = std::min(d, face(Vec3(softened, p.y(), p.z())));
   }

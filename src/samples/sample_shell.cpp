@@ -12,7 +12,7 @@ constexpr double ribs_per_turn = 30;
 struct Whorl {
   double angle;  // along the coil: 0 at the aperture, negative further inside
   double scale;  // the rim radius there
-  // around the cross-section: 0 at the rim, 0.5 on the flank, 1 at the seam with the inner whorl
+  // Around the cross-section: 0 at the rim, 0.5 on the flank, 1 at the seam with the inner whorl.
   double side;
 };
 

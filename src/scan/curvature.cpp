@@ -109,11 +109,11 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  // over direct neighbours; each pass widens the average by about rho, so the result spans at least 2 rho
+  // Over direct neighbours; each pass widens the average by about rho, so the result spans at least 2 rho.
   constexpr int passes = 3;
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
-  // weight of corner c + 1 in the mean at corner c
+  // Weight of corner c + 1 in the mean at corner c.
   std::vector<std::array<double, 3>> areas(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t t) {
     for (std::size_t c = 0; c < 3; ++c) {

@@ -132,7 +132,7 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
   has_estimated_normals_ = !cloud_.has_normals();
   if (has_estimated_normals_)
-    // noise is measured later, when the view has determined the signs of the normals
+    // Noise is measured later, when the view has determined the signs of the normals.
     estimate_normals(cloud_, 16, progress);
   else
     remove_noise(view, progress);

@@ -35,7 +35,7 @@ class MeasuredCloud {
   const Vec3& centre() const { return centre_; }
   double diagonal() const { return diagonal_; }
   std::size_t input_points() const { return input_points_; }
-  // number of points that without_repeated_points() left out
+  // Number of points that without_repeated_points() left out.
   std::size_t repeated_points() const { return repeated_points_; }
   bool has_estimated_normals() const { return has_estimated_normals_; }
   bool do_normals_point_inward() const { return do_normals_point_inward_; }

@@ -12,7 +12,7 @@ struct ScanLimits {
   static constexpr double least_spacing = .25, largest_spacing = 4;
   // A point is visible if it is at most this far behind the front, in local spacings / n_z.
   static constexpr double depth_tolerance = 2;
-  // least n_z in the formula of the tolerance, for surfaces seen edge-on
+  // Least n_z in the formula of the tolerance, for surfaces seen edge-on.
   static constexpr double least_facing = .1;
   // Hole-fill points are at least this far from the nearest visible point in the view plane, in rho.
   static constexpr double hole_fill_distance = 3;

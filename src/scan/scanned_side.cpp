@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// least one_layer of one-sided scans; closed models have less than .45
+// Least one_layer of one-sided scans; closed models have less than .45.
 constexpr double one_layer_share = .8;
 constexpr double same_share = .05;  // smaller differences of one_layer between directions are ignored
 

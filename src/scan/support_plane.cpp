@@ -29,14 +29,14 @@ constexpr int refinements = 6;
 constexpr double widest_angle_deg = 30;  // between a plane and the normals of its points, which are noisy
 constexpr double least_share = .08;      // of the points; smaller planes do not disturb a relief
 constexpr double least_figure = .02;     // points in front of the plane, as a share of all points
-// points behind the plane, as a share of the points behind it or in front of it
+// Points behind the plane, as a share of the points behind it or in front of it.
 constexpr double most_behind = .1;
-// points whose projection falls on the plane's points, as a share of the points in front of it
+// Points whose projection falls on the plane's points, as a share of the points in front of it.
 constexpr double least_over = .7;
 // A figure rises by at least this share of the side of a square with its area. Reliefs, medals and letters
 // rise by less.
 constexpr double least_rise = .2;
-// least z of the plane's normal; a plane seen edge-on covers nothing
+// Least z of the plane's normal; a plane seen edge-on covers nothing.
 constexpr double least_plane_facing = .1;
 constexpr double steepest_table_deg =
     65;  // between a table's normal and the view's up direction; cameras look down on tables

@@ -48,7 +48,7 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
   constexpr double flat = .05;       // height, as a share of the diagonal of the piece's box
   constexpr double connected = 3;    // distance, in local spacings, as for floating noise in visible.cpp
   constexpr double high_share = .1;  // least share of high points in a figure
-  // size of the smallest part that is kept, as a share of the largest part
+  // Size of the smallest part that is kept, as a share of the largest part.
   constexpr double debris_share = .03;
   std::vector<std::uint8_t> is_left(cloud.size(), 0);
   for (const Index i : visible) is_left[i] = 1;

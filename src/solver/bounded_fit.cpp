@@ -136,7 +136,7 @@ class InteriorPoint {
   const BoundedFit& fit_;
   Vector x_, below_, above_, g_, lower_, upper_;
   double energy_ = 0;
-  // share of the mean product of distance and multiplier that is the target of the next step
+  // Share of the mean product of distance and multiplier that is the target of the next step.
   double centring_ = .2;
 };
 

@@ -114,7 +114,7 @@ class ObstacleSolver {
 
    private:
     struct Slope {
-      // first and second derivative of the energy with respect to a node's value
+      // First and second derivative of the energy with respect to a node's value.
       float first = 0, second = 0;
     };
     // A node's part of a tie. The value at the tie is the sum of weight * b over the four nodes of its cell.

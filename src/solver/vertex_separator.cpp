@@ -231,7 +231,7 @@ MinimumSeparators minimum_separators(const SeparatorBand& band) {
   MinimumSeparators cuts;
   cuts.near_first = flow.cut(Side::first, Side::second);
   flow.reverse();
-  // the flow is already maximal; this only finds the vertices that can be reached from the other side
+  // The flow is already maximal; this only finds the vertices that can be reached from the other side.
   flow.maximise();
   cuts.near_second = flow.cut(Side::second, Side::first);
   return cuts;

@@ -16,7 +16,7 @@ namespace relievo {
 struct SplineOptions {
   Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; the function is constant beyond its edge
   double cell = .01;                            // width of the cells of the finest lattice, > 0
-  // number of lattices, [1, 16]; the cells of each are twice as wide as those of the next finer one
+  // Number of lattices, [1, 16]; the cells of each are twice as wide as those of the next finer one.
   int levels = 5;
   // The range of levels that are fitted, counted from the coarsest, 0. All others only refine the coarser
   // function.

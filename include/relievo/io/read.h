@@ -100,7 +100,7 @@ Result<DepthCamera> parse_camera(std::string_view text);
 // the scan is read.
 struct ScanSize {
   std::uint64_t points = 0, triangles = 0, pixels = 0;
-  // true if the header states the size, false if it is estimated from the size of the file
+  // True if the header states the size, false if it is estimated from the size of the file.
   bool is_stated = false;
 };
 

@@ -35,19 +35,20 @@ inline constexpr std::array<Choice<BaseKind>, 6> base_choices{{{"plane", BaseKin
 // straight in one direction.
 struct BaseOptions {
   BaseKind kind = BaseKind::plane;
-  // difference between the highest and the lowest point, on the plate or in the image
+  // Difference between the highest and the lowest point, on the plate or in the image. The default for an
+  // image is a tenth of the plate.
   std::optional<double> height_mm;
-  // fold: angle between each half and the plate; default 15 if there is no height
+  // For a fold: angle between each half and the plate. The default is 15 degrees, if there is no height.
   std::optional<double> angle_deg;
-  // cylinder: default twice the plate's width, if there is no height, either;
+  // If there is no height, either, the default for a cylinder is twice the plate's width, and a dome gets a
+  // height of 0.15 of the plate's radius.
   std::optional<double> diameter_mm;
-  // dome: default so that its height is 0.15 of the plate's radius
-  // wave: from crest to crest; default half the plate, but at least 4 heights
+  // For a wave: distance from crest to crest. The default is half the plate, but at least 4 heights.
   std::optional<double> length_mm;
   double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is vertical
   bool is_hollow = false;     // whether it is upside down: a valley, a trough or a bowl
   bool is_mirrored = false;   // whether left and right are swapped
-  // image: heights in any unit. If height_mm is not given, the image is a tenth of the plate high.
+  // For an image: heights in any unit.
   std::shared_ptr<const Image<float>> image;
 
   bool operator==(const BaseOptions&) const = default;  // equal images are the same object

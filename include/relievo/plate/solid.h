@@ -62,7 +62,7 @@ struct PlateOptions {
   Vec2 size_mm = Vec2::Zero();
   Vec2 shift_mm = Vec2::Zero();          // shift of the front from the middle of an outline with a given size
   std::vector<Ornament> ornaments = {};  // on the ground; not for the outline `none`
-  // slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical
+  // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
   bool is_mirrored = false;  // whether ornaments are mirrored
   bool is_die = false;       // whether raised ornaments are sunk, and sunk ones raised
@@ -84,7 +84,7 @@ struct Solid {
   double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
   double error_mm = 0;  // largest distance from the exact surface, due to curving and simplifying
   OrnamentFacts ornaments = {};
-  // unit of the coordinates; only in_unit() and files use other units than mm
+  // Unit of the coordinates; only in_unit() and files use other units than mm.
   LengthUnit unit = LengthUnit::mm;
 };
 

@@ -25,7 +25,7 @@ std::vector<std::string_view> compared_methods();
 
 struct TunedRelief {
   Relief relief;
-  // parameters of the grid, such as "attenuation 5, bands 1 1 0.8 0.6"; empty if the baseline has none
+  // Parameters of the grid, such as "attenuation 5, bands 1 1 0.8 0.6"; empty if the baseline has none.
   std::string parameters;
   double shading = 0;  // Measures::shading
 };

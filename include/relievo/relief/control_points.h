@@ -19,7 +19,7 @@ struct ControlPoints {
   // Indices of the control points; boundary points come first.
   std::vector<Index> points;
   std::size_t boundary_points = 0;
-  // the paper's r2: every point has a control point within this distance; 0 if all points are chosen
+  // The paper's r2: every point has a control point within this distance; 0 if all points are chosen.
   double radius = 0;
 };
 

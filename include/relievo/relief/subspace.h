@@ -16,7 +16,7 @@ namespace relievo {
 
 struct SubspaceOptions {
   ControlPointOptions control;
-  // number of samples that determine the mean slope of a control point, > 0
+  // Number of samples that determine the mean slope of a control point, > 0.
   std::size_t normals_per_point = 8;
   double max_slope = 4;  // slope limit of the reference heights, see Shape
 };

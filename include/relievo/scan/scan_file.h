@@ -12,7 +12,7 @@ namespace relievo {
 
 struct CloudFile {
   Cloud cloud;  // only finite points, at least one; normals have unit length, or there are none
-  // for messages, such as "PLY binary little endian" or "XYZ text, 6 columns with normals"
+  // For messages, such as "PLY binary little endian" or "XYZ text, 6 columns with normals".
   std::string format;
   std::size_t dropped_points = 0;  // number of points removed because a coordinate was NaN or infinite
   // Number of points removed because all their coordinates were 0, which devices write for points that they
@@ -21,7 +21,7 @@ struct CloudFile {
   // Number of further points with a zero, non-finite or missing normal. If they are a minority, these points
   // are removed; otherwise all points are kept, and the cloud has no normals.
   std::size_t dropped_normals = 0;
-  // number of points that the header promises, but that are missing because the file ends early
+  // Number of points that the header promises, but that are missing because the file ends early.
   std::size_t missing_points = 0;
   // Number of points removed because the file excludes them, such as noise in LAS.
   std::size_t left_out_points = 0;

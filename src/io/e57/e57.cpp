@@ -29,7 +29,7 @@ struct E57Scan {
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
   std::optional<std::size_t> invalid;    // column that is not 0 for points that the scanner could not measure
-  // rotation from the scanner's axes to the file's axes
+  // Rotation from the scanner's axes to the file's axes.
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   Vec3 origin = Vec3::Zero();  // translation after the rotation
 };

@@ -48,7 +48,7 @@ struct LazLayout {
 };
 
 constexpr std::size_t record_header = 54;  // size of the header of a variable-length record
-// this (or 0) is stored as the number of points per chunk if that varies
+// This (or 0) is stored as the number of points per chunk if that varies.
 constexpr std::uint32_t chunks_vary = ~0U;
 constexpr std::uint64_t most_points_a_byte =
     256;  // limit; 40 points per byte were measured for a row with equal steps

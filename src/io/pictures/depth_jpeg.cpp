@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-// jpeglib.h needs FILE and std::size_t; jerror.h needs the macros of jpeglib.h.
+// Jpeglib.h needs FILE and std::size_t; jerror.h needs the macros of jpeglib.h.
 #include <jpeglib.h>
 
 #include <jerror.h>
@@ -23,7 +23,7 @@ constexpr int most_scans = 100;
 
 // After an error, libjpeg must not return. It jumps back into decode(), where no object has a destructor.
 struct Decoder {
-  // must be the first member, so that libjpeg's pointers to it are pointers to the Decoder
+  // Must be the first member, so that libjpeg's pointers to it are pointers to the Decoder.
   jpeg_decompress_struct jpeg;
   jpeg_error_mgr errors;
   jpeg_progress_mgr progress;

@@ -243,7 +243,7 @@ class Sampler {
     std::optional<SampleGrid> quarters;
     if (std::ranges::any_of(squares, &SampleSquare::is_quartered))
       quarters = sample_grid(front_, grid_.step / 2, 2 * largest_square);
-    // false for very large fronts, whose grids are coarser than asked for
+    // False for very large fronts, whose grids are coarser than asked for.
     const bool has_quarters = quarters && quarters->step == grid_.step / 2;
     for (const SampleSquare& square : squares) {
       if (square.is_quartered && has_quarters)

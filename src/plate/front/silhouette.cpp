@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// share of the relief's area; smaller parts are artefacts of the scan
+// Share of the relief's area; smaller parts are artefacts of the scan.
 constexpr double smallest_piece = 1e-3;
 
 // Returns, per point, whether the boundary passes it more than once.

@@ -65,7 +65,7 @@ class Fans {
 // Least height of a triangle, as a share of the front's size. It is 8 to 16 units in the last place of the
 // coordinates.
 constexpr double thinnest = 0x1p-20;
-// largest change of the surface by a flip, for triangles that rounding does not turn over
+// Largest change of the surface by a flip, for triangles that rounding does not turn over.
 constexpr double most_moved_mm = 1e-3;
 
 // Flips edges one by one. Each flip widens the thinner of two triangles, so the loop ends.
@@ -317,7 +317,7 @@ class Unfolder {
   std::vector<Vec2> places_;
   std::vector<std::uint8_t> is_fixed_;
   std::optional<Fans> fans_;
-  // points by x and y; empty before walls are added
+  // Points by x and y; empty before walls are added.
   std::multimap<std::pair<double, double>, Index> at_place_;
   double step_ = 0;
 };

@@ -19,7 +19,7 @@
 namespace relievo {
 
 struct NormalLayerWeights {
-  // share of the angle between base normal and view direction that is kept; 0 flattens the base
+  // Share of the angle between base normal and view direction that is kept; 0 flattens the base.
   double base = .25;
   double detail = 1;  // share of the angle between base normal and normal that is kept
 };

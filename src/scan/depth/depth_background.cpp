@@ -26,7 +26,7 @@ constexpr int none = -1;
 // A part of the image, separated from other parts by depth jumps.
 struct Part {
   std::size_t points = 0, border = 0;
-  // contacts in which this part is in front; contacts in which it is behind
+  // Contacts in which this part is in front; contacts in which it is behind.
   std::size_t before = 0, behind = 0;
   float nearest = -std::numeric_limits<float>::infinity();
 };

@@ -15,7 +15,7 @@ struct BoundedGrid {
   int width = 0, height = 0;
   std::vector<float> low, high;
   std::vector<std::uint8_t> is_known;
-  // whether no depth jump separates the point from its right or lower neighbour
+  // Whether no depth jump separates the point from its right or lower neighbour.
   std::vector<std::uint8_t> joins_right, joins_down;
 
   std::size_t at(int column, int row) const {
@@ -35,9 +35,9 @@ struct DepthGrid {
   std::vector<float> height;   // heights of known grid points
   double units_per_value = 0;  // as in Cloud
   double noise = 0;
-  // whether the image is from a depth camera: its values have coarser steps than the file allows
+  // Whether the image is from a depth camera: its values have coarser steps than the file allows.
   bool is_sensor = false;
-  // whether it is terrain: one surface, whose steepest parts are walls instead of depth jumps
+  // Whether it is terrain: one surface, whose steepest parts are walls instead of depth jumps.
   bool is_terrain = false;
 
   // Returns whether two known neighbours belong to one surface: the slope between them is below 76 degrees,

@@ -16,7 +16,7 @@ constexpr double curve_spacing = .75;  // distance between points of the fair cu
 // Half the length of the curve that each point is fitted to. It is long enough to bridge gaps at turns of the
 // sampled outline, where the exact outline has another direction.
 constexpr double exact_window = 1;
-// largest distance by which a point of the curve is moved onto the exact outline
+// Largest distance by which a point of the curve is moved onto the exact outline.
 constexpr double most_moved = .5;
 constexpr double least_spacing = .2;  // distance between points of the curve after they are moved
 // The least length of an edge across a gap. Samples of a surface without gaps are closer together, even

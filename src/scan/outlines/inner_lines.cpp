@@ -24,10 +24,10 @@ constexpr float bent_below = .75F;
 // function.
 struct Change {
   double left_over = 1;  // misfit of both fits, as a share of the misfit of one common fit
-  // scatter around the means of both sides, as a share of the scatter around the common mean
+  // Scatter around the means of both sides, as a share of the scatter around the common mean.
   double scatter = 1;
   double angle_deg = 0;  // between the fitted normals of both sides
-  // depth of the left side minus depth of the right side, in rho; positive if the left side is in front
+  // Depth of the left side minus depth of the right side, in rho; positive if the left side is in front.
   double step = 0;
 };
 
@@ -122,7 +122,7 @@ class ChangeFinder {
     // from extrapolating too far.
     void fit() {
       constexpr double stiffness = .03;
-      // normals have unit length, so this is also the sum of their squares
+      // Normals have unit length, so this is also the sum of their squares.
       const double weights = moments(0, 0);
       Mat3 stiff = moments;
       stiff(1, 1) += stiffness * weights, stiff(2, 2) += stiffness * weights;

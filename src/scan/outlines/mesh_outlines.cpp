@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// in pixels; edges are divided into pieces of this length, each of which is visible or hidden
+// In pixels; edges are divided into pieces of this length, each of which is visible or hidden.
 constexpr double piece_length = .5;
 constexpr double just_beyond =
     1e-3;                         // in pixels; distance from an edge at which the surface behind it is sought

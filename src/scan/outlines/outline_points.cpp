@@ -24,7 +24,7 @@ constexpr double replaced_within = .65;  // least distance of kept points from p
 constexpr double widest_gap = 1.6;       // radius of the largest empty circle inside the surface
 constexpr double sliver_width = .02;
 constexpr double widest_sample = 1.9;  // radius of the largest gap that a single point at its centre fills
-// cell size of the set of new points; also the least distance between points in gaps
+// Cell size of the set of new points; also the least distance between points in gaps.
 constexpr double cell_size = .7;
 
 // Adds the points of a hexagonal lattice inside a counter-clockwise triangle.

@@ -242,7 +242,7 @@ class JumpLines {
       if (count == 3 ? depth(corners[i]) > depth(corners[alone]) : !jumps[i]) alone = i;
     const Index after = (alone + 1) % 3, before = (alone + 2) % 3;
     const double z = depth(corners[alone]), u = depth(corners[after]), v = depth(corners[before]);
-    // side from `alone` to `after`; side from `before` to `alone`
+    // Side from `alone` to `after`; side from `before` to `alone`.
     const Index leaving = 3 * t + before, arriving = 3 * t + after;
     if (z > u && z > v) link(leaving, arriving);
     if (z < u && z < v) link(arriving, leaving);

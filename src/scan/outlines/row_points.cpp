@@ -72,7 +72,7 @@ class RowMaker {
     const OutlineCurve& outline = outlines_[c];
     const std::size_t n = outline.curve.points.size();
     const Place place = row > 0 ? Place::row : side > 0 ? Place::front : Place::back;
-    // half edges of the curve, including its end
+    // Half edges of the curve, including its end.
     const std::size_t halves = outline.is_closed ? 2 * n : 2 * n - 1;
     const std::size_t first = row % 2, stride = row == 0 ? 1 : 2;
     std::vector<Candidate> candidates((halves - first + stride - 1) / stride);
@@ -190,7 +190,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    // the distance is infinite far from outlines and outside
+    // The distance is infinite far from outlines and outside.
     const bool is_clear = std::isfinite(distance) &&
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;

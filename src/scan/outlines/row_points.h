@@ -32,7 +32,7 @@ struct RowPoint {
 // In rho: half the width of the wall at a jump; the distance of the last row from its outline.
 inline constexpr double half_wall = .15, last_row = 2.95;
 
-// n_z of normals at new points is at least this, which is 88.9 degrees
+// n_z of normals at new points is at least this, which is 88.9 degrees.
 inline constexpr double least_nz = .02;
 
 // Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points

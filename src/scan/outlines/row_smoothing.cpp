@@ -12,7 +12,7 @@ namespace {
 
 using Value = SideInterpolation::Value;
 using Numbers = Eigen::Vector4d;  // depth in rho, n_x, n_y, curvature
-// numbers at the smoothed point, then the coefficients of the linear and the quadratic term
+// Numbers at the smoothed point, then the coefficients of the linear and the quadratic term.
 using Curve = Eigen::Matrix<double, 3, 4>;
 
 constexpr double window = 3;                            // in rho
