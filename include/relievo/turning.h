@@ -30,8 +30,9 @@ class Turntable {
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 
-  // Returns the relief of a view. `like` is a model of the same scan in another view, or null; its parameters
-  // of the height correction are used. Errors: kind geometry if the view shows no area; kind cancelled.
+  // Returns the relief of a view. `like` is a model of the same scan in another view, or null. If it has a
+  // support plane and the view shows none, the points of that plane are left out. Errors: kind geometry if the
+  // view shows no area; kind cancelled.
   Result<TurnedRelief> turn(const View& view, const ReliefModel* like, Progress* progress = nullptr) const;
 
  private:
