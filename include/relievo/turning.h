@@ -14,7 +14,7 @@ class MeasuredCloud;
 // A relief that looks like a relief of ReliefModel::prepare() in the same view, at a lower resolution.
 struct TurnedRelief {
   std::shared_ptr<const ReliefModel> model;
-  std::shared_ptr<const SurfaceDetail> detail;  // normals that the points do not resolve, for Shown::detail
+  std::shared_ptr<const SurfaceDetail> detail;  // normals finer than the points, for Shown::detail
   // The scan's sampling distance divided by the model's. The boundary width of a shape is in sampling
   // distances, so it must be multiplied by this ratio.
   double spacing_ratio = 1;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-// Nanoflann prints a line before it throws std::bad_alloc. The macro suppresses that, because the library
+// nanoflann prints a line before it throws std::bad_alloc. The macro suppresses that, because the library
 // must not print.
 #define fprintf(...) static_cast<void>(0)
 #include <nanoflann.hpp>

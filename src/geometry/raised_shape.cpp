@@ -19,7 +19,7 @@ constexpr double least_opening = .02;  // corners sharper than 11 degrees have n
 constexpr int halvings = 30;
 // Share of a wall's width; points nearer to each other than that are merged.
 constexpr double least_share = .05;
-constexpr double rounding_mm = 2e-6;  // of union_boundary()
+constexpr double rounding_mm = 2e-6;  // union_boundary() rounds corners by up to this
 
 // The point foot + t * direction has distance t from the outline, until another part of the outline is as
 // near.

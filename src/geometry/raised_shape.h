@@ -20,7 +20,7 @@ struct WallLevel {
 // Outlines, and the cross-section of the area that they cover. Between levels the height is linear; beyond
 // the last level it is constant. Negative heights sink the area. The first level is 0, 0; distances increase.
 struct RaisedShape {
-  std::string name;  // for errors
+  std::string name;  // name for errors
   Outlines outlines;
   std::vector<WallLevel> levels;
   double spacing_mm = .2;  // largest distance between points along the outlines, > 0

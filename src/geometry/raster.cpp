@@ -31,7 +31,7 @@ std::uint16_t cell_of(int steps, int most) {
 // A linear function of the pixel, not negative inside the triangle. Its values are integers below 2^53, so
 // doubles are exact.
 struct EdgeFunction {
-  double value;  // at the centre of column 0 of the current row
+  double value;  // value at the centre of column 0 of the current row
   double per_column, per_row;
 };
 

@@ -233,7 +233,7 @@ struct SmoothSurface::Element {
   std::array<Vec2, 3> corners;
   Vec2 centre;
   std::array<Third, 3> thirds;
-  std::array<double, 3> near_centre;  // on the lines from the corners to the centre
+  std::array<double, 3> near_centre;  // points next to the centre, on the lines to the corners
   double at_centre;
 };
 

@@ -34,7 +34,7 @@ class SmoothSurface {
  private:
   // Bezier points of a third of a triangle, between two corners a, b and the centre s.
   struct Third {
-    // Ab is the point next to a on the side a-b; abs is the middle point of the third.
+    // ab is the point next to a on the side a-b; abs is the middle point of the third.
     double a, b, ab, ba, as, bs, abs;
   };
   struct Element;

@@ -88,7 +88,7 @@ Result<StreamRecords> find_las_rows(const Source& head);
 enum class Content { points, triangles, both };
 
 struct Format {
-  std::string_view name;     // for messages
+  std::string_view name;     // name for messages
   std::string_view endings;  // endings of file names, separated by blanks
   Content content;
   bool (*is_format)(const Source&);

@@ -210,7 +210,7 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  std::vector<Vec3f> colours_;  // as in the file
+  std::vector<Vec3f> colours_;  // as written in the file
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // all faces
   std::vector<std::size_t> face_ends_;  // per face: index after its last corner

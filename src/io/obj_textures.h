@@ -34,7 +34,7 @@ class ObjTextures {
 
   std::vector<std::array<float, 2>> coordinates_;
   std::vector<std::string> libraries_, materials_;  // materials_ in the order of first use
-  std::size_t material_ = no_index;                 // of the following faces
+  std::size_t material_ = no_index;                 // material of the following faces
   std::vector<Use> uses_;                           // per vertex, up to the last one with a texture
 };
 

@@ -20,7 +20,7 @@ using io::Source;
 using io::XmlElement;
 
 constexpr std::size_t most_drawn_corners = 50000;
-constexpr double tolerance_share = 2e-4;  // of the drawing's longer side
+constexpr double tolerance_share = 2e-4;  // tolerance of curves, as a share of the drawing's longer side
 constexpr double most_coordinate = 1e9;
 
 // Interprets the commands of one path.

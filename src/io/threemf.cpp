@@ -208,7 +208,7 @@ class ThreeMfReader {
   std::size_t placed_ = 0, supports_ = 0;
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;
-  std::vector<Colour> colours_;            // of the first points; empty if no point has a colour
+  std::vector<Colour> colours_;            // colours of the first points; empty if no point has a colour
   std::vector<std::uint8_t> is_coloured_;  // per vertex: whether it has a colour
 };
 

@@ -88,7 +88,7 @@ class XyzReader {
   // promised_: number of points up to the end of this scan; before_block_: before it.
   std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
-  std::vector<Vec3f> colours_;  // as in the file
+  std::vector<Vec3f> colours_;  // as written in the file
 };
 
 std::string to_string(const XyzLayout& layout) {

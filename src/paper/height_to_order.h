@@ -26,7 +26,7 @@ struct HeightToOrder {
 template <typename F>
 HeightToOrder adjust_to_height(double wanted, F&& height_at) {
   constexpr double tolerance = .01, first_beta = 1e-5, last_beta = 100;
-  constexpr int most_doublings = 1033;  // with more doublings alpha would be infinite
+  constexpr int most_doublings = 1033;  // after more doublings alpha would be infinite
   HeightToOrder found;
   const auto is_below = [&](double alpha) {
     found.alpha = alpha;

@@ -24,7 +24,7 @@ class HeightMapping {
  public:
   // Scratch memory, so that carry() allocates nothing.
   struct Workspace {
-    std::vector<float> ratio;  // of the control points
+    std::vector<float> ratio;  // compression ratio of the control points
     SplineFunction function;
     MultilevelSpline::Workspace fit;
   };

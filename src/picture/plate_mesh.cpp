@@ -70,7 +70,7 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   body.front.extend({-half.x(), -half.y(), static_cast<double>(scale * std::min(0.F, lowest))});
   body.front.extend({half.x(), half.y(), static_cast<double>(scale * std::max(0.F, highest))});
   const double bottom = body.front.min.z() - options.thickness_mm;
-  for (int i = 0; i < 8; ++i) {  // the same order of corners as in make_plate()
+  for (int i = 0; i < 8; ++i) {  // corners are in the same order as in make_plate()
     const double x = i % 4 == 1 || i % 4 == 2 ? half.x() : -half.x(), y = i % 4 >= 2 ? half.y() : -half.y();
     body.box_corners.push_back({x, y, i < 4 ? 0 : bottom});
   }

@@ -53,7 +53,7 @@ Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const Rel
 
 struct FormedFront {
   HeightFieldMesh front;
-  double height_mm = 0;                // from the lowest to the highest point
+  double height_mm = 0;                // distance from the lowest to the highest point
   double simplification_error_mm = 0;  // largest difference from the front with all samples
   std::size_t full_triangles = 0;      // triangles of the front with all samples
 };

@@ -48,7 +48,7 @@ Frame frame_around(Points points) {
 // counter-clockwise order.
 struct CircleSides {
   std::vector<Vec2> normals;  // unit length
-  double distance = 1;        // of the sides from the centre
+  double distance = 1;        // distance of the sides from the centre
 };
 
 // Returns the sides of an inscribed polygon that deviates by at most finest_mm from a circle of that radius.

@@ -17,7 +17,7 @@ class GaussianFilter {
   void apply(Image<float>& image) const;
 
  private:
-  std::vector<float> weights_;  // at the centre and at each distance from it
+  std::vector<float> weights_;  // weights at the centre and at each distance from it
 };
 
 // Returns 1 where any pixel in the surrounding square of 2 `radius` + 1 pixels is not 0, else 0.

@@ -48,7 +48,7 @@ class StrokeFields {
       float pull;
     };
     std::vector<Index> points;
-    std::vector<float> areas;    // of the points, as shares of the mean
+    std::vector<float> areas;    // areas of the points, as shares of their mean area
     std::vector<float> amounts;  // per point: factor of the difference between height and blurred height
     std::vector<Link> links;
     std::optional<solver::Cholesky> system;
@@ -65,7 +65,7 @@ class StrokeFields {
   std::vector<StrokeMask> masks_;  // empty for muted strokes
   std::vector<Index> changed_;     // the points under at least one stroke
   std::vector<float> raised_;      // share of the relief's height that strokes add, per point of the surface
-  std::vector<Blur> blurs_;        // at most two, narrow and wide
+  std::vector<Blur> blurs_;        // at most two: narrow and wide
   std::vector<std::size_t> levels_;  // numbers of the strokes with Brush::level
   // Scratch memory: the sum of all blurs' changes, the right-hand side of a system, and its solution.
   std::vector<Real> added_, pulled_, moved_;

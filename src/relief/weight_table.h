@@ -41,7 +41,7 @@ class WeightTable {
 
  private:
   static constexpr std::uint32_t fraction_bits =
-      16;  // of the 23 bits of a float's fraction; the other 7 are part of the index
+      16;  // number of fraction bits (of 23) that interpolate; the other 7 are part of the index
   static constexpr std::uint32_t first_place = std::bit_cast<std::uint32_t>(0x1p-24F) >> fraction_bits;
   static constexpr std::uint32_t last_place = std::bit_cast<std::uint32_t>(1.F) >> fraction_bits;
 

@@ -15,7 +15,7 @@ struct Place {
   double along;   // 0 at the root, 1 at the tip
   double vein;    // `along` where the slanted side vein through the point leaves the mid-rib
   double lobe;    // 0 in a notch, 1 in the middle of a lobe
-  double beat;    // from 0 to 1 within each lobe
+  double beat;    // position within the lobe, from 0 to 1
   double across;  // distance from the mid-rib, in half widths
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double support = 1.7;
 
 struct Neighbour {
-  Vec3 d;  // from the neighbour to the point
+  Vec3 d;  // vector from the neighbour to the point
   Vec3 n;  // unit normal of the neighbour
 };
 

@@ -36,7 +36,7 @@ Vec3f unit_normal(const Vec3& n) {
   const Vec3f rounded = n.cast<float>();
   const double rounding = 1e-6;  // several times the rounding error of the squared length of three floats
   if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
-  // N is scaled first, because its squares may overflow.
+  // n is scaled first, because its squares may overflow.
   return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
 }
 

@@ -18,7 +18,7 @@ struct ScanLimits {
   static constexpr double hole_fill_distance = 3;
   // Radius in rho. A hole inside the silhouette is closed if no larger empty circle fits into it.
   static constexpr double largest_hole = 5;
-  static constexpr double crumb_share = .005;  // of the visible surface; smaller connected parts are crumbs
+  static constexpr double crumb_share = .005;  // share of the visible surface; smaller parts are crumbs
 };
 
 }  // namespace relievo

@@ -22,12 +22,12 @@ constexpr std::size_t tried_points = 1024, judged_points = 16384;
 constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
-    .01;  // of the visible points' diagonal; the noise of a depth camera across a table
+    .01;  // share of the visible points' diagonal; a depth camera's noise across a table
 // The tolerance is limited, because each fit widens it if the points do not concentrate at a plane.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
 constexpr double widest_angle_deg = 30;  // between a plane and the normals of its points, which are noisy
-constexpr double least_share = .08;      // of the points; smaller planes do not disturb a relief
+constexpr double least_share = .08;      // share of the points; smaller planes do not disturb a relief
 constexpr double least_figure = .02;     // points in front of the plane, as a share of all points
 // Points behind the plane, as a share of the points behind it or in front of it.
 constexpr double most_behind = .1;

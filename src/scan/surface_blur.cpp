@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-constexpr double most_cells = 1 << 24;  // of the whole grid
+constexpr double most_cells = 1 << 24;  // largest number of cells of the whole grid
 // The standard deviation of the blur, in cells. The variances of its three steps add up: linear distribution
 // to cells and linear interpolation have 1/6 each; averaging neighbours with weights 1, 2, 1 has 1/2.
 const double sigma_in_cells = std::sqrt(5.0 / 6);

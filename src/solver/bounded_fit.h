@@ -21,7 +21,7 @@ struct BoundedFit {
   Eigen::VectorXd mass = {};      // > 0, or empty
   Eigen::VectorXd load = {};
   Eigen::VectorXd lowest = {}, highest = {};  // lowest < highest
-  std::vector<Vec2> positions = {};           // of the unknowns in the plane, for Cholesky::factor()
+  std::vector<Vec2> positions = {};  // positions of the unknowns in the plane, for Cholesky::factor()
 };
 
 struct BoundedFitResult {

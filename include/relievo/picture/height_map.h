@@ -35,7 +35,7 @@ struct HeightMapOptions {
 };
 
 struct HeightMap {
-  Image16 image;            // from 0 to the largest grey level of `bits`
+  Image16 image;            // grey levels from 0 to the largest number of `bits` bits
   double mm_per_pixel = 0;  // size of a pixel in x and y
   double mm_per_grey = 0;   // height of one grey level
   int bits = 16;
@@ -46,7 +46,7 @@ struct HeightsMm {
   Image<float> image;
   double mm_per_pixel = 0;
   HeightMapOptions options = {};  // options for which the heights were made
-  double span_mm = 0;             // from the zero height to the highest point
+  double span_mm = 0;             // height of the highest point above the zero height
   std::string note = {};          // text that is appended to the description in a file
 };
 

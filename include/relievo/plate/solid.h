@@ -61,7 +61,7 @@ struct PlateOptions {
   // this is the size of the workpiece that the die makes.
   Vec2 size_mm = Vec2::Zero();
   Vec2 shift_mm = Vec2::Zero();          // shift of the front from the middle of an outline with a given size
-  std::vector<Ornament> ornaments = {};  // on the ground; not for the outline `none`
+  std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
   // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
   bool is_mirrored = false;  // whether ornaments are mirrored

@@ -37,7 +37,7 @@ struct WrapOptions {
 // "cone:diameter=70,angle=8". Errors: kind option for any other text.
 Result<WrapOptions> parse_wrap(std::string_view text);
 
-// The wrap of one plate.
+// The body around which a plate is bent.
 class Wrap {
  public:
   // Returns the wrap of a plate with that outline; the centre of the outline's bounding box faces the viewer.

@@ -38,7 +38,7 @@ struct Frame {
   std::vector<float> heights;     // heights of the surface's points including the base, in the cloud's units
   std::vector<Vec3f> normals;     // unit normals: area-weighted means over the triangles around a point
   double height = 0;              // highest minus lowest height, without the base; 0 counts as a height
-  float lowest = 0, highest = 0;  // of `heights` and 0
+  float lowest = 0, highest = 0;  // lowest and highest number among `heights` and 0
   bool is_height_met =
       true;  // false if a locked height is out of reach; the relief is then as high as possible
   FrameTimes times;

@@ -24,7 +24,7 @@ enum class Method { layered, paper, linear, equalise, gradient, base_detail };
 // Relief::shape has no meaning.
 using Baseline = Relief(const ReliefModel& model, double height);
 
-// Baselines.h declares variants with options.
+// baselines.h declares variants with options.
 Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relief;
 
 struct MethodInfo {

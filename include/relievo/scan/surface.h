@@ -36,7 +36,7 @@ struct Surface {
   // The table or background, in the coordinates of `points`; empty if none was found. Its points are left out
   // unless View::has_plane.
   std::optional<SupportPlane> plane = {};
-  double measured_noise = 0;  // along the normals, in sampling distances; 0 if there is little noise
+  double measured_noise = 0;  // standard deviation along the normals, in rho; 0 if there is little noise
   double removed_noise = 0;   // the noise that the view asks to remove or, by default, the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // whether the cloud's normals pointed inwards

@@ -44,7 +44,7 @@ struct PackedColumn {
   std::string_view name;  // name of the column, for messages
   Kind kind = Kind::integer;
   unsigned bits = 0;            // bits per number; an integer of 0 bits always equals the minimum
-  std::int64_t minimum = 0;     // added to integers
+  std::int64_t minimum = 0;     // added to the stored integers
   double scale = 1, shift = 0;  // the value is scale * number + shift
   bool is_wanted = false;       // the bytes of unwanted columns are not collected
   std::string bytes = {};       // bytes of all packets in order, followed by zeros

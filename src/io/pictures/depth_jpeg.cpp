@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-// Jpeglib.h needs FILE and std::size_t; jerror.h needs the macros of jpeglib.h.
+// jpeglib.h needs FILE and std::size_t; jerror.h needs the macros of jpeglib.h.
 #include <jpeglib.h>
 
 #include <jerror.h>

@@ -15,10 +15,10 @@ namespace {
 constexpr std::string_view npy_mark = "\x93NUMPY";
 
 struct NpyHeader {
-  std::string_view type, shape;  // as in the file: "<f4", "160, 160"
+  std::string_view type, shape;  // as written in the file: "<f4", "160, 160"
   bool is_by_columns = false, is_big_endian = false;
   SampleFormat samples = {};
-  std::vector<std::size_t> sizes;  // of the dimensions, except those of length 1
+  std::vector<std::size_t> sizes;  // lengths of the dimensions, except those of length 1
   std::size_t data = 0;            // offset of the first number
 };
 

@@ -48,8 +48,8 @@ inline constexpr std::array luminance_shares = {.2126F, .7152F, .0722F};
 // The values of an uncompressed picture.
 struct StoredPixels {
   std::uint64_t width = 0, height = 0;
-  std::uint64_t bytes = 1;   // per pixel
-  std::uint64_t offset = 0;  // of the first pixel in the file
+  std::uint64_t bytes = 1;   // bytes per pixel
+  std::uint64_t offset = 0;  // offset of the first pixel in the file
 };
 
 // Returns an error if there are too many pixels, or more than the file contains.

@@ -53,7 +53,7 @@ struct SubspaceModel::Workspace::Storage {
   HeightSystem::Workspace system;
   WeightTable weight;
   std::vector<Vec2f> slopes;
-  std::vector<float> heights, ratios, offsets;  // of the control points
+  std::vector<float> heights, ratios, offsets;  // at the control points
   SplineFunction ratio, offset;
   std::vector<float> pair;  // the nodes of both splines, interleaved
   MultilevelSpline::Workspace ratio_fit, offset_fit;

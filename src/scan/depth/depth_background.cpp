@@ -11,7 +11,7 @@ namespace {
 // contacts with the figure are depth jumps. If missing values are more than `most_missing` of the figure's
 // contacts, the missing pixels are its background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
-constexpr double least_figure_share = .01;  // of the image; smaller figures are specks
+constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
 // Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
 // the figure's slope beside it. (Where a sphere touches a plane, the slope is about twice the slope beside
 // it, but there is no jump.)

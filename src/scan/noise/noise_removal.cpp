@@ -19,7 +19,7 @@ namespace {
 constexpr int fits = 3;  // each fit is weighted by the deviations from the previous one
 constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 noise)
 constexpr double least_deviation = to_radians(8),
-                 more_deviation = to_radians(30);  // of normals: constant part, and factor of the noise
+                 more_deviation = to_radians(30);  // normals: constant part, and factor of the noise
 constexpr float facing = .2F;  // least cosine between the normals of neighbours on the same side of a wall
 constexpr double stiffness = .01;  // keeps the field almost constant if the neighbours are collinear
 constexpr std::size_t lanes = 8;
@@ -68,8 +68,8 @@ struct LocalSurface {
 
 // 1 / (2 variance) of the Gaussians by which deviating neighbours lose weight.
 struct Tolerances {
-  float normals;  // for the deviation of normals
-  float heights;  // for the deviation of heights, in units of the radius
+  float normals;  // tolerance for the deviation of normals
+  float heights;  // tolerance for the deviation of heights, in units of the radius
 };
 
 // Returns exp(x) for x <= 0 with seven digits; 0 below -80.

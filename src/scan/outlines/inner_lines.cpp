@@ -16,7 +16,7 @@ namespace {
 // Lengths in rho.
 constexpr double change_radius = 3.0, stride = .75, line_window = 3, shortest = 8;
 constexpr double apart_at_start = 1.5, apart = 1.2, apart_from_outlines = .8;
-constexpr std::size_t least_points = 4;  // on either side of a line
+constexpr std::size_t least_points = 4;  // number of points needed on either side of a line
 // A line may begin at an edge between two points if the cosine between their normals is below this.
 constexpr float bent_below = .75F;
 
@@ -100,7 +100,7 @@ class ChangeFinder {
   struct Part {
     std::size_t count = 0;
     Mat3 moments = Mat3::Zero(), products = Mat3::Zero();
-    Vec3 normal = Vec3::UnitZ();  // at the position of the line
+    Vec3 normal = Vec3::UnitZ();  // fitted normal at the position of the line
     double of_normals = 0, around_mean = 0;
     double depths = 0, squared_depths = 0;  // in rho
 
@@ -254,8 +254,7 @@ class LineFinder {
   // another line is too near. `own` is the outline to be continued, if any.
   void follow(Line& line, Vec2 direction, Index own) const {
     constexpr double turn_deg = 12;
-    constexpr double least_gain =
-        .03;  // of left_over, to change direction; between points all positions are equally good
+    constexpr double least_gain = .03;  // least improvement of left_over for which the direction changes
     direction.normalize();
     while (true) {
       const Vec2 from = line.places.back();

@@ -13,10 +13,10 @@ namespace relievo {
 // The kind of position of a point of the surface.
 enum class Place : std::uint8_t {
   scan,        // a point of the scan
-  silhouette,  // on the silhouette
-  front,       // on the upper or on the lower edge of the wall at a jump
+  silhouette,  // a point on the silhouette
+  front,       // front, back: on the upper or the lower edge of the wall at a jump
   back,
-  row,  // in a row farther from an outline, or inside a gap
+  row,  // a point in a row farther from an outline, or inside a gap
 };
 
 inline constexpr Index no_row = no_index;

@@ -25,7 +25,7 @@ struct FrontCells {
 
   Vec2f corner = Vec2f::Zero();  // lower left corner of the first cell
   float cell = 1;                // side of a cell
-  Image<float> depth;            // at the centre of the cell; no_depth if no point covers it
+  Image<float> depth;            // depth at the centre of the cell; no_depth if no point covers it
   Image<Vec3f> normal;           // unit mean normal of the visible points nearby; zero if there are none
   Image8 is_behind;              // whether the cell contains a point that faces away
   Image8 is_edge;                // whether the surface ends or jumps at a covered cell; set by mark_edges()
