@@ -245,8 +245,7 @@ class BinaryOffReader {
     return static_cast<std::size_t>(count);
   }
 
-  // A face is stored as the number of its corners, the corners, the number of colour components, and these
-  // components.
+  // A face is stored as: number of corners, corners, number of colour components, colour components.
   Result<void> take_face(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
     RELIEVO_TRY(const std::size_t length, take_count("corners"));
     if (length > left() / 4) return fail(cat("expected ", length, " corners, found ", left(), " bytes"));

@@ -39,8 +39,8 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 // darkest tenth.
 //
 // A flat surface with colours is a picture. Its heights fall linearly from black to white, without highlights
-// and shading, because the values of a picture are already close to the logarithm of its brightness (displays
-// raise them to the power of about 2.2), and dark pixels remain distinguishable.
+// and shading. The values of a picture are already close to the logarithm of its brightness, because displays
+// raise them to the power of about 2.2. Linear heights also keep dark pixels distinguishable.
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

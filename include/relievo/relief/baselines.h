@@ -51,8 +51,7 @@ struct EqualiseOptions {
 };
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options = {});
 
-// Returns the relief of that height that gradient_slopes() integrate to. The background has the height of the
-// base.
+// Returns the relief of that height whose slopes fit gradient_slopes() best. The background is on the base.
 Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options);
 
 // A linearly compressed base with amplified detail. The detail is the difference between the heights from the

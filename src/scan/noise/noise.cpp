@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t enough_places = 4000;
 constexpr std::size_t fewest_places = 100;
-// The number of indices of a point, its neighbours, and their neighbours.
+// The largest number of points in two_rings(): a point, its neighbours, and their neighbours.
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
 // The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile
 // to the standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square
