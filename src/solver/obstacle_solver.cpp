@@ -97,9 +97,9 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Keeps every other node of every other row. A coarse node gets the least bending stiffness of five fine
-// nodes, the one at its position and the four neighbours, and the harmonic mean of their tensions. So thin
-// hinges between stiff regions remain.
+// Keeps every other node of every other row. A coarse node gets the least bending stiffness of the fine node
+// at its position and of that node's free neighbours, and the harmonic mean of the tensions of that node and
+// its four neighbours. So thin hinges between stiff regions remain.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;

@@ -43,7 +43,7 @@ inline constexpr std::array<Choice<OrnamentKind>, 5> ornament_kinds{{{"text", Or
                                                                      {"line", OrnamentKind::line},
                                                                      {"drawing", OrnamentKind::drawing}}};
 
-// A TrueType or OpenType font.
+// A TrueType or OpenType font. Options are equal only if their fonts are the same object.
 struct FontFile {
   std::string name;  // name for errors
   std::vector<std::byte> bytes;
@@ -63,9 +63,8 @@ struct Ornament {
       {};                    // middle of a straight text or of a drawing, relative to the plate's middle
   bool is_engraved = false;  // cut into the ground with walls of 45 degrees, which meet in thin strokes
   double tracking_mm = 0;    // additional space between clusters
-  std::optional<double> count = {};  // number of beads or strands
-  std::vector<std::vector<Vec2>> outlines =
-      {};  // drawing: any unit, y up; filled where the winding number is not 0
+  std::optional<double> count = {};              // number of beads or strands
+  std::vector<std::vector<Vec2>> outlines = {};  // drawing: any unit, y up; filled by nonzero winding
 
   bool operator==(const Ornament&) const = default;
 };
