@@ -1,4 +1,4 @@
-// The options of a relief as typed values. A program fills them in, or parse_options() reads them.
+// The options of a relief as typed values, which a program sets, or parse_options() reads.
 #pragma once
 
 #include <algorithm>
@@ -23,42 +23,42 @@
 
 namespace relievo {
 
-// The options that are plain numbers; option_table() has their ranges. Most comments end with the default.
+// The options that are numbers; option_table() has their ranges. Most comments end with the default.
 struct NumericOptions {
   std::optional<double> width_mm;     // longer side of the relief, without margin; see effective_width_mm()
-  std::optional<double> diameter_mm;  // diameter of a round plate; as small as the relief allows
+  std::optional<double> diameter_mm;  // diameter of a round plate; the smallest that fits
   std::optional<double> height_mm;    // lowest to highest point of the front; see effective_height_mm()
   std::optional<double> height_of_diagonal;  // the height as a share of L_d, in place of height_mm
-  std::optional<double> mm_per_value;    // one vertical scale, in place of a height; see relief_of_values()
-  std::optional<double> ground_value;    // the value at the ground of that scale
+  std::optional<double> mm_per_value;    // a vertical scale instead of a height, see relief_of_values(); none
+  std::optional<double> ground_value;    // the value at the ground, for mm_per_value
   std::optional<double> alpha;           // the paper's height coefficient; 4
   std::optional<double> saturation;      // the paper's beta; see effective_saturation()
   std::optional<double> detail;          // the paper's gamma; see effective_detail()
   std::optional<double> steepest_deg;    // largest target slope; 76
-  double light_contrast = .8;            // of the model's local contrast under the light
+  double light_contrast = .8;            // factor of the model's local contrast under the light
   double colour_mm = 0;                  // depth of lines that are dark in the scan
-  std::optional<double> draft_deg;       // least angle of every triangle to the vertical; any
+  std::optional<double> draft_deg;       // least angle between every triangle and the vertical; none
   std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height for depth jumps, see Shape
-  std::optional<double> planes;          // least step of parts, see Shape; effective_planes()
-  double control_points = static_cast<double>(usual_control_points);  // of the subspace, approximately
+  std::optional<double> planes;          // least step between parts, see Shape; see effective_planes()
+  double control_points = static_cast<double>(usual_control_points);  // approximate number in subspace mode
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
-  std::optional<double> thickness_mm;    // smallest thickness of the plate; see effective_thickness_mm()
-  std::optional<double> rim_mm;          // width of a raised edge along the outline; none
-  std::optional<double> rim_height_mm;   // height of the edge above ground; the relief's if its bevel fits
-  std::optional<double> rim_bevel_mm;    // width of the edge's slanting inner side; 0.3 of the edge's height
-  std::optional<double> text_mm;         // height of the text's capitals; 0.6 of the margin
-  std::optional<double> text_height_mm;  // of the text above the ground; see Ornament
+  std::optional<double> thickness_mm;    // least thickness of the plate; see effective_thickness_mm()
+  std::optional<double> rim_mm;          // width of a raised rim along the outline; no rim
+  std::optional<double> rim_height_mm;   // height of the rim; the relief's height, if its bevel fits
+  std::optional<double> rim_bevel_mm;    // width of the rim's bevel; 0.3 of the rim's height
+  std::optional<double> text_mm;         // height of the text's capital letters; 0.6 of the margin
+  std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament
   std::optional<double> points;          // number of visible points to sample; see usual_points()
-  std::optional<double> resolution_mm;   // finest step of samples; the smaller of width / 700 and rho
-  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; without it all points stay
-  std::optional<double> triangles;       // most triangles of the solid; any number
+  std::optional<double> resolution_mm;   // distance between samples; the smaller of width / 700 and rho
+  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; no simplification
+  std::optional<double> triangles;       // largest number of triangles of the solid; no limit
 
   bool operator==(const NumericOptions&) const = default;
 };
 
-// The surface of the finished front.
+// The surface of the front.
 enum class Finish {
   full,      // the relief itself
   reachable  // the surface that the tool leaves
@@ -70,53 +70,54 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
 struct ReliefOptions : NumericOptions {
   std::optional<Method> method;         // default: see effective_method()
   std::optional<ToneCurve> tone;        // replaces (6) and the saturation
-  std::optional<LightDirection> light;  // for which slopes are chosen
-  Strokes strokes;                      // local changes that were painted onto the model
+  std::optional<LightDirection> light;  // the light for which slopes are chosen
+  Strokes strokes;                      // local changes painted onto the model
   Mode mode = Mode::exact;
   View view;
   Outline outline = Outline::rectangle;
-  std::optional<Vec2> plate_mm;  // width and height of the plate; default: as small as the relief allows
-  Vec2 shift_mm = Vec2::Zero();  // shift of the relief in a plate with a given size, right and up
-  BaseOptions base;              // a base of kind image includes its height map
+  std::optional<Vec2> plate_mm;  // width and height of the plate; default: as small as possible
+  Vec2 shift_mm = Vec2::Zero();  // shift of the relief to the right and up, in a plate with a given size
+  BaseOptions base;              // a base of kind image includes the height map
   WrapOptions wrap;
-  std::string text;  // on the ground; none if empty
+  std::string text;  // text on the ground; none if empty
   TextArc text_arc = TextArc::straight;
-  std::string font_name;                      // file of the text's font; the font inside the program if empty
-  std::shared_ptr<const FontFile> font = {};  // its bytes, which the programs read
-  std::string ornament_source;                // list of further ornaments: its file, or JSON
-  std::vector<Ornament> ornaments;            // its content, which the programs read
+  std::string font_name;                      // file of the text's font; the built-in font if empty
+  std::shared_ptr<const FontFile> font = {};  // contents of the font's file, which programs read
+  std::string ornament_source;                // file or JSON with a list of further ornaments
+  std::vector<Ornament> ornaments;            // the ornaments in the list, which programs read
   Form form = Form::relief;
-  std::optional<Tool> tool;  // the report states which part the tool reaches
+  std::optional<Tool> tool;  // if given, the report states which part the tool reaches
   Finish finish = Finish::full;
 
   bool operator==(const ReliefOptions&) const = default;
 
-  // The values that apply if none is given: the paper's defaults or, for other methods, the defaults that
-  // keep most of the model. The width is for a plate without a given size, see with_width().
+  // The effective values: given ones, or else the paper's defaults or, for other methods, the defaults that
+  // preserve most of the model. The default width is for a plate without a given size, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
-  // Returns the given method, or else linear with a vertical scale, the paper's with an alpha, and layered.
+  // Returns the given method. Without one, returns linear if a vertical scale is given, the paper's method if
+  // alpha is given, and layered otherwise.
   Method effective_method() const;
-  // Returns the given height or usual_height_mm(). If no height is given, returns nothing for a lithophane,
-  // for a vertical scale, and for the paper's method, with which the height follows from the shape.
+  // Returns the given height or usual_height_mm(). Without a given height, returns nothing for a lithophane,
+  // for a vertical scale, and for the paper's method, whose height follows from the shape.
   std::optional<double> effective_height_mm() const;
-  // Returns the given height, or else 2.4 mm for a lithophane and 5 % of the width for other forms: see
-  // docs/decisions/default-height.md.
+  // Returns the given height. Without one, returns 2.4 mm for a lithophane and 5 % of the width for other
+  // forms (docs/decisions/default-height.md).
   double usual_height_mm() const {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
   }
   double effective_alpha() const { return alpha.value_or(4); }
   // The default is the angle of Shape::max_slope.
   double effective_steepest_deg() const { return steepest_deg.value_or(76); }
-  // The margin is small if a diameter is given, as for coins, and wide enough for a text.
+  // The default margin is small if a diameter is given, as for coins. It is wide enough for a text.
   double effective_margin_mm() const {
     if (text_mm && !text.empty()) return margin_mm.value_or(std::max(diameter_mm ? 1. : 5., *text_mm / .6));
     return margin_mm.value_or(diameter_mm && text.empty() ? 1 : 5);
   }
-  // Returns the text and the further ornaments.
+  // Returns the text and all further ornaments.
   std::vector<Ornament> all_ornaments() const;
-  // The plate of a lithophane is thin, because light has to pass through its thinnest places.
+  // The plate of a lithophane is thin, because light has to pass through its thinnest parts.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
-  // Returns the view, for the paper's method without removal of noise and of crumbs.
+  // Returns the view. For the paper's method, it removes neither noise nor crumbs.
   View effective_view() const;
   ModelOptions effective_model() const { return {mode, static_cast<std::size_t>(control_points)}; }
   double effective_saturation() const;
@@ -125,10 +126,10 @@ struct ReliefOptions : NumericOptions {
   double effective_planes() const;
 };
 
-// Checks every range, and that options do not contradict each other. Contradictions are: two of height, height
-// of the diagonal and alpha; control points without a subspace; alpha and a method other than the paper's;
-// saturation or detail for a method that has none; a tone curve or steps for the paper's method; a size of the
-// plate that its outline cannot have. Errors: kind option, naming the option.
+// Checks that all options are in their ranges and do not contradict each other. Contradictions are: two of
+// height, height of the diagonal and alpha; control points without subspace mode; alpha and a method other
+// than the paper's; saturation or detail for a method without them; a tone curve or steps for the paper's
+// method; a plate size that the outline cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Places several models in one relief, and samples the points of all models that a viewer sees.
+// Arranges several models in one relief, and samples the points of all models that the viewer sees.
 #pragma once
 
 #include <memory>
@@ -18,15 +18,15 @@ class Progress;
 struct MadeRelief;
 struct ReliefOptions;
 
-// The placement of a model in a scene. The model is mirrored, scaled and turned about the centre of its own
-// box, which excludes outliers, and then moved.
+// The placement of a model in a scene. The model is mirrored, scaled and rotated about the centre of its
+// bounding box, which excludes outliers, and then translated.
 struct Pose {
-  Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z, all fixed axes; 90 about z takes x to y
-  std::optional<Vec3> translate = {};  // movement, in the units of the files
-  double scale = 1;                    // above 0
-  bool is_mirrored = false;            // x is reversed before scaling and turning
-  // The height of the model's highest point over the surface behind it, as a share of the relief's height, in
-  // [0.01, 0.9]; see OwnHeights. If not given, the relief's method decides.
+  Vec3 rotate_deg = Vec3::Zero();  // about x, then y, then z, which are fixed axes; 90 about z maps x to y
+  std::optional<Vec3> translate = {};  // in the units of the files
+  double scale = 1;                    // > 0
+  bool is_mirrored = false;            // whether x is reversed, before scaling and rotating
+  // The height of the model's highest point above the surface behind it, as a share of the relief's height,
+  // in [0.01, 0.9]; see OwnHeights. If not given, the relief's method determines it.
   std::optional<double> height = {};
 
   bool operator==(const Pose& other) const;
@@ -34,23 +34,23 @@ struct Pose {
 
 inline constexpr double least_own_height = .01, most_own_height = .9;
 
-// Returns the turn of a pose: a rotation, preceded by a reflection if the pose is mirrored.
+// Returns the rotation of a pose, preceded by a reflection if the pose is mirrored.
 Mat3 turn_of(const Pose& pose);
 
-// The use of each pixel of a depth image, and the meaning that its values were read with.
+// The use of each pixel of a depth image, and how its values were interpreted.
 struct PixelUses {
-  Image<PixelUse> uses;  // see DepthCloud
+  Image<PixelUse> uses;  // as in DepthCloud
   int reduction = 1;
   DepthValues values = DepthValues::depth;
-  Vec2 pixel_shape = Vec2::Ones();  // see DepthImage
+  Vec2 pixel_shape = Vec2::Ones();  // as in DepthImage
 };
 
 struct SceneModel {
-  std::string name;                       // name in errors and notes
+  std::string name;                       // name for errors and notes
   std::shared_ptr<const CloudFile> file;  // not null
   Pose pose = {};
-  std::vector<std::string> remarks = {};         // lines on parts of the file that were not read, and why
-  std::shared_ptr<const PixelUses> pixels = {};  // null if the file is no depth image
+  std::vector<std::string> remarks = {};         // messages about parts of the file that were not read
+  std::shared_ptr<const PixelUses> pixels = {};  // null if the file is not a depth image
 };
 
 // A scene of at least one model. If no pose has a `translate`, the models are arranged for the view, see
@@ -61,7 +61,7 @@ struct Scene {
 
 // Maps a point p of the file to scale * turn * p + offset in the scene.
 struct PlacedModel {
-  Mat3 turn = Mat3::Identity();  // see turn_of()
+  Mat3 turn = Mat3::Identity();  // as from turn_of()
   double scale = 1;
   Vec3 offset = Vec3::Zero();
 
@@ -69,50 +69,50 @@ struct PlacedModel {
 };
 
 // Returns the placement of each model.
-// - If any pose has a `translate`, the models are placed by their poses: files with a common frame fit
-//   together.
-// - A single model stays where it is.
-// - Otherwise the models are arranged for the view: side by side from left to right on one ground line, with
-//   their middles equally deep and gaps of 8 % of their height. The first model keeps its size and, unless it
-//   is turned, its place. The others become as high as the first, but at most one and a half times as wide as
-//   that height. Their `scale` then multiplies this size: with 0.5 a model is half as high as the first.
-// Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], for angles and places that
-// are not finite.
+// - If any pose has a `translate`, the poses place all models; files with common axes then fit together.
+// - A single model does not move.
+// - Otherwise the models are arranged for the view: side by side from left to right on a common ground line,
+// with their centres at the same depth, and with gaps of 8 % of their height. The first model keeps its size
+// and, unless it is rotated, its position. The others get the height of the first, but at most one and a half
+// times that height as width. Then their `scale` multiplies this size: with 0.5 a model is half as high as
+// the first.
+// Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], and for angles and
+// translations that are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
-// Returns the side of the scene that suits a relief best, see rank_views(). It is always the front if there
-// are several models or a pose moves the only model, because models are placed to be seen from there. At most
+// Returns the best side of the scene for a relief, see rank_views(). If there are several models, or a pose
+// moves the only model, it is always the front, because models are arranged to be viewed from there. At most
 // a million points are examined.
 ViewGuess best_side(const Scene& scene);
 
-// Returns the view, turned to a side.
+// Returns the view, rotated to a side.
 View on_side(View view, const ViewGuess& side);
 
-// Returns the view, turned to the best side if that is still to be chosen (View::is_best).
+// Returns the view, rotated to the best side if that is still to be chosen (View::is_best).
 View chosen_view(const Scene& scene, const View& view);
 
-// Returns the default number of visible points: 300,000. For a scene of meshes only, it is 15 per triangle if
-// that is less, because meshes have no finer detail than their triangles; but it is at least 100,000, so that
-// outlines stay smooth.
+// Returns the default number of visible points: 300,000. For a scene of only meshes it is 15 per triangle if
+// that is less, because meshes have no finer detail than their triangles; but at least 100,000, so that
+// outlines are smooth.
 double usual_points(const Scene& scene);
 
-// Returns the points of all placed models, in the scene's frame. `points` is the wanted number of points, by
+// Returns the points of all placed models, in the scene's axes. `points` is the wanted number of points, by
 // default usual_points().
-// - All meshes together give about the wanted number of points; hidden parts are left out. Clouds keep all
-//   points but outliers.
-// - All models get about the same sampling distance: that of the finest cloud, or the distance at which the
-//   wanted number of points is visible, if that is larger or the scene has meshes. Finer clouds are thinned
-//   to this distance. Of much coarser clouds only the visible points are taken, and points are added between
-//   them.
-// - Normals are estimated or turned separately for each model.
-// - If any model has colours, the others are white.
+// - All meshes together give about the wanted number of points, without hidden parts. Clouds keep all points
+// but outliers.
+// - All models get about the same sampling distance. It is that of the finest cloud or, if that is larger or
+// the scene has meshes, the distance at which the wanted number of points is visible. Finer clouds are
+// subsampled to this distance. Of much coarser clouds only the visible points are used, and points are added
+// between them.
+// - Normals are estimated or oriented separately for each model.
+// - If any model has colours, models without colours become white.
 // - A single cloud that is not moved keeps all points of its file but outliers.
 // Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,
 // naming the model; kind cancelled.
 Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> points,
                                    Progress* progress = nullptr);
 
-// Returns the plate with the relief of the scene, as make_relief() does for a file.
+// Returns the plate with the relief of the scene, like make_relief() for a file.
 Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options,
                                Progress* progress = nullptr);
 

@@ -1,4 +1,4 @@
-// Prepares models in the background. Meanwhile the previous model can still be used.
+// Prepares models in the background, while the previous model can still be used.
 #pragma once
 
 #include <chrono>
@@ -16,21 +16,22 @@ namespace relievo {
 
 struct SessionStatus {
   bool is_preparing = false;
-  std::string stage;           // current stage of the preparation, see Progress
-  double fraction = 0;         // share of the preparation that is done, in [0, 1]
-  std::optional<Error> error;  // error of the last preparation, failed or cancelled; none while one runs
-  // True once the points are measured and the first coarse relief, if wanted, is made. This is long before
-  // the first model of the points is ready.
+  std::string stage;    // current stage of the preparation, see Progress
+  double fraction = 0;  // share of the preparation that is done, in [0, 1]
+  // Error of the last preparation, if it failed or was cancelled; empty during a preparation.
+  std::optional<Error> error;
+  // Whether the points are measured and the first coarse relief, if wanted, is made. This is long before the
+  // first model of the points is ready.
   bool can_turn = false;
 };
 
-// One model to prepare. Its functions are called in the session's own thread.
+// A model to prepare. Its functions are called in the session's thread.
 struct Preparation {
   using Points = Result<std::shared_ptr<const Cloud>>;
   using Model = std::shared_ptr<const ReliefModel>;
 
-  // Returns the cloud; may read files and may take long. The cloud of a mesh that read_cloud() has read is its
-  // vertices alone: sample_for_view() in scene.h takes points of its triangles.
+  // Returns the cloud. May read files and may take long. For a mesh, the cloud from read_cloud() has only the
+  // vertices; sample_for_view() in scene.h samples its triangles.
   std::function<Points(Progress&)> points;
   View view = {};
   ModelOptions model = {Mode::automatic};
@@ -39,54 +40,53 @@ struct Preparation {
   std::function<View()> chosen_view = {};
 
   // If set, it is called for coarse reliefs, and returns the points of all sides. If not set, coarse reliefs
-  // use the result of points(). This suits clouds, but the points of a mesh are samples of one view.
+  // use the result of points(). That is right for clouds; but the points of a mesh are sampled for a single
+  // view.
   std::function<Points(Progress&)> all_sides = {};
 
-  // If set, and there is no model yet, the session's thread makes the coarse relief of this view as soon as
-  // the points are measured, and turn() returns it.
+  // Whether to make the coarse relief of this view as soon as the points are measured, if there is no model
+  // yet. It is made in the session's thread, and turn() returns it.
   bool makes_first_relief = false;
 
-  // Called with the model just before status() reports that the model is ready. The call is made under the
-  // session's lock: this function must not call the session, nor take a lock that a caller of the session may
-  // own.
+  // Called with the model just before status() reports that the model is ready. During the call the session
+  // is locked: the function must not call the session, nor take a lock that a caller of the session may own.
   std::function<void(const Model&)> ready = {};
 
   // If set, it is called when status() has changed. Of the session's functions it may call only status().
-  // Programs with threads may poll status() instead.
+  // Programs with threads may call status() repeatedly instead.
   std::function<void()> changed = {};
 };
 
-// Every method may be called from any thread. Only turn(), wait_until_idle() and the destructor wait for
-// work. Callers make frames of the model with a FrameMaker.
+// A session; every method may be called from any thread. Only turn(), wait_until_idle() and the destructor
+// may take long. Callers make frames of the model with a FrameMaker.
 class Session {
  public:
   Session();
-  ~Session();  // cancels the running work and waits for its end
+  ~Session();  // cancels the running preparation and waits for its end
 
-  // Prepares a model in the background. A newer call cancels an older one, and the end of the older one is
-  // not reported. The previous model stays until the new one is ready; if the preparation fails, the previous
-  // model stays for good.
+  // Prepares a model in the background. A newer call cancels an older one, whose end is then not reported.
+  // The previous model stays until the new one is ready; if the preparation fails, it stays for good.
   void open(Preparation preparation);
 
-  // Cancels the preparation that runs or waits, if any. status() reports it at once. The work itself ends
-  // when it next checks its Progress, and the next preparation begins after that. If there is no model yet,
-  // points that were read are freed.
+  // Cancels the preparation that is running or waiting, if any. status() reports that immediately. The
+  // preparation ends when it next checks its Progress, and only then does the next one begin. If there is no
+  // model yet, the points are freed.
   void cancel();
 
   // Returns a coarse relief, in another view, of the points that were prepared last. It is shown while the
-  // view moves; open() prepares the final view. The work is done in the calling thread, in a few hundredths
-  // of a second. The first call for a cropped cloud or a mesh takes longer, because it also measures the
-  // points of all sides. A newer call of turn() and cancel() cancel this one. turn() does not cancel a
-  // preparation, and open() does not cancel turn(): a call may come late, when the final view is already
-  // being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area;
-  // kind cancelled.
+  // view changes; open() prepares the final view. It is made in the calling thread, in a few hundredths of a
+  // second. The first call for a cropped cloud or a mesh takes longer, because it also measures the points of
+  // all sides. A newer turn(), and cancel(), cancel this call. turn() does not cancel a preparation, and
+  // open() does not cancel turn(), because a call may come late, when the final view is already being
+  // prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area; kind
+  // cancelled.
   Result<TurnedRelief> turn(const View& view);
 
   SessionStatus status() const;
-  std::shared_ptr<const ReliefModel> model() const;  // the newest model; null before the first
+  std::shared_ptr<const ReliefModel> model() const;  // the newest model; null before the first one
 
-  // Waits until nothing is left to do. Returns false if that takes longer than the timeout. Where there are
-  // no threads, this call runs the preparation passed to open(); with a timeout of 0 it does nothing.
+  // Waits until nothing is left to do. Returns false if that takes longer than the timeout. On systems
+  // without threads, this call runs the preparation passed to open(); with a timeout of 0 it does nothing.
   bool wait_until_idle(std::chrono::milliseconds timeout);
 
  private:

@@ -1,4 +1,4 @@
-// Coarse reliefs to be shown while a model is turned. They have some 18,000 points, take a few hundredths of
+// Coarse reliefs for display while a model is turned. They have about 18,000 points, take a few hundredths of
 // a second, and are shaded by the normals of all points of the scan.
 #pragma once
 
@@ -14,24 +14,25 @@ class MeasuredCloud;
 // A relief that looks like a relief of ReliefModel::prepare() in the same view, at a lower resolution.
 struct TurnedRelief {
   std::shared_ptr<const ReliefModel> model;
-  std::shared_ptr<const SurfaceDetail> detail;  // normals that the points do not resolve; for Shown::detail
+  std::shared_ptr<const SurfaceDetail> detail;  // normals finer than the points, for Shown::detail
   // The scan's sampling distance divided by the model's. The boundary width of a shape is in sampling
   // distances, so it must be multiplied by this ratio.
   double spacing_ratio = 1;
 };
 
-// Turns one scan. Const calls may run concurrently.
+// Makes coarse reliefs of one scan. Const calls may run concurrently.
 class Turntable {
  public:
-  // The approximate number of points inside a turned relief; some 3,000 along outlines are added.
+  // The approximate number of points inside a turned relief; about 3,000 points along outlines are added.
   static constexpr std::size_t points = 15'000;
 
-  // Copies the parts of the cloud that it needs.
+  // Copies the data that it needs from the cloud.
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 
-  // Returns the relief of a view. `like` is a model of the same scan in another view, or null; its parameters
-  // of the height correction are used. Errors: kind geometry if the view shows no area; kind cancelled.
+  // Returns the relief of a view. `like` is a model of the same scan in another view, or null. If it has a
+  // support plane and the view shows none, the points of that plane are left out. Errors: kind geometry if the
+  // view shows no area; kind cancelled.
   Result<TurnedRelief> turn(const View& view, const ReliefModel* like, Progress* progress = nullptr) const;
 
  private:

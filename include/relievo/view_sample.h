@@ -1,4 +1,4 @@
-// The points from which a view's relief is made, and notes on how the scans were sampled.
+// The points for the relief of a view, and notes on how they were sampled.
 #pragma once
 
 #include <cstddef>
@@ -10,28 +10,29 @@ namespace relievo {
 
 struct Cloud;
 
-// A step that changed a model's points.
+// A step that changed the points of a model.
 struct SampleNote {
   enum class Kind {
     outliers,           // `points` far from the middle were left out
-    repeated,           // `points` that repeat others were left out
+    repeated,           // `points` repeats of other points were left out
     estimated_normals,  // normals were estimated, because the model has none
     turned_normals,     // normals were reversed, because they point inwards
-    mesh,               // `points` were taken from a mesh of `of` triangles
-    coarse,             // the cloud is coarser than the scene: points were added between its own
-    fine                // the cloud is finer than the scene: `points` of its `of` points were kept
+    mesh,               // `points` points were sampled from a mesh of `of` triangles
+    coarse,             // the cloud is coarser than the scene, so points were added between its own
+    fine                // the cloud is finer than the scene, so only `points` of its `of` points were kept
   };
 
   Kind kind = Kind::outliers;
-  std::string model = {};  // name of the model in a scene; empty if there is only one
+  std::string model = {};  // name of the model in a scene; empty for a single model
   std::size_t points = 0, of = 0;
 
   bool operator==(const SampleNote&) const = default;
 };
 
 struct ViewSample {
-  std::shared_ptr<const Cloud> cloud;  // points in the scene's frame; the file's own if no point was changed
-  std::size_t left_out = 0;            // number of outliers of all models together
+  // Points in the scene's axes; the file's cloud itself if no point was changed.
+  std::shared_ptr<const Cloud> cloud;
+  std::size_t left_out = 0;  // number of outliers of all models together
   std::vector<SampleNote> notes;
 };
 

@@ -1,4 +1,4 @@
-// Degrees, which options and reports use, and radians, which computations use.
+// Converts between degrees, for options and reports, and radians, for computations.
 #pragma once
 
 #include <numbers>

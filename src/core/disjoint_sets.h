@@ -1,5 +1,5 @@
-// Disjoint sets of the numbers 0 to n - 1 (union-find), with union by size and path halving.
-// Tested by tests/core/disjoint_sets_test.cpp.
+// Disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving. Tested by
+// tests/core/disjoint_sets_test.cpp.
 #pragma once
 
 #include <numeric>
@@ -16,7 +16,7 @@ class DisjointSets {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
 
-  // Returns the number that represents the set of i.
+  // Returns the representative of the set that contains i.
   Index find(Index i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -31,7 +31,7 @@ class DisjointSets {
     size_[a] += size_[b];
   }
 
-  // Returns how many numbers are in the set of i.
+  // Returns the size of the set that contains i.
   std::size_t size_of(Index i) { return size_[find(i)]; }
 
  private:

@@ -1,4 +1,4 @@
-// Items grouped by a number, such as the triangles around each point, in two arrays.
+// Items grouped by an index, such as the triangles around each point, stored in two arrays.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// Compressed sparse rows: the items of group g are items[begin[g]] up to, not including, items[begin[g + 1]].
-// `begin` has one element more than there are groups.
+// Compressed sparse rows: the items of group g are items[begin[g]] up to, but not including, items[begin[g +
+// 1]]. `begin` has one element more than there are groups.
 template <typename Item, typename Offset = Index>
 struct Groups {
   std::vector<Offset> begin = {0};
@@ -23,9 +23,9 @@ struct Groups {
   }
 };
 
-// Returns the items that each_item(add) passes to add(group, item), grouped; items of a group keep their
-// order. each_item is called twice, to count and to fill, and must pass the same items both times. Groups are
-// 0 to `groups` - 1.
+// Calls each_item(add), which calls add(group, item) for every item. Returns the items by group, 0 to
+// `groups` - 1; the items of a group keep their order. each_item is called twice, to count and to fill, and
+// must pass the same items both times.
 template <typename Item, typename Offset = Index, typename EachItem>
 Groups<Item, Offset> grouped(std::size_t groups, EachItem&& each_item) {
   Groups<Item, Offset> result;

@@ -1,4 +1,4 @@
-// The lowest and the highest of many heights.
+// The lowest and the highest of a set of heights.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace relievo {
 
 template <typename Real>
 struct HeightSpan {
-  Real lowest = 0, highest = 0;  // start at 0, because the base counts as a height
+  Real lowest = 0, highest = 0;  // initially 0, because the base counts as a height
 
   void extend(Real z) {
     lowest = z < lowest ? z : lowest;
@@ -23,8 +23,8 @@ struct HeightSpan {
   Real size() const { return highest - lowest; }
 };
 
-// Returns the span of a run of heights, in the calling thread. Eight spans are computed side by side so that
-// the compiler uses vector instructions.
+// Returns the span of consecutive heights, in the calling thread. Eight spans are computed in parallel, so
+// that the compiler uses vector instructions.
 template <typename Real>
 HeightSpan<Real> span_of_run(std::span<const Real> heights) {
   constexpr std::size_t lanes = 8;
@@ -53,7 +53,7 @@ HeightSpan<Real> span_of(std::span<const Real> heights) {
       });
 }
 
-// Returns the highest minus the lowest of the heights and 0, the base.
+// Returns the highest minus the lowest of the heights; the base, 0, counts as a height.
 inline double height_span(std::span<const double> heights) {
   return span_of(heights).size();
 }

@@ -6,7 +6,7 @@
 namespace relievo {
 namespace {
 
-// Accepts all JSON and stores the position of the first mistake, counted from 1.
+// Accepts all JSON. Stores the position of the first syntax error, counted from 1.
 struct MistakeFinder : nlohmann::json_sax<nlohmann::json> {
   std::size_t at = 0;
 

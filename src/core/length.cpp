@@ -17,7 +17,7 @@ void skip_spaces(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
 }
 
-// Returns whether the comma is ambiguous: in "1,234" it may be a decimal comma or separate thousands. In
+// Returns whether the comma is ambiguous. In "1,234" it may be a decimal comma or a thousands separator. In
 // "0,125" it can only be a decimal comma.
 bool is_ambiguous(std::string_view number) {
   const std::size_t comma = number.find(',');
@@ -26,9 +26,8 @@ bool is_ambiguous(std::string_view number) {
   return has_digits_only && number.find_first_of("123456789") < comma;
 }
 
-// Removes a number without a sign from the beginning of the text and returns it; returns nothing if there is
-// no finite number. parse_double() does not depend on the locale, in which a comma might be the only decimal
-// point.
+// Removes an unsigned number from the beginning of the text. Returns the number, or nothing if the text does
+// not begin with a finite number. parse_double() is independent of the locale, which might allow only commas.
 std::optional<double> take_number(std::string_view& text) {
   std::string digits(text);
   std::ranges::replace(digits, ',', '.');
@@ -40,7 +39,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-// Removes a number, or a fraction of two numbers, and returns its value.
+// Removes a number or a fraction of two numbers. Returns its value.
 std::optional<double> take_fraction(std::string_view& text) {
   const std::optional<double> value = take_number(text);
   if (!value || !text.starts_with('/')) return value;
@@ -49,8 +48,8 @@ std::optional<double> take_fraction(std::string_view& text) {
   return parts && *parts > 0 ? std::optional(*value / *parts) : std::nullopt;
 }
 
-// Returns the length of the whole number in texts such as "1 1/8", with the spaces behind it; 0 if no such
-// number begins the text.
+// Returns the length of the integer in a text such as "1 1/8", including the spaces after it; 0 if the text
+// does not begin with such an integer.
 std::size_t whole_part(std::string_view text) {
   constexpr std::string_view digits = "0123456789";
   const std::size_t spaces = std::min(text.find_first_not_of(digits), text.size());
@@ -61,7 +60,7 @@ std::size_t whole_part(std::string_view text) {
   return is_mixed && text[slash] == '/' ? fraction : 0;
 }
 
-// Removes a number, a fraction, or a whole number with a fraction, and returns its value.
+// Removes a number, a fraction, or an integer with a fraction. Returns its value.
 std::optional<double> take_term(std::string_view& text) {
   const std::size_t whole = whole_part(text);
   const std::optional<double> number = whole > 0 ? take_number(text) : std::optional(0.0);
@@ -70,7 +69,7 @@ std::optional<double> take_term(std::string_view& text) {
   return number && fraction ? std::optional(*number + *fraction) : std::nullopt;
 }
 
-// Removes a sum, such as "-3 + 1/2 - 0.5", and returns its value.
+// Removes a sum such as "-3 + 1/2 - 0.5". Returns its value.
 std::optional<double> take_sum(std::string_view& text) {
   double sum = 0;
   for (bool is_first = true;; is_first = false) {
@@ -87,7 +86,7 @@ std::optional<double> take_sum(std::string_view& text) {
   }
 }
 
-// Returns the millimetres of a unit, or nothing if the unit is unknown.
+// Returns the length of a unit in millimetres; nothing if the unit is unknown.
 std::optional<double> mm_of(std::string_view unit, LengthUnit bare) {
   if (unit.empty()) return mm_per(bare);
   constexpr std::array<std::pair<std::string_view, double>, 4> known{

@@ -1,5 +1,5 @@
-// Functions that remove elements of lists, or pick elements by their indices. Tested by tests/io/io_test.cpp
-// and tests/scan/surface_test.cpp.
+// Removes elements of lists, or picks elements by their indices. Tested by tests/io/io_test.cpp and
+// tests/scan/surface_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// Keeps the elements values[i] for which is_kept(i) holds, in their order. Calls is_kept() once for each i,
-// from 0 upwards.
+// Keeps the elements values[i] for which is_kept(i) is true, in their order. Calls is_kept() once for each i,
+// in ascending order.
 template <typename T, typename IsKept>
 void keep_where(std::vector<T>& values, IsKept&& is_kept) {
   std::size_t kept = 0;

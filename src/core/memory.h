@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Returns the bytes that a vector has allocated, not counting the memory that its elements own.
+// Returns the number of bytes that a vector has allocated, without memory owned by its elements.
 template <typename T>
 std::size_t bytes(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);
@@ -20,8 +20,8 @@ struct FreeArray {
 };
 using LargeArray = std::unique_ptr<float[], FreeArray>;
 
-// Returns an uninitialised array of that many floats, aligned to 64 bytes or more. Large arrays are put on
-// large pages if the system offers them, which makes reading from front to back up to 1.5 times as fast.
+// Returns an uninitialised array of that many floats, aligned to at least 64 bytes. Large arrays use large
+// pages if the system offers them, which makes sequential reading up to 1.5 times as fast.
 LargeArray make_large_array(std::size_t floats);
 
 }  // namespace relievo

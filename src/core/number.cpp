@@ -13,16 +13,16 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// A decimal number: sign, digits without their point, and a power of ten. It is exact if there are at most 18
+// A decimal number: sign, digits without the decimal point, and a power of ten. It is exact for up to 18
 // digits.
 struct Decimal {
   bool is_negative = false;
   std::uint64_t digits = 0;
-  int significant = 0;  // digits, without leading zeros
+  int significant = 0;  // number of digits without leading zeros
   int exponent = 0;
 };
 
-// Reads digits with at most one point. Returns whether there was a digit.
+// Reads digits with at most one decimal point. Returns whether there was a digit.
 bool take_digits(const char*& at, const char* last, Decimal& number) {
   bool has_digits = false, is_fraction = false;
   for (; at != last && (is_digit(*at) || (*at == '.' && !is_fraction)); ++at) {
@@ -38,7 +38,7 @@ bool take_digits(const char*& at, const char* last, Decimal& number) {
   return has_digits;
 }
 
-// Reads an exponent and adds it to the power of ten. An "e" without digits after it is left unread.
+// Reads an exponent and adds it to the power of ten. Does not read an "e" without digits after it.
 void take_exponent(const char*& at, const char* last, Decimal& number) {
   if (at == last || (*at != 'e' && *at != 'E')) return;
   const char* digit = at + 1;
@@ -52,8 +52,8 @@ void take_exponent(const char*& at, const char* last, Decimal& number) {
   at = digit;
 }
 
-// Returns whether the digits and the power of ten are both exact as doubles, so that one operation rounds
-// correctly (Clinger, 1990).
+// Returns whether digits and power of ten are exact as doubles, so that a single operation rounds correctly
+// (Clinger, 1990).
 bool is_exact(const Decimal& number) {
   return number.significant <= 18 && number.digits <= (std::uint64_t{1} << 53) &&
          std::abs(number.exponent) <= 22;

@@ -1,4 +1,4 @@
-// Numbers from text, independent of the locale. Tested by tests/core/number_test.cpp.
+// Parses numbers independently of the locale. Tested by tests/core/number_test.cpp.
 #pragma once
 
 #include <charconv>
@@ -9,14 +9,14 @@ namespace relievo {
 struct ParsedNumber {
   double value = 0;
   const char* end = nullptr;  // end of the number in the text
-  std::errc error = {};       // as std::from_chars() reports it
+  std::errc error = {};       // as from std::from_chars()
 };
 
-// Parses a double as std::from_chars() does, also where the standard library's function reads only integers.
+// Parses a double like std::from_chars(), which reads only integers in some standard libraries.
 ParsedNumber parse_double(std::string_view text);
 
 namespace detail {
-// The implementation for such standard libraries. Tests compare it with std::from_chars().
+// The implementation for those standard libraries. Tests compare it with std::from_chars().
 ParsedNumber parse_double_by_hand(std::string_view text);
 }  // namespace detail
 

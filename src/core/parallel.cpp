@@ -14,15 +14,15 @@ namespace {
 
 struct Job;
 
-// The block that a thread works on; `job` is null between blocks. A nested parallel call runs at once and
-// only on this thread, because the other threads have blocks of their own.
+// The block that a thread processes; `job` is null between blocks. A nested parallel call runs immediately
+// and only on this thread, because the other threads have blocks of their own.
 struct BlockAtWork {
   const Job* job = nullptr;
   std::size_t block = 0;
 };
 thread_local BlockAtWork at_work;
 
-// A block throws this if it waits for one that will never be done.
+// Thrown by a block that waits for a block that will never be done.
 struct Abandoned {};
 
 // The blocks of one parallel call. Threads take the next block from a shared counter until none is left.
@@ -35,8 +35,8 @@ struct Job {
   std::mutex failing{};               // guards the exception
   std::exception_ptr exception = {};  // exception of block first_failed
 
-  // The job keeps an exception until the end: if it left the caller's block at once, the other threads would
-  // go on with a job that no longer exists.
+  // The job stores an exception until its end. If the exception left the caller's block immediately, the
+  // other threads would continue with a destroyed job.
   void work() noexcept {
     while (work_on_next()) {
     }
@@ -56,8 +56,8 @@ struct Job {
     return true;
   }
 
-  // Keeps the exception of the first block that fails. All blocks before the failing one have begun, so the
-  // first failure is the same with any number of threads.
+  // Stores the exception of the first block that fails. All earlier blocks have begun already, so the first
+  // failing block is the same for any number of threads.
   void fail(std::size_t block) {
     const std::lock_guard lock(failing);
     next = blocks;
@@ -66,13 +66,13 @@ struct Job {
     exception = std::current_exception();
   }
 
-  // Returns whether an earlier block has failed. If so, this block may be waiting for a block that will never
-  // begin, and it is abandoned: a single thread would not have begun it.
+  // Returns whether an earlier block has failed. Then this block may be waiting for a block that will never
+  // begin, so it is abandoned. A single thread would not have begun it.
   bool has_failed_before(std::size_t block) const { return first_failed < block; }
 };
 
-// The worker threads, which sleep between jobs. They do one job at a time. Meanwhile another caller works
-// alone on its own job until the workers are free: a picture must not wait for a job that takes half a
+// The worker threads, which sleep between jobs and process one job at a time. Meanwhile another caller
+// processes its own job alone until the workers are free, so that a picture need not wait for a job of half a
 // second.
 class Pool {
  public:
@@ -95,8 +95,8 @@ class Pool {
     start(threads - 1);
   }
 
-  // The caller works, too. It returns only when every worker has left the job, which is on the caller's
-  // stack.
+  // The caller processes blocks, too. It returns only after every worker has left the job, because the job is
+  // on the caller's stack.
   void run(std::size_t blocks, detail::BlockFunction f, void* context) {
     Job job{f, context, blocks};
     work_on(job);
@@ -116,8 +116,8 @@ class Pool {
     job_ = nullptr;
   }
 
-  // Starts that many workers, or fewer if the system or its memory allows no more. Results do not depend on
-  // their number.
+  // Starts that many workers, or fewer if the system or its memory does not allow more. Results do not depend
+  // on the number of workers.
   void start(int workers) {
     is_stopping_ = false;
     try {
@@ -127,7 +127,7 @@ class Pool {
     }
   }
 
-  // Gives the job to the workers, unless they have another one.
+  // Passes the job to the workers, unless they have another one.
   bool try_give(Job& job) {
     const std::lock_guard lock(mutex_);
     if (job_) return false;
@@ -147,7 +147,8 @@ class Pool {
     workers_.clear();
   }
 
-  // `seen` is the last generation of jobs that the worker has seen: it makes each worker take each job once.
+  // `seen` is the number of the last job that the worker has seen, so that each worker takes each job only
+  // once.
   void loop(std::size_t seen) {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -190,7 +191,7 @@ void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
 }
 
 void BlockFlags::wait(std::size_t block) const {
-  // Waits are usually short: spin at first, and give the processor to other threads only after a while.
+  // Waits are usually short, so the thread spins at first, and yields to other threads only after a while.
   for (int look = 0; flags_[block].load(std::memory_order_acquire) == 0; ++look)
     if (look > 2000) {
       if (at_work.job && at_work.job->has_failed_before(at_work.block)) throw Abandoned{};

@@ -13,7 +13,7 @@ void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
   for (std::size_t b = 0; b < blocks; ++b) f(context, b);
 }
 
-// Does nothing: blocks run in order, so the earlier ones have ended.
+// Does nothing: blocks run in order, so earlier blocks are done.
 void BlockFlags::wait(std::size_t) const {}
 
 namespace {

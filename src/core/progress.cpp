@@ -22,7 +22,7 @@ Error memory_error(const MemoryNeed& need) noexcept {
   try {
     error.expected = words_of(need);
   } catch (const std::bad_alloc&) {
-    error.expected = "expected memory";  // short enough for a string that allocates nothing
+    error.expected = "expected memory";  // short enough for a string without allocation
   }
   return error;
 }
@@ -39,7 +39,7 @@ Result<void> Progress::stage(std::string_view name, double fraction) {
   RELIEVO_CHECK(check_cancelled(this));
   running_ = name;
   started_ = Clock::now();
-  // Stages whose work turns out smaller than expected must not make the fraction go back.
+  // If a stage is shorter than expected, the fraction must not decrease.
   fraction_ = std::clamp(fraction, fraction_, 1.0);
   if (watcher_) watcher_(name, fraction_);
   return {};

@@ -1,4 +1,4 @@
-// Order statistics. They take linear time, and reorder their argument, which must not be empty.
+// Order statistics. These functions take linear time, and reorder their argument, which must not be empty.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// Returns the value that has `rank` values before it in ascending order; rank < values.size().
+// Returns the value at position `rank` in ascending order; rank < values.size().
 template <typename T>
 T value_of_rank(std::span<T> values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -15,14 +15,15 @@ T value_of_rank(std::span<T> values, std::size_t rank) {
   return *at;
 }
 
-// Returns, of n values, the one of rank share * (n - 1), rounded down; share in [0, 1].
+// Returns the value at position share * (n - 1), rounded down, of n values in ascending order; share in [0,
+// 1].
 template <typename Values>
 auto quantile(Values&& values, double share) {
   return value_of_rank(std::span(values),
                        static_cast<std::size_t>(share * static_cast<double>(std::size(values) - 1)));
 }
 
-// Returns the median; of an even number of values the upper one of the two in the middle.
+// Returns the median; for an even number of values the upper one of the middle two.
 template <typename Values>
 auto median(Values&& values) {
   return value_of_rank(std::span(values), std::size(values) / 2);

@@ -18,10 +18,10 @@ class SplitMix64 {
     return z ^ z >> 31;
   }
 
-  // Returns a number that is uniform in [0, 1), with 53 random bits.
+  // Returns a uniformly distributed number in [0, 1), with 53 random bits.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  // Increment of the state with each call.
+  // The increment of the state.
   static constexpr std::uint64_t step = 0x9E3779B97F4A7C15U;
 
  private:

@@ -5,14 +5,12 @@
 
 namespace relievo {
 
-// Returns an x with |f(x)| < tolerance for an increasing function f; the last call of f is f(x). No bracket
-// is needed: f must change its sign somewhere in [-750, 750], the range in which exp(x) is a finite double.
-// If it does not, the returned x is just outside that range and f(x) is not near 0. f is called at most 100
-// times.
+// Returns an x with |f(x)| < tolerance for an increasing function f. The last call of f is f(x); f is called
+// at most 100 times. No bracket is needed, but f must change its sign in [-750, 750], the range where exp(x)
+// is a finite double. If it does not, the returned x is just outside that range, and f(x) is not near 0.
 //
-// The root is first bracketed by growing steps from 0. Then the Illinois variant of false position narrows
-// the bracket; it halves the value of f at an end that stays. If it has not converged after 8 steps, every
-// other step bisects.
+// Increasing steps from 0 bracket the root. Then the Illinois variant of false position narrows the bracket:
+// if an end stays, its value of f is halved. If 8 steps are not enough, every other step is a bisection.
 template <typename F>
 double find_root(F&& f, double tolerance) {
   double a = 0, fa = f(a);

@@ -5,15 +5,16 @@
 
 #include <cstring>
 
-// GCC warns that passing such a vector to a function depends on the instruction set; ours are all inlined.
+// GCC warns that passing such a vector to a function depends on the instruction set. All our functions with
+// vectors are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace relievo {
 
-// Vectors of eight or four floats, or four doubles. Code written with them compiles to AVX2 inside
-// RELIEVO_WIDE() and to pairs of SSE2 instructions elsewhere; both give the same bits, because products and
-// sums are never contracted. The vectors need no alignment and may alias other types. They are typedefs,
-// because clang ignores the alignment of a using-declaration.
+// Vectors of eight or four floats, or four doubles. Code with them compiles to AVX2 inside RELIEVO_WIDE(),
+// and to pairs of SSE2 instructions elsewhere. The results have the same bits, because products and sums are
+// never contracted. The vectors need no alignment and may alias other types. They are typedefs, because clang
+// ignores the alignment of a using-declaration.
 typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));
 typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
@@ -25,7 +26,7 @@ typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
-// Returns whether RELIEVO_WIDE() shall use AVX2. This is initially true if the processor has AVX2.
+// Returns whether RELIEVO_WIDE() uses AVX2; initially true if the processor has AVX2.
 bool uses_avx2();
 
 template <typename F>
@@ -33,12 +34,12 @@ RELIEVO_AVX2 decltype(auto) call_with_avx2(F&& f) {
   return f();
 }
 
-// Evaluates a call of a function marked RELIEVO_INLINE. The call is compiled twice, to AVX2 and to
+// Evaluates a call of a function marked RELIEVO_INLINE. The call is compiled twice: to AVX2, and to
 // instructions that every processor has.
 #define RELIEVO_WIDE(...) \
   (uses_avx2() ? call_with_avx2([&]() __attribute__((always_inline)) { return __VA_ARGS__; }) : (__VA_ARGS__))
 
-// For tests: turns AVX2 off, or on again if the processor has it.
+// For tests: turns AVX2 off, or on again if the processor has AVX2.
 void allow_avx2(bool is_allowed);
 
 }  // namespace relievo

@@ -16,7 +16,7 @@ inline double luminance(const Colour& colour) {
   return .2126 * linear(colour[0]) + .7152 * linear(colour[1]) + .0722 * linear(colour[2]);
 }
 
-// Returns the lightness L* of CIE 1976, which steps as people see them, divided by 100: in [0, 1].
+// Returns the lightness L* of CIE 1976, divided by 100: in [0, 1], and perceptually uniform.
 inline double lightness(const Colour& colour) {
   const double y = luminance(colour);
   return y > 216.0 / 24389 ? 1.16 * std::cbrt(y) - .16 : y * 24389 / 2700;

@@ -1,11 +1,11 @@
-// Measures times, for those who show them.
+// Measures the times that frames and benchmarks report.
 #pragma once
 
 #include <chrono>
 
 namespace relievo {
 
-// Runs from its construction on.
+// Measures the time since its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

@@ -8,9 +8,8 @@
 
 namespace relievo {
 
-// std::to_chars() does not depend on a locale, as std::snprintf() does. On WebAssembly std::snprintf() is
-// used: there are no locales there, and the tables of std::to_chars() for a given number of digits would be a
-// tenth of the module.
+// std::to_chars() is independent of the locale, std::snprintf() is not. WebAssembly has no locales and uses
+// std::snprintf(), because the tables of std::to_chars() would be a tenth of the module.
 void append(std::string& out, double number) {
   char digits[32];
 #if defined(__wasm__)

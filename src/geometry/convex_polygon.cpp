@@ -8,7 +8,7 @@ namespace relievo {
 namespace {
 
 constexpr double shortest_mm =
-    1e-4;  // shorter sides cannot be seen, and make neighbouring lines nearly parallel
+    1e-4;  // shorter sides are invisible, and lines of sides around them are nearly parallel
 
 // The line of points p with p.dot(normal) == offset.
 struct Line {
@@ -16,7 +16,7 @@ struct Line {
   double offset = 0;
 };
 
-// Returns the point where two lines meet.
+// Returns the intersection of two lines.
 Vec2 crossing(const Line& a, const Line& b) {
   const double sine = cross(a.normal, b.normal);
   return Vec2(a.offset * b.normal.y() - b.offset * a.normal.y(),
@@ -24,15 +24,15 @@ Vec2 crossing(const Line& a, const Line& b) {
          sine;
 }
 
-// Returns the length of a side between its neighbours; negative if the neighbours meet before they reach the
-// side.
+// Returns the length of a side between its neighbours. It is negative if the neighbours intersect each other
+// before they reach the side.
 double length_of(const Line& before, const Line& side, const Line& after) {
   const Vec2 along(-side.normal.y(), side.normal.x());
   return (crossing(side, after) - crossing(before, side)).dot(along);
 }
 
-// Removes sides that vanish when all sides are moved. A removal changes the lengths of the neighbouring
-// sides, so the search goes back by one side. It ends after a whole round without a removal.
+// Removes the sides that vanish. A removal changes the lengths of the neighbouring sides, so the search goes
+// back by one side. The loop ends after a whole round without a removal.
 void drop_short(std::vector<Line>& lines) {
   for (std::size_t i = 0, good = 0; good < lines.size() && lines.size() > 3;) {
     const std::size_t n = lines.size();

@@ -1,4 +1,4 @@
-// Convex polygons of the plane, with counter-clockwise corners.
+// Convex polygons in the plane, with counter-clockwise corners.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace relievo {
 
-// Returns the polygon with every side moved inwards by `mm`, outwards if negative. Sides that are then
-// shorter than 0.0001 mm are removed. Neighbouring sides of the polygon must not be parallel, and the polygon
-// must not vanish: its remaining sides must still go all the way around.
+// Returns the polygon with every side moved inwards by `mm`, outwards if negative. Sides that become shorter
+// than 0.0001 mm are removed. Neighbouring sides of the polygon must not be parallel, and the remaining sides
+// must still enclose an area.
 std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm);
 
-// Returns whether the point `place` lies inside the convex polygon, at least `depth` from its sides.
+// Returns whether `place` is inside the convex polygon and at least `depth` away from its sides.
 bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth = 0);
 
 }  // namespace relievo

@@ -18,18 +18,19 @@ inline float unpacked_share(std::uint16_t share) {
   return static_cast<float>(share) * 0x1p-16F;
 }
 
-// Returns the values of the four basis functions at t in [0, 1] of a cell.
+// Returns the values of the four basis functions at t in [0, 1], the position within a cell.
 inline CubicRow cubic_basis(float t) {
   const CubicRow c0(1 / 6.F, 4 / 6.F, 1 / 6.F, 0), c1(-.5F, 0, .5F, 0), c2(.5F, -1, .5F, 0),
       c3(-1 / 6.F, .5F, -.5F, 1 / 6.F);
   return c0 + t * (c1 + t * (c2 + t * c3));
 }
 
-// The weights of the nodes around a place, along x and along y.
+// The weights of the nodes around a position, along x and along y.
 struct CubicStencil {
   CubicRow x, y;
 
-  // Returns the weighted sum of 4 x 4 nodes, given the first one and the number of nodes per row.
+  // Returns the weighted sum of 4 x 4 nodes. `node` is the first one; `columns` is the number of nodes per
+  // row.
   float operator()(const float* node, std::size_t columns) const {
     using Nodes = Eigen::Map<const CubicRow>;
     CubicRow sum = y[0] * Nodes(node);

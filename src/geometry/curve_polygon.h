@@ -1,4 +1,4 @@
-// Polygons along lines, quadratic and cubic curves, for glyphs and drawings. Tested by
+// Turns lines, quadratic and cubic curves into polygons, for glyphs and drawings. Tested by
 // tests/io/svg_test.cpp.
 #pragma once
 
@@ -9,9 +9,10 @@
 
 namespace relievo {
 
-// Draws closed outlines with a pen, and turns curves into polygons within the tolerance.
+// Builds closed outlines from the commands of a pen, and approximates curves by polygons within the
+// tolerance.
 class CurvePolygons {
-  static constexpr double most_steps = 100;  // of a curve
+  static constexpr double most_steps = 100;  // limit for one curve
 
  public:
   explicit CurvePolygons(double tolerance) : tolerance_(tolerance) {}
@@ -21,7 +22,7 @@ class CurvePolygons {
     outline_ = {p};
   }
 
-  // Begins an outline there unless one is open.
+  // Begins an outline at p unless one is open.
   void continue_at(const Vec2& p) {
     if (outline_.empty()) outline_ = {p};
   }
@@ -37,7 +38,7 @@ class CurvePolygons {
 
   void cubic_to(const Vec2& c, const Vec2& d, const Vec2& p) {
     const Vec2 from = pen();
-    // The error of equal steps is at most an eighth of the squared step times the second derivative.
+    // With equal steps, the error is at most an eighth of the squared step times the second derivative.
     const double bend = 6 * std::max((from - 2 * c + d).norm(), (c - 2 * d + p).norm());
     const int steps =
         static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8 * tolerance_))), 1.0, most_steps));
@@ -48,7 +49,7 @@ class CurvePolygons {
     line_to(p);
   }
 
-  // Returns the place of the pen.
+  // Returns the position of the pen.
   Vec2 pen() const { return outline_.empty() ? Vec2(Vec2::Zero()) : outline_.back(); }
 
   // Ends the outline.

@@ -1,4 +1,4 @@
-// A Delaunay triangulation that grows by one point at a time. delaunay() makes all of one with it. Tested by
+// A Delaunay triangulation to which points are added one by one. delaunay() uses it, too. Tested by
 // tests/geometry/triangulation_test.cpp and tests/plate/simplify_test.cpp.
 #pragma once
 
@@ -11,41 +11,43 @@ namespace relievo {
 
 class DelaunayBuilder {
  public:
-  // Keeps a reference to `points`, to which points may be added. `names` are the numbers of these points in the
-  // result.
+  // Keeps a reference to `points`, to which points may be added later. `names` are the indices of these
+  // points in the result.
   DelaunayBuilder(const std::vector<Vec2>& points, std::vector<Index> names)
       : points_(points), names_(std::move(names)) {}
 
-  // Finds three points that span a triangle and starts from that triangle. Returns false if there are none.
+  // Starts with the triangle of three points that are not collinear. Returns false if all points are
+  // collinear.
   bool start();
 
-  // Inserts a point, looked for from the triangle of the last one. Returns false if there is one at its place.
+  // Inserts a point. The search for its triangle begins at the last inserted point. Returns false if another
+  // point has the same position.
   bool insert(Index p);
 
-  // Inserts a point that was added to `points`, and names it by its number. It is looked for from `triangle`,
-  // unless that is outside.
+  // Inserts a point that was added to `points`; its name is its index. The search for its triangle begins at
+  // `triangle`, unless that is outside.
   bool insert_added(Index p, Index triangle);
 
   Triangulation result() const;
 
-  // Triangles have the numbers below size(), which change only around inserted points. Some are outside: they
-  // lie beyond the edges of the hull, and have no area.
+  // Triangles are numbered from 0 to size() - 1. Only triangles around an inserted point change. Triangles
+  // beyond the hull's edges count, too: they are outside and have no area.
   Index size() const { return static_cast<Index>(edges_.size() / 4); }
   bool is_outside(Index triangle) const { return is_ghost(4 * triangle); }
   Triangle corners(Index triangle) const {
     const HalfEdge* const e = &edges_[4 * std::size_t{triangle}];
     return {e[0].origin, e[1].origin, e[2].origin};
   }
-  // Returns the triangle across the edge opposite to a corner; no_index on the hull.
+  // Returns the triangle on the other side of the edge opposite to a corner; no_index at the hull.
   Index neighbour(Index triangle, Index corner) const {
     const Index other = edges_[4 * triangle + (corner + 1) % 3].twin;
     return is_ghost(other) ? no_index : other / 4;
   }
-  // Returns a triangle at the point that was inserted last.
+  // Returns a triangle at the last inserted point.
   Index newest() const { return near_ / 4; }
 
-  // Calls f(triangle) for the triangles around the point that was inserted last, those outside included. The
-  // insertion changed no others.
+  // Calls f(triangle) for the triangles around the last inserted point, including those outside. The
+  // insertion changed no other triangles.
   template <typename F>
   void each_around_newest(F&& f) const {
     Index e = near_;
@@ -56,10 +58,10 @@ class DelaunayBuilder {
   }
 
  private:
-  // A triangle's side, from `origin` counter-clockwise to the next corner.
+  // A side of a triangle, from `origin` counter-clockwise to the next corner.
   struct HalfEdge {
     Index origin;
-    Index twin;  // the same side seen from the neighbour
+    Index twin;  // the same side in the neighbouring triangle
   };
 
   bool is_ghost(Index e) const {
@@ -73,8 +75,8 @@ class DelaunayBuilder {
   void add_triangle(Index a, Index b, Index c);
   Index split(Index e, Index p);
   void flip(Index e);
-  // Returns slot 0 of the next triangle around the newest point, given slot 0 of one. These triangles have
-  // the newest point at slot 2.
+  // Given slot 0 of a triangle at the newest point, returns slot 0 of the next triangle around that point.
+  // All these triangles have the newest point at slot 2.
   Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
 
   std::vector<Index> number_triangles() const;
@@ -83,8 +85,8 @@ class DelaunayBuilder {
 
   const std::vector<Vec2>& points_;
   std::vector<Index> names_;
-  // Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2. The fourth slot is unused: it makes the arithmetic
-  // cheap, and no triangle straddles a cache line.
+  // Triangle t has the half-edges 4 t, 4 t + 1 and 4 t + 2. The fourth slot is unused; it makes index
+  // arithmetic cheap, and no triangle crosses a cache line.
   std::vector<HalfEdge> edges_;
   Index near_ = 0;  // slot 0 of a real triangle at the last inserted point
 };

@@ -1,4 +1,4 @@
-// The edges of triangles, each with the sides of triangles that lie on it. Tested by
+// The edges of triangles; each edge comes with the triangle sides on it. Tested by
 // tests/geometry/edges_test.cpp.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// One side of a triangle: its two ends and the opposite corner, in the triangle's order.
+// One side of a triangle: its ends and the opposite corner, in the triangle's order.
 struct TriangleSide {
   Index from, to, apex;
   Index triangle;  // number of the triangle
@@ -20,9 +20,9 @@ struct TriangleSide {
   Index high() const { return std::max(from, to); }
 };
 
-// Calls f(sides) for each edge. The edges are ordered by their lower end, then by their higher end. `sides`
-// are the sides on the edge that is_wanted(side) accepts, in the order of their triangles; an edge without
-// such a side is skipped.
+// Calls f(sides) for each edge. Edges are ordered by their lower end, then by their higher end. `sides` are
+// the triangle sides on the edge for which is_wanted(side) is true, in the order of their triangles. Edges
+// without such a side are skipped.
 template <typename IsWanted, typename F>
 void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f) {
   Index points = 0;
@@ -48,7 +48,7 @@ void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f)
   }
 }
 
-// Calls f(sides) for each edge, in the same order, with all sides on the edge.
+// Calls f(sides) for each edge, in the same order, with all triangle sides on the edge.
 template <typename F>
 void each_edge(std::span<const Triangle> triangles, F&& f) {
   each_edge(

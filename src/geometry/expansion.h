@@ -1,8 +1,8 @@
-// Exact arithmetic on doubles. A number is represented as a sum of doubles, an expansion.
+// Exact arithmetic on doubles. A number is represented by a sum of doubles, an expansion. Source: J. R.
+// Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
 //
-// J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
-// The arithmetic is exact as long as nothing overflows or underflows, doubles round to nearest even, and the
-// compiler neither contracts nor reassociates (-ffp-contract=off, no -ffast-math).
+// The arithmetic is exact if nothing overflows or underflows, doubles round to nearest even, and the compiler
+// neither contracts nor reassociates (-ffp-contract=off, no -ffast-math).
 #pragma once
 
 #include <array>
@@ -46,8 +46,8 @@ inline TwoDoubles two_product(double a, double b) {
   return {product, x.low * y.low - error};
 }
 
-// An exact sum of at most `capacity` doubles, its components. These are strongly nonoverlapping, never zero
-// and of growing magnitude, so that the last one has the sign of the sum. Sums and products are exact.
+// A number as an exact sum of at most `capacity` doubles, its components. These are strongly nonoverlapping,
+// never zero, and of increasing magnitude, so the last one has the sign of the sum.
 template <std::size_t capacity>
 class Expansion {
  public:
@@ -58,8 +58,7 @@ class Expansion {
   std::size_t size() const { return size_; }
   double operator[](std::size_t i) const { return components_[i]; }
 
-  // Appends a component unless it is zero. Its magnitude must not be smaller than those of the components
-  // before.
+  // Appends a component unless it is zero. Its magnitude must not be smaller than that of earlier components.
   void append(double a) {
     components_[size_] = a;
     size_ += a != 0;
@@ -67,7 +66,7 @@ class Expansion {
 
   int sign() const { return size_ == 0 ? 0 : components_[size_ - 1] > 0 ? 1 : -1; }
 
-  // Returns the value, rounded, to a relative error of 2^-52.
+  // Returns the value with a relative error of at most 2^-52.
   double estimate() const {
     double sum = 0;
     for (std::size_t i = 0; i < size_; ++i) sum += components_[i];
@@ -81,13 +80,15 @@ class Expansion {
   }
 
  private:
-  std::array<double, capacity + 1> components_;  // one more, where append() writes a zero without counting it
+  // One more, because append() also writes a zero, although it does not count it.
+  std::array<double, capacity + 1> components_;
   std::size_t size_;
 };
 
 namespace detail {
 
-// Sets `h` to e + f: a merge by magnitude that carries the rounding errors. (Fast-Expansion-Sum; theorem 13)
+// Sets `h` to e + f: merges the components by magnitude and propagates the rounding errors.
+// (Fast-Expansion-Sum; theorem 13)
 template <typename E, typename F, typename H>
 void add(const E& e, const F& f, H& h) {
   h = H();
@@ -142,7 +143,7 @@ Expansion<n + m> operator-(const Expansion<n>& e, const Expansion<m>& f) {
 
 template <std::size_t n, std::size_t m>
 Expansion<2 * n * m> operator*(const Expansion<n>& e, const Expansion<m>& f) {
-  Expansion<2 * n * m> sums[2];  // the sum so far and the next one, in turns
+  Expansion<2 * n * m> sums[2];  // the last and the next partial sum, alternately
   for (std::size_t i = 0; i < f.size(); ++i)
     detail::add(sums[i % 2], detail::scale(e, f[i]), sums[(i + 1) % 2]);
   return sums[f.size() % 2];

@@ -12,14 +12,14 @@
 namespace relievo {
 namespace {
 
-// A node at a length along the curve.
+// A node with its length along the curve.
 struct Sample {
   double length;
   Vec2 place;
   double weight;
 };
 
-// Samples in the order of their length along the curve. On a closed curve they repeat after its length.
+// Samples in the order of their length along the curve. On a closed curve the samples repeat periodically.
 class Course {
  public:
   Course(std::vector<Sample> samples, double begin, double end, bool is_closed)
@@ -31,14 +31,15 @@ class Course {
   double begin() const { return begin_; }
   double end() const { return end_; }
   double length() const { return end_ - begin_; }
-  // Returns the length at step k of so many equal ones.
+  // Returns the length at step k of `steps` equal steps.
   double at(std::size_t k, std::size_t steps) const {
     return begin_ + length() * static_cast<double>(k) / static_cast<double>(steps);
   }
   bool is_closed() const { return is_closed_; }
   std::vector<Sample>& samples() { return samples_; }
 
-  // Calls use(sample, distance along the curve from `at`) for the samples between two lengths.
+  // Calls use(sample, distance along the curve from `at`) for the samples with lengths between `from` and
+  // `to`.
   template <typename Use>
   void between(double at, double from, double to, Use&& use) const {
     const double period = is_closed_ ? length() : 0;
@@ -56,16 +57,16 @@ class Course {
   bool is_closed_;
 };
 
-// A place where the course turns sharply.
+// A point where the course turns sharply.
 struct Corner {
   double length;
   Vec2 place;
   double turn;
-  Vec2 before = {}, after = {};  // places on its sides
+  Vec2 before = {}, after = {};  // points on its two sides
 };
 
-// The part of a course that a fit may use: up to the nearest corner on either side, or all of the course if
-// there are no corners.
+// The part of a course that a fit may use: from one corner to the next, or all of the course if there are no
+// corners.
 struct Piece {
   double from = -1e300, to = 1e300;
   const Corner *begin = nullptr, *end = nullptr;
@@ -76,7 +77,7 @@ double kernel(double share) {
   return rest * rest;
 }
 
-// Returns the place of the sample that is nearest along the course.
+// Returns the position of the sample that is nearest to length `at`.
 Vec2 nearest_place(const Course& course, double at) {
   Vec2 place = Vec2::Zero();
   double least = 1e300;
@@ -86,8 +87,8 @@ Vec2 nearest_place(const Course& course, double at) {
   return place;
 }
 
-// Returns the value at `at` of the quadratic that best fits the samples around it. If there are no samples
-// around, as may happen between two corners, returns the place of the nearest sample.
+// Returns the value at length `at` of the quadratic that best fits the samples near it. If there are none,
+// for example between two close corners, returns the position of the nearest sample.
 Vec2 fitted(const Course& course, double at, const Piece& piece, double window) {
   constexpr std::size_t enough = 5;
   Mat3 moments;
@@ -110,13 +111,14 @@ Vec2 fitted(const Course& course, double at, const Piece& piece, double window) 
     if (count >= enough) break;
   }
   if (!(moments(0, 0) > 0)) return nearest_place(course, at);
-  // Small terms on the diagonal keep the system solvable where samples are few.
+  // Small terms on the diagonal keep the system regular if samples are few.
   moments(1, 1) += 1e-6 * moments(0, 0);
   moments(2, 2) += 1e-3 * moments(0, 0);
   return moments.ldlt().solve(products).row(0).transpose();
 }
 
-// Returns the nodes as a course. Lengths are measured along their polyline after its zigzag is smoothed away.
+// Returns the nodes as a course. Lengths are measured along the nodes' polyline after smoothing, because
+// zigzag would add length.
 Course course_of(std::span<const CurveNode> nodes, bool is_closed) {
   const std::size_t n = nodes.size();
   std::vector<Vec2> smooth;
@@ -136,7 +138,7 @@ Course course_of(std::span<const CurveNode> nodes, bool is_closed) {
   return Course(std::move(samples), 0, length, is_closed);
 }
 
-// Returns points of the course, evenly spaced in its length, both ends included if it is open.
+// Returns evenly spaced points of the course, including both ends if it is open.
 std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(8, std::lround(course.length() / (.5 * options.spacing)));
   const Piece whole = course.is_closed() ? Piece{} : Piece{course.begin(), course.end()};
@@ -147,8 +149,8 @@ std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   return line;
 }
 
-// Returns a course of the same samples, with lengths measured along `line`, which was drawn from the old
-// course. A sample that lies far from the line gets little weight.
+// Returns a course of the same samples whose lengths are measured along `line`, a polyline drawn from the old
+// course. Samples far from the line get little weight.
 Course along(const std::vector<Vec2>& line, const Course& course, const FairCurveOptions& options) {
   const std::size_t n = line.size(), edges = course.is_closed() ? n : n - 1;
   std::vector<double> length(edges + 1, 0);
@@ -176,11 +178,11 @@ Course along(const std::vector<Vec2>& line, const Course& course, const FairCurv
   return Course(std::move(samples), 0, length.back(), course.is_closed());
 }
 
-// A straight line through samples.
+// A straight line fitted to samples.
 struct Side {
   Vec2 point, direction;
   double misfit = 1e300;  // root mean square distance of the samples from the line
-  double curvature = 0;   // curvature of the samples beside the line
+  double curvature = 0;   // curvature of the samples relative to the line
   double turn_error = 0;  // standard deviation of the direction, in radians
 };
 
@@ -212,8 +214,8 @@ Side side_of(const Course& course, double at, double from, double to) {
           std::sqrt(misfit / spread / static_cast<double>(count - 2))};
 }
 
-// Returns the corner between two sides of equal length, with turn 0 if there is none. At a corner the sides
-// turn by more than their curvature and the scatter of their samples explain.
+// Returns the corner between two sides of equal length; its turn is 0 if there is no corner. At a corner the
+// sides turn by more than their curvature and the scatter of their samples explain.
 Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
   constexpr double least_turn = std::numbers::pi / 4, most_turn = 110 * std::numbers::pi / 180;
   constexpr double sure = 3;  // in standard deviations
@@ -230,8 +232,8 @@ Corner corner_between(const Course& course, double at, double reach, const FairC
   return {at, before.point + share * before.direction, turn, before.point, after.point};
 }
 
-// Returns the corner at a length, with turn 0 if there is none. Long sides are tried first, because they
-// determine the corner's place best.
+// Returns the corner at a length; its turn is 0 if there is no corner. Long sides are tried first, because
+// they determine the corner's position best.
 Corner corner_at(const Course& course, double at, const FairCurveOptions& options) {
   for (const double windows : {4.0, 2.3, 1.3}) {
     const Corner corner = corner_between(course, at, windows * options.window, options);
@@ -254,8 +256,8 @@ double distance_from_line(const Vec2& place, std::span<const Vec2> line) {
   return nearest;
 }
 
-// Returns whether the samples near a corner lie as near to its sides as to the curve drawn without it, up to
-// their scatter. At the tip of a round shape they do not: its sides meet beyond the tip.
+// Returns whether, up to scatter, the samples near a corner are as close to its sides as to the smooth curve.
+// At the tip of a round shape they are not, because its sides intersect beyond the tip.
 bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> drawn, double window) {
   constexpr double scatter = 12;  // ratio of squared distances; corners of noisy gears reach 10
   const auto n = static_cast<std::ptrdiff_t>(drawn.size());
@@ -276,8 +278,8 @@ bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> d
   return from_sides < scatter * from_curve;
 }
 
-// Returns the corners in the order of their length. Of corners closer together than 1.5 windows only the
-// sharpest is returned. A corner's length is that of the nearest place on the drawn curve.
+// Returns the corners in the order of their length, which is that of the nearest point of the drawn curve. Of
+// corners closer together than 1.5 windows only the sharpest is returned.
 std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
   std::vector<Corner> found(steps), corners;
@@ -315,7 +317,7 @@ std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& opt
   return corners;
 }
 
-// Adds the points of a piece, its end excluded.
+// Adds the points of a piece, except its end.
 void add_piece(const Course& course, const Piece& piece, const FairCurveOptions& options, FairCurve& curve) {
   const double length = piece.to - piece.from;
   const auto steps = std::max<std::size_t>(1, std::lround(length / options.spacing));

@@ -1,4 +1,4 @@
-// A smooth curve through measured places that scatter around it. Tested by
+// Fits a smooth curve to measured points that scatter around it. Tested by
 // tests/geometry/fair_curve_test.cpp.
 #pragma once
 
@@ -11,12 +11,13 @@ namespace relievo {
 
 struct CurveNode {
   Vec2 place;
-  double weight = 1;  // > 0, how much the place is trusted
+  double weight = 1;  // > 0; reliability of the position
 };
 
 struct FairCurveOptions {
-  double spacing = 1;  // spacing of the curve's points
-  double window = 4;   // half the length of curve that a point is fitted to; more is smoother
+  double spacing = 1;  // distance between the curve's points
+  // Half the length of curve that each point is fitted to; a larger window gives a smoother curve.
+  double window = 4;
 };
 
 struct FairCurve {
@@ -24,11 +25,12 @@ struct FairCurve {
   std::vector<std::uint8_t> is_corner;  // per point
 };
 
-// Returns the curve through nodes, which are given in their order along it. Each point of the curve lies on a
-// quadratic fitted to the nodes nearby by weighted least squares. The fit is made twice: nodes far from the
-// first curve count little in the second fit. Corners of 45 to 110 degrees between straight sides stay, if the
-// nodes near them lie about as near to these sides as to the smooth curve: no fit goes across them. Empty if
-// the curve is shorter than four spacings, if an open curve has fewer than 3 nodes or a closed one fewer than 6.
+// Returns the curve through nodes, which are given in their order along the curve. Each point of the curve
+// lies on a quadratic that is fitted to the nearby nodes by weighted least squares. A second fit gives little
+// weight to nodes far from the first curve. No fit crosses a corner. A corner is a turn of 45 to 110 degrees
+// between straight sides, to which the nodes are about as close as to the smooth curve. The result is empty
+// if the curve is shorter than four spacings, if an open curve has fewer than 3 nodes, or if a closed curve
+// has fewer than 6.
 FairCurve fair_curve(std::span<const CurveNode> nodes, bool is_closed, const FairCurveOptions& options);
 
 }  // namespace relievo

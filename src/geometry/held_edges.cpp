@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// The side of a triangle that lies opposite to its corner `apex`.
+// The side of a triangle opposite to its corner `apex`.
 struct EdgeOfTriangle {
   Index triangle = no_index;
   std::size_t apex = 0;
@@ -44,7 +44,8 @@ class EdgeHolder {
     return static_cast<std::size_t>(std::ranges::find(corners, point) - corners.begin());
   }
 
-  // Calls visit(side) for the sides opposite to the point, in each triangle around it, until that is true.
+  // Calls visit(side) for the sides opposite to `point` in the triangles around it, until visit() returns
+  // true. Returns that side.
   template <typename Visit>
   EdgeOfTriangle around(Index point, Visit&& visit) const {
     for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
@@ -59,7 +60,7 @@ class EdgeHolder {
     return {};
   }
 
-  // Returns the side whose ends are a and b; without a triangle if there is none.
+  // Returns the side with the ends a and b; its triangle is no_index if there is no such side.
   EdgeOfTriangle find(Index a, Index b) const {
     const EdgeOfTriangle side =
         around(a, [&](const EdgeOfTriangle& s) { return corner(s, 1) == b || corner(s, 2) == b; });
@@ -73,7 +74,8 @@ class EdgeHolder {
     return turn(a, b, u) * turn(a, b, v) < 0 && turn(u, v, a) * turn(u, v, b) < 0;
   }
 
-  // Collects the edges that the line from a to b crosses. Returns false if it meets a point or a held edge.
+  // Collects the edges that the segment from a to b crosses. Returns false if it meets a point or a held
+  // edge.
   bool collect(Index a, Index b, std::deque<EdgeEnds>& crossed) const {
     EdgeOfTriangle side =
         around(a, [&](const EdgeOfTriangle& s) { return is_crossing(a, b, corner(s, 1), corner(s, 2)); });
@@ -97,7 +99,7 @@ class EdgeHolder {
     if (t != no_index) *std::ranges::find(mesh_.neighbours[t], old) = by;
   }
 
-  // Replaces the side's edge by the other diagonal of its two triangles.
+  // Replaces the edge of this side by the other diagonal of its two triangles.
   void flip(const EdgeOfTriangle& side) {
     const Index t = side.triangle, s = mesh_.neighbours[t][side.apex];
     const Index p = corner(side, 0), u = corner(side, 1), v = corner(side, 2);
@@ -112,7 +114,7 @@ class EdgeHolder {
     at_[p] = at_[u] = at_[q] = t, at_[v] = s;
   }
 
-  // Returns the corner of the triangle across the side.
+  // Returns the corner opposite to the side in the triangle beyond it.
   Index facing(const EdgeOfTriangle& side) const {
     const Index s = mesh_.neighbours[side.triangle][side.apex];
     return mesh_.triangles[s][(place_of(s, corner(side, 1)) + 1) % 3];
@@ -159,7 +161,7 @@ class EdgeHolder {
 
   std::span<const Vec2> points_;
   Triangulation& mesh_;
-  std::vector<Index> at_;  // a triangle at each point
+  std::vector<Index> at_;  // per point: one of its triangles
   std::unordered_set<std::uint64_t> held_;
 };
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr unsigned bits = 12;  // per axis; cells with many points are divided again
 
-// An entry has the position on the curve in its upper 32 bits, and the number of the point in the lower.
+// An entry has the position along the curve in its upper 32 bits, and the index of the point in the lower 32
+// bits.
 using Entry = std::uint64_t;
 using Entries = std::span<Entry>;
 
@@ -25,8 +26,8 @@ constexpr std::uint32_t place(Entry e) {
   return static_cast<std::uint32_t>(e >> 32);
 }
 
-// Returns how far along a Hilbert curve through 2^bits x 2^bits cells the cell (x, y) lies. At each level the
-// curve visits four quadrants; the first and the last are mirrored at a diagonal.
+// Returns the position of the cell (x, y) along a Hilbert curve through 2^bits x 2^bits cells. At each level
+// the curve visits four quadrants; the first and the last are mirrored at a diagonal.
 std::uint32_t place_of_cell(std::uint32_t x, std::uint32_t y) {
   std::uint32_t place = 0;
   for (unsigned level = bits; level-- > 0;) {
@@ -42,7 +43,8 @@ std::uint32_t place_of_cell(std::uint32_t x, std::uint32_t y) {
   return place;
 }
 
-// Sorts the entries along a curve through their bounding square. Returns false if all points coincide.
+// Sorts the entries along a Hilbert curve through their bounding square. Returns false if all points
+// coincide.
 bool sort_along_curve(std::span<const Vec2> points, Entries entries) {
   Vec2 low = points[number(entries.front())], high = low;
   for (const Entry e : entries) {
@@ -61,7 +63,7 @@ bool sort_along_curve(std::span<const Vec2> points, Entries entries) {
   return true;
 }
 
-// Returns 16 bits of a coordinate in [0, 1], with a zero between any two of them.
+// Returns the upper 16 bits of a coordinate in [0, 1], with a zero bit between neighbours.
 std::uint64_t spread(float coordinate) {
   auto x = static_cast<std::uint64_t>(std::clamp(coordinate, 0.0F, 1.0F) * 65535);
   x = (x | x << 8) & 0x00FF00FF;
@@ -70,7 +72,7 @@ std::uint64_t spread(float coordinate) {
   return (x | x << 1) & 0x55555555;
 }
 
-// Returns the 21 low bits of v with two zeros after each.
+// Returns the 21 low bits of v, each followed by two zero bits.
 std::uint64_t spread(std::uint64_t v) {
   v = (v | v << 32) & 0x1F00000000FFFF;
   v = (v | v << 16) & 0x1F0000FF0000FF;
@@ -86,8 +88,8 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) entries[i] = i;
 
-  // Cells with more points than this are sorted along a curve of their own, until no cell has more. The stack
-  // replaces recursion, which clusters within clusters could make deep.
+  // A cell with more points than this gets a curve of its own, repeatedly. A stack replaces recursion, which
+  // nested clusters could make deep.
   constexpr std::ptrdiff_t most_in_a_cell = 8;
   std::vector<Entries> todo;
   if (!entries.empty()) todo.emplace_back(entries);

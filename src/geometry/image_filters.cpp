@@ -14,14 +14,14 @@ namespace {
 constexpr int block = 32;  // number of samples computed together, in registers
 constexpr float least = -std::numeric_limits<float>::infinity();
 
-// The image within a frame of -infinity, so that no window leaves the array.
+// The image inside a frame of -infinity, so that windows can be read without bounds checks.
 struct Framed {
   int frame, stride, rows;
   std::vector<float> values;
-  // Largest value of each run of `block` samples in a row.
+  // Largest value of each run of `block` samples within a row.
   int runs;
   std::vector<float> highest;
-  // Largest value of each square of `block` by `block` samples.
+  // Largest value of each square of `block` x `block` samples.
   std::vector<float> highest_of_square;
 
   Framed(const Image<float>& image, int frame_width)
@@ -58,7 +58,7 @@ struct Framed {
       }
   }
 
-  // Returns an upper bound of the values in rows y - away to y + away, columns x - away to x + block - 1 +
+  // Returns an upper bound of the values in rows y - away to y + away and columns x - away to x + block - 1 +
   // away.
   float highest_around(int x, int y, int away) const {
     float most = least;
@@ -70,7 +70,7 @@ struct Framed {
 
   const float* at(int x, int y) const { return values.data() + std::ptrdiff_t{y} * stride + x; }
 
-  // Returns an upper bound of the values in row y, columns x to x + count - 1.
+  // Returns an upper bound of the values in row y and columns x to x + count - 1.
   float highest_of(int x, int count, int y) const {
     const float* const row = highest.data() + std::ptrdiff_t{y} * runs;
     return *std::max_element(row + x / block, row + (x + count - 1) / block + 1);
@@ -95,13 +95,14 @@ RELIEVO_INLINE float lowest_of(const Sums& sums) {
   return lowest;
 }
 
-// A row of a window around a block, `away` rows from the window's middle.
+// A row of the window around a block. The row is `away` rows from the window's middle, and extends beyond the
+// block by `width` on both sides.
 struct WindowRow {
   int x, y, away, width;
 };
 
-// Returns the largest distance to the sides of the block at which the row's values, minus the shape, may
-// exceed `lowest`; -1 if no value of the row may.
+// Returns the largest horizontal distance from the block at which a value of the row, minus the shape's
+// height, can exceed `lowest`; -1 if no value can.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -112,8 +113,8 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// Returns the largest distance in rows from the block at which values, minus the shape, may exceed `lowest`;
-// -1 if no value may.
+// Returns the largest number of rows from the block at which a value, minus the shape's height, can exceed
+// `lowest`; -1 if no value can.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;
@@ -134,8 +135,8 @@ RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowR
 }
 
 // Computes the block of samples that begins at x, y of the framed image. Begins with the middle row of the
-// window. The maxima found there bound how far away a larger value can still be, so rows and columns beyond
-// that are skipped.
+// window. The maxima of that row limit the distance at which a larger value can lie, so rows and columns
+// beyond this distance are skipped.
 RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
   Sums sums;
   for (Float8& v : sums.v) v = Float8{} + least;
@@ -148,13 +149,13 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
   std::memcpy(to, &sums, sizeof sums);
 }
 
-// The number of lines that are averaged together. They are side by side in memory, so that columns use whole
+// The number of lines that are averaged together. They are adjacent in memory, so that columns use whole
 // cache lines.
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 
-// Up to `lanes` lines of n values for a box average. `step` is the distance between values, `line_step` the
-// one between lines.
+// Up to `lanes` lines of n values for a box average. `step` is the distance between the values of a line,
+// `line_step` the distance between lines.
 struct Strip {
   float* values;
   std::size_t n, step, lines, line_step;
@@ -172,7 +173,8 @@ struct Strip {
 void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
   line.resize(strip.n);
   for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
-  std::array<double, lanes> sum{};  // double, so that values that have left the box leave no rounding errors
+  // Double, so that values that left the box leave no visible rounding errors.
+  std::array<double, lanes> sum{};
   const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
   const auto add = [&](std::ptrdiff_t i, double sign) {
     const Lanes& lane = line[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];

@@ -1,4 +1,4 @@
-// Filters on images: the dilation of heights by a shape, see dilate(), and averages over neighbourhoods.
+// Filters on images: dilation by a shape and blurring.
 #pragma once
 
 #include <limits>
@@ -8,11 +8,11 @@
 
 namespace relievo {
 
-// The heights of a shape at offsets of whole samples. The shape is symmetric in x and y.
+// The heights of a shape at integer offsets of samples. The shape is symmetric in x and y.
 class Profile {
  public:
   // Calls height(x, y) for 0 <= x, y <= reach. The height must be infinite outside the shape, and must not
-  // decrease with x or y.
+  // decrease with increasing x or y.
   template <typename F>
   Profile(int reach, F&& height) : reach_(reach) {
     for (int y = 0; y <= reach; ++y)
@@ -27,14 +27,15 @@ class Profile {
   std::vector<float> heights_;
 };
 
-// Returns, for every sample p, the largest value(q) - profile(p - q); NaN counts as -infinity. The result has
-// `border` more samples on each side than the image, or fewer if `border` is negative. It is exact, because
-// only values that cannot be the largest are skipped, and has the same bits for any number of threads.
+// Returns, for every sample p, the maximum over q of value(q) - profile(p - q); NaN counts as -infinity. The
+// result has `border` more samples than the image on each side, or fewer if `border` is negative. It is
+// exact, because only values that cannot be the maximum are skipped. It has the same bits for any number of
+// threads.
 Image<float> dilate(const Image<float>& image, const Profile& profile, int border);
 
-// Replaces each value of an image with one channel by an average of its neighbourhood: two passes of a box of
-// 2 radius + 1 pixels in each direction. Outside the image the pixels of its border continue. The time does
-// not depend on the radius.
+// Replaces each value of a single-channel image by an average of its neighbourhood: two passes of a box of 2
+// radius + 1 pixels per direction. Outside the image the border's pixels are repeated. The time does not
+// depend on the radius.
 void blur(Image<float>& image, int radius);
 
 }  // namespace relievo

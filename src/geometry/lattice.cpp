@@ -12,9 +12,9 @@ namespace relievo {
 namespace {
 
 constexpr Index most_counted =
-    12;  // points per cell: more hardly change a cell's mean, but cost time in every frame
+    12;  // counted points per cell; more would hardly change a cell's mean, but cost time in every frame
 
-// Returns whether p is in the triangle or on its border; the corners are counter-clockwise.
+// Returns whether p is in the triangle or on its border. The corners are counter-clockwise.
 bool is_in(const Vec2& p, const std::array<Vec2, 3>& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (cross(corners[(k + 1) % 3] - corners[k], p - corners[k]) < 0) return false;
@@ -30,7 +30,7 @@ Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, d
   set_first_nodes();
   count(counted);
   std::vector<Corners> sums(nodes());
-  // With all shares and all values 1, gather() returns the sums of the squared weights. The shares are the
+  // If all shares and all values are 1, gather() returns the sums of the squared weights. The shares are the
   // inverses of these sums.
   share_.assign(nodes(), 1);
   gather(std::span<const float>(std::vector<float>(points.size(), 1)), sums, share_);
@@ -51,7 +51,7 @@ void Lattice::set_places(std::span<const Vec3> points, double cell) {
   });
 }
 
-// Lists the cells with points, so that refine(), which runs in every frame, skips the others.
+// Lists the cells with points, because refine(), which runs in every frame, skips all others.
 void Lattice::set_first_nodes() {
   std::vector<std::uint8_t> is_first(nodes());
   for (const SplinePlace& p : places_) is_first[p.node] = 1;
@@ -68,7 +68,7 @@ void Lattice::count(std::span<const Index> counted) {
   std::vector<Index> next(begin_.begin(), begin_.end() - 1);
   for (const Index i : counted) {
     const std::size_t c = cell_of(places_[i]);
-    // Keeps `kept` of the cell's points, evenly spread over their order.
+    // Keeps `kept` of the cell's points, evenly distributed in their order.
     const Index n = seen[c]++, kept = std::min(all[c], most_counted);
     if (n * kept / all[c] != (n + 1) * kept / all[c]) counted_[next[c]++] = {i, places_[i]};
   }
@@ -106,7 +106,7 @@ std::size_t Lattice::memory() const {
   return bytes(places_) + bytes(first_nodes_) + bytes(counted_) + bytes(begin_) + bytes(share_);
 }
 
-// Calls f(cell, the counted points in it) for each cell, concurrently.
+// Calls f(cell, counted points of the cell) for each cell, concurrently.
 template <typename F>
 void Lattice::for_cells(F&& f) const {
   constexpr std::size_t grain = 256;

@@ -1,4 +1,4 @@
-// A square lattice over the view plane, for quantities that change slowly from point to point.
+// A square lattice over the view plane, for quantities that change slowly over the points.
 #pragma once
 
 #include <array>
@@ -11,21 +11,22 @@
 
 namespace relievo {
 
-// A lattice of square cells over given points, wider than these by at least one cell on each side. Values at
-// its nodes are interpolated bilinearly within a cell. Nodes are numbered row by row; a cell has the number
-// of its first node.
+// A lattice of square cells over given points. It extends beyond the points by at least one cell on each
+// side. Values at its nodes are interpolated bilinearly within a cell. Nodes are numbered row by row; a cell
+// has the number of its first node.
 class Lattice {
  public:
   // One value per corner of a cell: the first node, and its neighbours in x, in y and in both.
   using Corners = std::array<float, 4>;
 
-  // The range of the values in a cell; without values lowest > highest.
+  // The range of the values in a cell; lowest > highest if the cell has no values.
   struct Extent {
     float lowest, highest;
   };
 
-  // gather() and compare() use only the points listed in `counted`, each listed once, and of these at most 12
-  // per cell, spread evenly over their order. `cell` > 0 is the side of a cell in the unit of the points.
+  // gather() and compare() use only points listed in `counted`; no point may be listed twice. At most 12
+  // points per cell are used, evenly distributed in their order. `cell` > 0 is the width of a cell in the
+  // unit of the points.
   Lattice(std::span<const Vec3> points, std::span<const Index> counted, double cell);
 
   std::size_t width() const { return width_; }
@@ -37,16 +38,16 @@ class Lattice {
   // Returns the bytes of memory in use.
   std::size_t memory() const;
 
-  // Values at 5 x 5 places of a cell, its edges included.
+  // Values at 5 x 5 positions of a cell, including its edges.
   using Tile = std::array<float, 25>;
 
-  // Evaluates the cubic B-spline with the nodes as coefficients at the places of each tile; one tile per
-  // node. Unlike bilinear values it has no creases between cells. Tiles of cells without points are not
-  // written.
+  // Evaluates the cubic B-spline whose coefficients are the nodes, at the positions of each tile; there is
+  // one tile per node. Unlike bilinear values, the spline has no creases between cells. Tiles of cells
+  // without points are not written.
   void refine(std::span<const float> nodes, std::span<Tile> tiles) const;
 
-  // Returns the value at a point, counted or not, interpolated bilinearly between the nearest four places of
-  // its tile.
+  // Returns the value at any point, counted or not, by bilinear interpolation between the nearest four
+  // positions of its tile.
   float at(std::size_t point, std::span<const Tile> tiles) const {
     const SplinePlace& p = places_[point];
     const float* t = tiles[p.node].data() + 5 * (p.y >> bits_in_quarter) + (p.x >> bits_in_quarter);
@@ -55,15 +56,15 @@ class Lattice {
     return below + y * (above - below);
   }
 
-  // Returns where a point lies, in cells: node n is at (n % width(), n / width()).
+  // Returns the position of a point in cells; node n is at (n % width(), n / width()).
   Vec2 place(std::size_t point) const;
 
-  // Adds an amount to the 4 x 4 nodes around a place (in cells, see place()), weighted by the cubic B-splines
-  // there. Sums over a region then hardly depend on the positions of the nodes.
+  // Adds an amount to the 4 x 4 nodes around a position (in cells, see place()), weighted by cubic B-splines.
+  // With these weights, sums over a region depend little on the positions of the nodes.
   void spread(const Vec2& place, float amount, std::span<float> nodes) const;
 
-  // Sets marks[n] to 1 for each node n inside a triangle of points, which must be counter-clockwise. `marks`
-  // has one element per node.
+  // Sets marks[n] to 1 for each node n inside a triangle of points. The triangle must be counter-clockwise.
+  // `marks` has an element per node.
   void mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> marks) const;
 
   // Sets marks[n] to 1 for the four nodes n around a point.
@@ -72,14 +73,14 @@ class Lattice {
     marks[n] = marks[n + 1] = marks[n + width_] = marks[n + width_ + 1] = 1;
   }
 
-  // Writes to each element of `means` the mean of the values of the counted points around that node, weighted
-  // by the squares of the node's bilinear weights at these points; 0 without such points. `sums` is scratch
-  // memory. `means` and `sums` have one element per node.
+  // Writes a mean per node to `means`: the mean of the values of the counted points around the node, weighted
+  // by the squares of the node's bilinear weights at these points; 0 if there are no such points. `sums` is
+  // scratch memory. `means` and `sums` have an element per node.
   template <typename Real>
   void gather(std::span<const Real> values, std::span<Corners> sums, std::span<float> means) const;
 
   // Writes for each cell the range of the differences between the values of its counted points and the values
-  // interpolated from `nodes`.
+  // that are interpolated from `nodes`.
   template <typename Real>
   void compare(std::span<const Real> values, std::span<const float> nodes, std::span<Extent> cells) const;
 
@@ -94,14 +95,15 @@ class Lattice {
   }
 
  private:
-  // A counted point with its place, stored by cell because the points of a cell may be far apart in memory.
+  // A counted point with its position, stored by cell, because the points of a cell may be far apart in
+  // memory.
   struct Counted {
     Index point;
     SplinePlace place;
   };
 
-  // The two highest bits of a packed position give the quarter of the cell, the others the position in the
-  // quarter.
+  // The two highest bits of a packed position give the quarter of the cell, the other bits the position
+  // within the quarter.
   static constexpr int bits_in_quarter = 14;
   static float share_of_quarter(std::uint16_t share) {
     constexpr int whole = 1 << bits_in_quarter;
@@ -113,7 +115,7 @@ class Lattice {
     const float x = unpacked_share(p.x), y = unpacked_share(p.y);
     return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
   }
-  // Interpolates between a cell's nodes, of which `n` is the first.
+  // Interpolates between the nodes of a cell; `n` is the first one.
   float between(const Corners& w, const float* n) const {
     return w[0] * n[0] + w[1] * n[1] + w[2] * n[width_] + w[3] * n[width_ + 1];
   }
@@ -124,7 +126,7 @@ class Lattice {
   void for_cells(F&& f) const;
 
   std::size_t width_ = 0;
-  std::vector<SplinePlace> places_;  // places of all points
+  std::vector<SplinePlace> places_;  // positions of all points
   std::vector<Index> first_nodes_;   // first of the 4 x 4 nodes around each cell with points
   std::vector<Counted> counted_;     // counted points, cell by cell
   std::vector<Index> begin_;         // per cell, where its points begin in counted_

@@ -1,5 +1,5 @@
-// The points near each of many places, found by few searches of a k-d tree.
-// Tested by tests/geometry/near_search_test.cpp.
+// Finds the points near each of many positions with few queries of a k-d tree. Tested by
+// tests/geometry/near_search_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,8 @@
 
 namespace relievo {
 
-// Finds the points in balls. Balls that follow each other should be close together, as along a space-filling
-// curve: one search of the tree then serves several of them. What is found in a ball does not depend on the
-// other balls.
+// Finds the points in balls. Consecutive balls should be close together, as along a space-filling curve; then
+// one query of the tree serves several of them. The result for a ball does not depend on the other balls.
 template <typename Point>
 class NearSearch {
  public:
@@ -26,8 +25,8 @@ class NearSearch {
   // `tree` contains `points`; both must outlive the search.
   NearSearch(const KdTree<Point>& tree, std::span<const Point> points) : tree_(tree), points_(points) {}
 
-  // Calls use(i, near) for each i in [begin, end). `near` has the numbers of the points nearer to the centre of
-  // ball(i) than its radius, in ascending order, and is valid during the call only.
+  // Calls use(i, near) for each i in [begin, end). `near` has the indices of the points that are nearer to
+  // the centre of ball(i) than its radius, in ascending order. It is valid only during the call.
   template <typename BallOf, typename Use>
   void each(std::size_t begin, std::size_t end, BallOf&& ball, Use&& use) {
     for (std::size_t first = begin; first < end; first += most_together)
@@ -36,7 +35,8 @@ class NearSearch {
 
  private:
   static constexpr std::size_t most_together = 16;
-  static constexpr double widest = 4;  // radius of a common search, in radii of the smallest ball
+  // Radius of a common query, as a multiple of the radius of the smallest ball.
+  static constexpr double widest = 4;
   static constexpr int dimension = Point::RowsAtCompileTime;
 
   template <typename BallOf, typename Use>
@@ -75,13 +75,13 @@ class NearSearch {
     near_.resize(numbers_.size());
   }
 
-  // Returns the numbers of the collected points in a ball.
+  // Returns the indices of the collected points in a ball.
   std::span<const Index> within(const Ball& ball) {
     const std::size_t n = numbers_.size();
     RELIEVO_WIDE(find_distances(ball.centre, distances_sq_.data(), n));
     std::size_t count = 0;
     for (std::size_t k = 0; k < n; ++k) {
-      near_[count] = numbers_[k];  // is overwritten unless the point counts, which needs no branch
+      near_[count] = numbers_[k];  // overwritten unless the point counts, which avoids a branch
       count += distances_sq_[k] < ball.radius * ball.radius;
     }
     return std::span(near_).first(count);

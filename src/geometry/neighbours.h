@@ -1,5 +1,5 @@
-// Nearest neighbours in two and three dimensions; the only file that uses nanoflann.
-// Tested by tests/scan/spacing_test.cpp and tests/scan/boundary_test.cpp.
+// Nearest neighbours in two and three dimensions. Only this file uses nanoflann. Tested by
+// tests/scan/spacing_test.cpp and tests/scan/boundary_test.cpp.
 #pragma once
 
 #include <cstdio>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-// nanoflann prints a line before it throws std::bad_alloc. The macro silences it, because the library prints
-// nothing.
+// nanoflann prints a line before it throws std::bad_alloc. The macro suppresses that, because the library
+// must not print.
 #define fprintf(...) static_cast<void>(0)
 #include <nanoflann.hpp>
 #undef fprintf
@@ -22,16 +22,16 @@ namespace relievo {
 template <typename Point>
 class KdTree {
  public:
-  using Match = std::pair<Index, double>;  // number of a point, squared distance to the query
+  using Match = std::pair<Index, double>;  // index of a point, squared distance to the query
 
   explicit KdTree(std::span<const Point> points) : adaptor_{points} {
     if (!points.empty())
       tree_ = std::make_unique<Tree>(dimension, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(12));
   }
 
-  // Writes the numbers and squared distances of the k points nearest to `query` to the arrays, nearest first.
-  // Returns the number of points found: k, or the size of the tree if that is less. A point of the tree finds
-  // itself.
+  // Writes the indices and squared distances of the k points nearest to `query` to the arrays, nearest first.
+  // Returns the number of points found: k, or the size of the tree if that is less. If `query` is a point of
+  // the tree, it is found, too.
   std::size_t nearest(const Point& query, std::size_t k, Index* indices, double* distances_sq) const {
     if (!tree_) return 0;
     NearestSet found(k);
@@ -40,7 +40,7 @@ class KdTree {
     return found.size();
   }
 
-  // Replaces `matches` with all points nearer than `radius`, in an order that is arbitrary but reproducible.
+  // Replaces `matches` by all points nearer than `radius`, in an arbitrary but reproducible order.
   void within(const Point& query, double radius, std::vector<Match>& matches) const {
     matches.clear();
     if (tree_)
@@ -65,8 +65,8 @@ class KdTree {
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor, double, Index>,
                                           Adaptor, dimension, Index>;
 
-  // Once k points lie at the query itself, nothing is nearer. nanoflann would still visit all other points
-  // there, so that clouds with many coincident points would take quadratic time.
+  // Once k points coincide with the query, no point can be nearer, so the search may stop. nanoflann would
+  // still visit all other points there; clouds with many coincident points would take quadratic time.
   struct NearestSet : nanoflann::KNNResultSet<double, Index> {
     using Base = nanoflann::KNNResultSet<double, Index>;
     using Base::Base;

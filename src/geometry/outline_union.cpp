@@ -12,21 +12,23 @@ namespace relievo {
 namespace {
 
 constexpr double grain = 1e-6;            // corners are multiples of it
-constexpr double touching = 1.5 * grain;  // a corner so near to a side lies on it
-constexpr double beside = 4 * grain;  // distance from a side's middle at which its two sides are looked at
+constexpr double touching = 1.5 * grain;  // a corner this close to a side lies on it
+// Distance from a side's midpoint at which the winding numbers on both sides are computed.
+constexpr double beside = 4 * grain;
 constexpr int most_rounds = 6;
 
 Vec2 rounded(const Vec2& p) {
   return (p / grain).array().round() * grain;
 }
 
-// A side, and the places where others meet it.
+// A side, and the points where other sides meet it.
 struct CutSide {
   Vec2 from, to;
   std::vector<Vec2> cuts = {};
 };
 
-// Cuts the side where the point lies on it, but not at its ends.
+// Cuts the side at the point, if the point lies on the side and is not one of its ends. Returns whether it
+// did.
 bool cut_at_corner(CutSide& side, const Vec2& point) {
   if (point == side.from || point == side.to) return false;
   const Vec2 step = side.to - side.from, offset = point - side.from;
@@ -59,7 +61,7 @@ bool cut_each_other(CutSide& a, CutSide& b) {
   return is_cut || cut_where_crossing(a, b);
 }
 
-// Finds where sides meet, by a sweep along x. Returns false if none meet.
+// Finds the points where sides meet, by a sweep along x. Returns false if no sides meet.
 bool find_cuts(std::vector<CutSide>& sides) {
   std::ranges::sort(sides, {}, [](const CutSide& s) { return std::min(s.from.x(), s.to.x()); });
   bool is_cut = false;
@@ -103,8 +105,8 @@ std::vector<CutSide> sides_of(const Outlines& outlines) {
   return sides;
 }
 
-// Counts how often sides go around a place. The sides lie in rows, so that only those beside a place are
-// looked at.
+// Computes winding numbers. Sides are sorted into horizontal strips, so that only sides at the height of a
+// position are visited.
 class WindingRows {
  public:
   explicit WindingRows(const std::vector<CutSide>& sides) : sides_(sides) {

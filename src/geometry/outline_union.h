@@ -1,4 +1,4 @@
-// The boundary of what closed outlines cover, as glyphs and drawings give them. Tested by
+// The boundary of the union of closed outlines, such as those of glyphs and drawings. Tested by
 // tests/geometry/outline_union_test.cpp.
 #pragma once
 
@@ -10,15 +10,16 @@
 
 namespace relievo {
 
-// Closed polygons without their last side; together they cover where their winding number is not 0.
+// Closed polygons; the first corner is not repeated. Their union is the area where their winding number is
+// not 0.
 using Outlines = std::vector<std::vector<Vec2>>;
 
-// Returns how often the outlines go around the place, counter-clockwise.
+// Returns how often the outlines go counter-clockwise around `place`.
 int winding_number(const Outlines& outlines, const Vec2& place);
 
-// Returns the sides of the area that the outlines cover, which lies to the left of each. Sides may only meet at
-// their ends. Corners are rounded to a millionth of the unit. Sides inside the area are left out, so that
-// outlines may overlap.
+// Returns the sides of the outlines' union, which lies on the left of each side. Sides meet only at their
+// ends. Corners are rounded to a millionth of the unit. Outlines may overlap: sides inside the union are left
+// out.
 std::vector<Segment> union_boundary(const Outlines& outlines);
 
 }  // namespace relievo

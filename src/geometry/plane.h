@@ -1,4 +1,4 @@
-// Vectors and triangles of the plane.
+// Vectors and triangles in the plane.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// Returns the area of the parallelogram of a and b: positive if b lies to the left of a, else negative. For
-// two edges of a triangle that leave the same corner it is twice the triangle's signed area.
+// Returns the signed area of the parallelogram of a and b, positive if b is to the left of a. If a and b are
+// edges from the same corner of a triangle, this is twice the triangle's signed area.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -38,8 +38,8 @@ inline Circle circle_through(const Vec2& a, const Vec2& b, const Vec2& c) {
   return {a + to_centre, to_centre.norm()};
 }
 
-// Returns the gradients of a triangle's three hat functions; each is 1 at its own corner, 0 at the others and
-// linear in between. `twice_area` is twice the triangle's signed area.
+// Returns the gradients of a triangle's three hat functions. A hat function is linear, 1 at its own corner
+// and 0 at the other two. `twice_area` is twice the triangle's signed area.
 inline std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& corners, double twice_area) {
   std::array<Vec2, 3> gradients;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,5 @@
-// Points of the plane that keep a distance from each other. Tested by tests/geometry/point_set_test.cpp.
+// A set of points in the plane with a least distance from each other. Tested by
+// tests/geometry/point_set_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -10,14 +11,14 @@
 
 namespace relievo {
 
-// Points in the square cells of a grid without bounds. Queries look into the cells within reach. Cells share
-// buckets, about one for each point; a query then also looks at points of other cells, which are far away.
+// Points in the square cells of an unbounded grid. Queries visit neighbouring cells. Cells are hashed into
+// buckets, about one per point. So a query may also visit points of distant cells in the same bucket.
 class PointSet {
  public:
   explicit PointSet(double cell) : cell_(cell), first_(16, no_index) {}
 
-  // Adds a point unless a point of the set is nearer than `distance`, which is at most the width of a cell.
-  // Returns whether the point was added.
+  // Adds a point unless a point of the set is nearer than `distance`, which may be at most the width of a
+  // cell. Returns whether the point was added.
   bool add(const Vec2& p, double distance) {
     if (distance > 0 && is_near(p, distance)) return false;
     if (points_.size() == first_.size()) double_buckets();
@@ -39,12 +40,12 @@ class PointSet {
  private:
   struct Member {
     Vec2 place;
-    Index next;  // in the same bucket
+    Index next;  // next point in the same bucket
   };
 
   std::int64_t cell_of(double v) const { return static_cast<std::int64_t>(std::floor(v / cell_)); }
 
-  // Neighbouring cells of a row have neighbouring buckets. The number of buckets is a power of two.
+  // Neighbouring cells of the same row have neighbouring buckets. The number of buckets is a power of two.
   std::size_t bucket(std::int64_t x, std::int64_t y) const {
     return (static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(y) * 0x9E3779B97F4A7C15U) &
            (first_.size() - 1);

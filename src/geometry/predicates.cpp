@@ -5,8 +5,8 @@
 namespace relievo::detail {
 namespace {
 
-// Three error bounds of section 4.4. The first is for the determinant of the rounded differences, the second
-// for the determinant with a first-order correction, the third for rounding an exact value to an estimate.
+// Three error bounds of section 4.4: for the determinant of the rounded differences, for the determinant with
+// a first-order correction, and for rounding an exact value to an estimate.
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
@@ -15,7 +15,7 @@ TwoDoubles difference(double a, double b) {
   return two_sum(a, -b);
 }
 
-// A point relative to another: the rounded differences (high) and their rounding errors (low).
+// A point relative to an origin: rounded differences (high) and their rounding errors (low).
 struct Offset {
   TwoDoubles x, y;
 
@@ -24,7 +24,7 @@ struct Offset {
   bool is_rounded() const { return x.low != 0 || y.low != 0; }
 };
 
-// Returns a difference as an expansion of one component (rounded) or two (exact).
+// Returns a difference as an expansion with one component (rounded) or two components (exact).
 template <std::size_t n>
 Expansion<n> number(const TwoDoubles& difference) {
   if constexpr (n == 1) return Expansion<1>(difference.high);
@@ -47,8 +47,7 @@ auto incircle_determinant(const Offset& a, const Offset& b, const Offset& c) {
   return lift<n>(a) * cross<n>(b, c) + lift<n>(b) * cross<n>(c, a) + lift<n>(c) * cross<n>(a, b);
 }
 
-// Returns the sum of the absolute values of the determinant's terms, to which all error bounds are
-// proportional.
+// Returns the sum of the absolute values of the determinant's terms. All error bounds are proportional to it.
 double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
   const auto term = [](const Offset& p, const Offset& q, const Offset& r) {
     const double lifted = p.x.high * p.x.high + p.y.high * p.y.high;
@@ -57,7 +56,7 @@ double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
   return term(a, b, c) + term(b, c, a) + term(c, a, b);
 }
 
-// Returns how a's term of the determinant changes, to first order, with the rounding errors of the
+// Returns the first-order change of a's term of the determinant due to the rounding errors of the
 // differences.
 double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
@@ -79,8 +78,9 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  // Shewchuk's incircle() in three stages. The first is exact for the rounded differences, and decides if no
-  // difference was rounded. The second adds a first-order correction. The third is fully exact.
+  // Shewchuk's incircle() in three stages. The first computes exactly with the rounded differences; its sign
+  // is final if no difference was rounded. The second adds a first-order correction. The third is fully
+  // exact.
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();

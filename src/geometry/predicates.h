@@ -1,11 +1,11 @@
 // Exact signs of the two determinants that a Delaunay triangulation depends on.
 //
-// Each function first evaluates the determinant in doubles and trusts its sign if the value exceeds a proven
-// bound of the rounding error (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
-// Geometric Predicates", 1997, section 4); otherwise it computes with expansions. There is no state and no
-// initialisation, so any thread may call the functions. They are exact for coordinates that are 0 or of a
-// magnitude between smallest_coordinate and largest_coordinate, if the processor rounds to nearest. The
-// rarest case takes 45 KB of stack.
+// Each function first evaluates the determinant in doubles. If the value exceeds a proven bound of the
+// rounding error, its sign is correct; otherwise the function computes with expansions (Shewchuk, "Adaptive
+// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, section 4). There is no
+// state and no initialisation, so any thread may call the functions. They are exact if the processor rounds
+// to nearest and each coordinate is 0 or has a magnitude between smallest_coordinate and largest_coordinate.
+// The rarest case takes 45 KB of stack.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace relievo {
 
-// Products of four such coordinates neither overflow nor lose bits to underflow.
+// Within these limits, products of four coordinates neither overflow nor lose bits to underflow.
 inline constexpr double smallest_coordinate = 1e-60, largest_coordinate = 1e70;
 
 inline bool is_exact_coordinate(double x) {
@@ -51,8 +51,8 @@ inline int orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return detail::orient2d_exact(a, b, c);
 }
 
-// Returns 1 if d is strictly inside the circle through a, b, c, -1 if strictly outside, 0 if on it. This is
-// for counter-clockwise a, b, c; for clockwise ones the sign is the opposite.
+// For counter-clockwise a, b, c: returns 1 if d is strictly inside the circle through a, b, c, -1 if strictly
+// outside, 0 if on the circle. For clockwise a, b, c the sign is the opposite.
 inline int incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double ax = a.x() - d.x(), ay = a.y() - d.y();
   const double bx = b.x() - d.x(), by = b.y() - d.y();

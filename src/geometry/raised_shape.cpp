@@ -14,16 +14,18 @@
 namespace relievo {
 namespace {
 
-constexpr double fan_step = std::numbers::pi / 18;  // largest turn between rays from a reflex corner
-constexpr double least_opening = .02;               // corners sharper than 16 degrees have a foot only
+constexpr double fan_step = std::numbers::pi / 18;  // largest angle between rays from a reflex corner
+constexpr double least_opening = .02;  // corners sharper than 11 degrees have no points above their foot
 constexpr int halvings = 30;
-constexpr double least_share = .05;   // of a wall's width, at which points become one
-constexpr double rounding_mm = 2e-6;  // of union_boundary()
+// Share of a wall's width; points nearer to each other than that are merged.
+constexpr double least_share = .05;
+constexpr double rounding_mm = 2e-6;  // union_boundary() rounds corners by up to this
 
-// The place at distance t of the outline is foot + t * direction, up to where another part of it is as near.
+// The point foot + t * direction has distance t from the outline, until another part of the outline is as
+// near.
 struct Ray {
   Vec2 foot, direction;
-  bool is_on_side = false;  // the foot is no corner
+  bool is_on_side = false;  // the foot is not a corner
   bool is_edge = false;     // two walls meet along the ray
 };
 
@@ -31,13 +33,13 @@ Vec2 left_of(const Vec2& step) {
   return Vec2(-step.y(), step.x()).normalized();
 }
 
-// Adds the rays of a corner between two sides with these inner normals.
+// Adds the rays of a corner between two sides with the given inner normals.
 void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::vector<Ray>& rays) {
   const double opening = 1 + before.dot(after);
   const bool is_reflex = cross(before, after) < 0;
   const double turn = std::acos(std::clamp(before.dot(after), -1.0, 1.0));
   if (!is_reflex && opening < least_opening) return rays.push_back({corner, Vec2::Zero()});
-  // Longer rays keep their distance from the lines of both sides.
+  // A longer direction makes t the distance from the lines of both sides.
   if (!is_reflex || turn < fan_step)
     return rays.push_back({corner, (before + after) / opening, false, turn > fan_step});
   const int steps = static_cast<int>(std::ceil(turn / fan_step));
@@ -53,7 +55,8 @@ CornerKey corner_of(const Vec2& p) {
   return {p.x(), p.y()};
 }
 
-// Returns the sides as closed loops. Where several sides begin at a corner, the loop takes the first that is free.
+// Returns the sides as closed loops. If several sides begin at a corner, the loop continues with the first
+// unused one.
 std::vector<std::vector<Index>> loops_of(const std::vector<Segment>& sides) {
   std::map<CornerKey, std::vector<Index>> starting;
   for (Index i = 0; i < sides.size(); ++i) starting[corner_of(sides[i].from)].push_back(i);
@@ -87,12 +90,13 @@ std::vector<Ray> rays_along(const std::vector<Segment>& sides, const std::vector
   return rays;
 }
 
-// Points with their numbers, which keep a distance.
+// Numbered points with a least distance from each other.
 class NumberedPoints {
  public:
   explicit NumberedPoints(double distance) : distance_(distance) {}
 
-  // Adds a point of that number unless another is too near. Returns the number of the point that is there.
+  // Adds a point with that number unless another point is too near. Returns the number of the added or of the
+  // near point.
   Index add(const Vec2& place, Index number) {
     const std::int64_t x = cell_of(place.x()), y = cell_of(place.y());
     const Numbered* nearest = nullptr;
@@ -142,7 +146,7 @@ class ShapePointMaker {
   }
 
  private:
-  // Adds the feet and the outline's edges. Returns the number of each ray's foot.
+  // Adds the feet and the outline's edges. Returns the point of each ray's foot.
   std::vector<Index> add_feet(const std::vector<Ray>& rays) {
     std::vector<Index> numbers, of_rays;
     for (const Ray& ray : rays) {
@@ -164,12 +168,13 @@ class ShapePointMaker {
     }
   }
 
-  // Returns whether no part of the outline is nearer than t to the place at t on the ray.
+  // Returns whether no part of the outline is nearer than t to the point at t on the ray.
   bool is_clear(const Ray& ray, double t) const {
     return grid_.nearest(ray.foot + t * ray.direction, t * (1 - 1e-7) - rounding_mm).segment == no_index;
   }
 
-  // Adds a point, or takes one that is there already. Returns its number; none on an edge that is kept clear.
+  // Adds a point unless another one is too near. Returns the added or the near point; no_index if that is on
+  // an edge that keep_clear() protects.
   Index add(const Vec2& place, double height) {
     const auto next = static_cast<Index>(made_.points.size());
     const Index number = near_.add(place, next);
@@ -179,7 +184,7 @@ class ShapePointMaker {
     return next;
   }
 
-  // Adds the points of all levels. Each ray gets those that it reaches, the lowest first.
+  // Adds the points of all levels, the lowest first. A ray gets a point only on the levels that it reaches.
   void add_levels(std::size_t loop) {
     const std::vector<Ray>& rays = loops_[loop];
     tops_[loop].resize(rays.size());
@@ -196,8 +201,8 @@ class ShapePointMaker {
     }
   }
 
-  // Joins each foot to the points above it: first for the edges in which two walls meet at a corner, so that no other
-  // point comes too near to them, then for all other rays. Every wall between two rays is plane then.
+  // Connects each foot to the points above it, so that the wall between two rays is plane. The edges between
+  // two walls come first, so that no other point gets too close to them.
   void add_spokes(std::size_t loop, bool are_edges) {
     for (std::size_t i = 0; i < loops_[loop].size(); ++i) {
       const Ray& ray = loops_[loop][i];
@@ -214,7 +219,7 @@ class ShapePointMaker {
     }
   }
 
-  // Keeps later points away from an edge.
+  // Prevents later points close to an edge.
   void keep_clear(Index a, Index b) {
     const Vec2 from = made_.points[a].head<2>(), step = made_.points[b].head<2>() - from;
     const int parts = std::min(1000, static_cast<int>(std::ceil(step.norm() / (least_ / 2))));
@@ -230,7 +235,8 @@ class ShapePointMaker {
     return low.height_mm + std::clamp(share, 0.0, 1.0) * (high.height_mm - low.height_mm);
   }
 
-  // Adds the place where the ray meets the wall of another side, if that is before the last level.
+  // Adds the point where the ray meets the wall of another side, unless it reaches the last level before
+  // that.
   Index add_ridge(const Ray& ray) {
     if (ray.direction == Vec2::Zero() || is_clear(ray, depth_)) return no_index;
     double low = 0, high = depth_;
@@ -241,7 +247,7 @@ class ShapePointMaker {
     return low > 1e-3 * depth_ ? add(ray.foot + low * ray.direction, height_at(low)) : no_index;
   }
 
-  // Finds the thinnest place between two sides that run in opposite directions.
+  // Finds the smallest distance between two sides that run in opposite directions, up to 2 mm.
   void measure_strokes() {
     made_.thinnest_mm = std::numeric_limits<double>::infinity();
     constexpr double opposite = -.95, most_mm = 2;
@@ -265,12 +271,12 @@ class ShapePointMaker {
   const RaisedShape& shape_;
   double depth_;
   SegmentGrid grid_;
-  double least_;  // points of levels and ridges keep this distance
+  double least_;  // least distance between points of levels and ridges
   NumberedPoints near_;
   std::vector<std::vector<Ray>> loops_;
   std::map<CornerKey, Index> feet_;
   std::vector<std::vector<Index>> feet_of_;            // per loop and ray
-  std::vector<std::vector<std::vector<Index>>> tops_;  // per loop and ray, the points above its foot
+  std::vector<std::vector<std::vector<Index>>> tops_;  // per loop and ray: the points above its foot
   ShapePoints made_;
 };
 

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int steps_per_pixel = 256;
 
-// Rounds a coordinate, which is at least -1 pixel. Truncation is faster than rounding but rounds only
-// positive numbers correctly, hence the shift by 1 pixel.
+// Rounds a coordinate to steps; it must be at least -1 pixel. Truncation is faster than rounding, but rounds
+// only positive numbers correctly. Hence the shift by 1 pixel.
 int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
 
 // Returns the first pixel whose centre is at or after `steps`.
 int first_centre(int steps) {
-  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel: shift before dividing
+  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel, so it is shifted before dividing
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
@@ -28,10 +28,10 @@ std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
 
-// A linear function of the pixel that is not negative inside the triangle. Its values are integers below
-// 2^53, so they are exact.
+// A linear function of the pixel, not negative inside the triangle. Its values are integers below 2^53, so
+// doubles are exact.
 struct EdgeFunction {
-  double value;  // at the centre of column 0 of the current row
+  double value;  // value at the centre of column 0 of the current row
   double per_column, per_row;
 };
 
@@ -40,7 +40,7 @@ EdgeFunction edge_between(const Corner& a, const Corner& b, int row) {
   const int half = steps_per_pixel / 2;
   const double dx = b.x - a.x, dy = b.y - a.y, y = row * steps_per_pixel + half - a.y;
   EdgeFunction edge{dx * y - dy * (half - a.x), -dy * steps_per_pixel, dx * steps_per_pixel};
-  // A centre on an edge belongs to the triangle on the right of the edge, or below it.
+  // A pixel centre on an edge belongs to the triangle to the right of the edge or below it.
   const bool owns_its_points = edge.per_column > 0 || (edge.per_column == 0 && edge.per_row > 0);
   if (!owns_its_points) edge.value -= 1;
   return edge;
@@ -50,9 +50,8 @@ struct Columns {
   int begin, end;
 };
 
-// Returns the columns of the current row where no edge function is negative. Rounding cannot move a quotient
-// across an integer: quotients are below 2^15, and either equal an integer or are at least 2^-31 away from
-// it.
+// Returns the columns of the current row where no edge function is negative. Quotients are below 2^15, and
+// either integers or at least 2^-31 away from one. So rounding cannot move a quotient across an integer.
 Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
   for (const EdgeFunction& edge : edges) {
@@ -69,10 +68,10 @@ Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   return {floor < first ? floor + 1 : floor, static_cast<int>(last) + 1};
 }
 
-// The height over the picture: the triangle's plane, limited to the range of its corners, so that slivers
-// cause no spikes.
+// The plane of a triangle as a function of the pixel. Heights are limited to the range of the corners, so
+// that slivers cause no spikes.
 struct DepthPlane {
-  double value = 0, per_column = 0, per_row = 0;  // value at the picture's corner
+  double value = 0, per_column = 0, per_row = 0;  // value at the image's corner
   double lowest = 0, highest = 0;
 };
 
@@ -80,7 +79,8 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  const double least_area = 1e-9;  // in square pixels: a sliver seen edge-on may have any of its heights
+  // In square pixels; the plane of a smaller sliver is undefined, so its highest corner is used.
+  const double least_area = 1e-9;
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
   const double per_row = (p.x() * q.z() - p.z() * q.x()) / area;
@@ -101,8 +101,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether no pixel centre lies between the triangle's corners in x or in y. This settles most
-// triangles of a fine scan, so that few bytes of each are read.
+// Returns whether the triangle lies between neighbouring rows or columns of pixel centres. Most triangles of
+// a fine scan do, and this test reads few of their bytes.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -115,15 +115,15 @@ bool Rasterizer::is_facing(const Triangle& triangle) const {
   return cross < 0;  // y points down: triangles that the viewer sees counter-clockwise are negative here
 }
 
-// Returns the rows with centres between the triangle's corners. A centre at the triangle's lowest corner
-// belongs to another triangle.
+// Returns the rows of pixel centres between the triangle's corners. A centre at the height of the lowest
+// corner belongs to another triangle.
 Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   const auto [top, bottom] =
       std::minmax({cells_[triangle[0]].row, cells_[triangle[1]].row, cells_[triangle[2]].row});
   return {top, bottom};
 }
 
-// Returns the triangles of [begin, end) that face the viewer and may cover a centre, with their bands.
+// Returns the triangles of [begin, end) that face the viewer and may cover a pixel centre, with their bands.
 std::vector<Rasterizer::InBands> Rasterizer::covering(std::size_t begin, std::size_t end) const {
   std::vector<InBands> found;
   for (std::size_t t = begin; t < end; ++t) {
@@ -140,7 +140,7 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<std::vector<InBands>> covering_in(blocks);
-  // Per block and band: first the number of triangles, then the position of the next one.
+  // Per block and band: first the number of triangles, later the position at which the next one is stored.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     covering_in[begin / block] = covering(begin, end);

@@ -1,5 +1,5 @@
-// Orthographic scan conversion on the CPU: finds the triangle that is seen at the centre of each pixel, and
-// its height there.
+// Orthographic rasterisation on the CPU: finds the visible triangle at the centre of each pixel, and its
+// height there.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,30 @@ namespace relievo {
 // may lie outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5,
 // 0.5).
 struct RasterInput {
-  static constexpr int most_pixels = 32768;  // limit of width and height: keeps the coverage test exact
+  static constexpr int most_pixels = 32768;  // limit of width and height, which keeps the coverage test exact
 
   std::vector<Vec3> points;
-  std::span<const Triangle> triangles;  // counter-clockwise as seen; the others face away and are skipped
+  // Counter-clockwise seen from the viewer; others face away and are skipped.
+  std::span<const Triangle> triangles;
   int width = 0, height = 0;
 };
 
-// The triangle that is seen at a pixel's centre.
+// The visible triangle at a pixel's centre.
 struct Fragment {
   float z = -std::numeric_limits<float>::infinity();
-  Index triangle = no_index;  // no_index: nothing
+  Index triangle = no_index;  // no_index if there is none
 };
 
-// A band of full rows of the picture.
+// A range of full rows of the image.
 struct RowBand {
   int first_row = 0;
   Image<Fragment> fragments;
 };
 
-// Triangles sorted into bands of rows, which can be drawn in any order and concurrently. The coverage test is
-// exact on corners rounded to 1/256 pixel: every centre inside a surface belongs to exactly one of its
-// triangles, also on shared edges. Of equally near triangles the first is seen. The scene must outlive the
-// object.
+// Triangles sorted into bands of rows, which can be drawn in any order and concurrently. Corners are rounded
+// to 1/256 pixel. For the rounded corners the coverage test is exact: every pixel centre inside a surface
+// belongs to exactly one of its triangles, also on shared edges. Of triangles at the same height the first is
+// visible. The scene must outlive the object.
 class Rasterizer {
  public:
   Rasterizer(const RasterInput& scene, int band_rows);
@@ -50,8 +51,8 @@ class Rasterizer {
   struct Corner {
     int x, y;  // in 1/256 pixel
   };
-  // The first column whose centre is not left of a corner, and the first row whose centre is not above it.
-  // Without such a column or row, the picture's width or height.
+  // The first column whose centre is not left of a corner, and the first row whose centre is not above it. If
+  // there is none, the image's width or height.
   struct Cell {
     std::uint16_t column, row;
   };
@@ -73,11 +74,11 @@ class Rasterizer {
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<Cell> cells_;         // per point
-  std::vector<std::size_t> first_;  // per band and one more: where its triangles begin
-  std::vector<Index> triangles_;    // by band, in the scene's order
+  std::vector<std::size_t> first_;  // per band, and one more: position of its first triangle
+  std::vector<Index> triangles_;    // by band, in the order of the scene
 };
 
-// Draws a scene in bands of that many rows, and calls use(band) for each, concurrently.
+// Draws a scene in bands of `band_rows` rows. Calls use(band) for each band, concurrently.
 template <typename F>
 void draw_bands(const RasterInput& scene, int band_rows, F&& use) {
   const Rasterizer rasterizer(scene, band_rows);
@@ -85,8 +86,8 @@ void draw_bands(const RasterInput& scene, int band_rows, F&& use) {
       rasterizer.bands(), [&](std::size_t b) { use(rasterizer.draw(b)); }, 1);
 }
 
-// Returns the weights of the triangle's corners at a place in the picture. The weights are not negative, even
-// for places outside the triangle.
+// Returns the barycentric weights of the triangle's corners at a position in the image. Weights are not
+// negative, even for positions outside the triangle.
 Vec3f corner_weights(const RasterInput& scene, Index triangle, double x, double y);
 
 }  // namespace relievo

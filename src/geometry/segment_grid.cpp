@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// A grid has at most this many cells a side; larger curves get larger cells.
+// Largest number of cells per side. Larger curves get larger cells.
 constexpr double most_cells = 4096;
 
 }  // namespace

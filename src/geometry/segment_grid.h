@@ -1,5 +1,5 @@
-// Finds the segments of curves in the plane that are near a place or crossed by a line.
-// Tested by tests/geometry/segment_grid_test.cpp.
+// Finds segments of plane curves that are near a point or crossed by a line. Tested by
+// tests/geometry/segment_grid_test.cpp.
 #pragma once
 
 #include <span>
@@ -17,29 +17,29 @@ struct Segment {
 
 // The result of SegmentGrid::nearest().
 struct NearestSegment {
-  Index segment = no_index;  // no_index if none is near enough
+  Index segment = no_index;  // no_index if no segment is near enough
   double distance = 0;
-  bool is_left = false;  // the place lies on the left of the curve
+  bool is_left = false;  // whether the query point is on the left of the curve
 };
 
 // Segments in the cells of a square grid.
 class SegmentGrid {
  public:
-  // `cell` is the side of a cell, > 0, best about the usual radius of queries.
+  // `cell` > 0 is the width of a cell; the usual radius of queries is a good choice.
   SegmentGrid(std::vector<Segment> segments, double cell);
 
   std::span<const Segment> segments() const { return segments_; }
 
-  // Returns the nearest segment within the radius, of all curves except number `except`. Beside a point where
-  // two segments of a curve meet, the side is that of the segment whose line is farther away.
+  // Returns the nearest segment within the radius, ignoring curve number `except`. If the nearest point is
+  // shared by two segments of a curve, the segment whose line is farther away determines `is_left`.
   NearestSegment nearest(const Vec2& place, double radius, Index except = no_index) const;
 
-  // Returns the nearest segment within the radius whose direction is at most 107 degrees from the given one,
-  // which has unit length.
+  // Returns the nearest segment within the radius whose direction differs from `direction`, a unit vector, by
+  // at most 107 degrees.
   NearestSegment nearest_along(const Vec2& place, double radius, const Vec2& direction) const;
 
-  // Returns true if a segment and the line from a to b cross: the two ends of each lie on different sides of
-  // the other.
+  // Returns whether a segment properly crosses the one from a to b: the ends of each lie on different sides
+  // of the other.
   bool is_crossed(const Vec2& a, const Vec2& b) const;
 
  private:

@@ -12,22 +12,23 @@
 namespace relievo {
 namespace {
 
-// Limits of the effort. A field that needs more has too many steep triangles for this method, or its fixed
+// Limits of the effort. If a field needs more, it has too many steep triangles for this method, or its fixed
 // points allow no solution.
 constexpr int most_sweeps = 4000;
-constexpr std::size_t most_visits = 10;  // per triangle of the field, in addition to one per sweep
-// A triangle is made flatter than necessary by this fraction, which grows from the least to the most with the
-// number of sweeps. Without it, neighbours would push each other over the limit forever, by less and less. A
-// larger fraction would push more neighbours over the limit.
+constexpr std::size_t most_visits = 10;  // per triangle of the field, in addition to one visit per sweep
+// Triangles are made flatter than necessary by this fraction. Without it, neighbours would push each other
+// over the limit forever, by ever smaller amounts. A larger fraction pushes more neighbours over the limit.
+// So the fraction grows with the number of sweeps.
 constexpr double least_spare = 2e-5, most_spare = 1e-3;
-// Two thin triangles on one short edge can undo each other's moves of its ends. Then only moving their
-// distant corners helps, which least squares hardly does. So in every 64th sweep triangles are flattened by
-// scaling their heights, by at most most_spare. This breaks such a cycle. It is done rarely, because it moves
+// Two thin triangles with a common short edge can undo each other's moves of its ends. Only moves of their
+// distant corners help, and least squares hardly moves those. So every 64th sweep scales the heights of
+// triangles instead, by at most most_spare, which breaks such cycles. Scaling is rare, because it moves
 // points further than necessary.
 constexpr int sweeps_to_scaling = 64;
 
 // Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely
-// steep, unless they are level: a level one is a sliver that rounding has turned over.
+// steep. Level ones count as level even if overturned, because then they are slivers that rounding has turned
+// over.
 double steepness(const PlaneMesh& field, const Triangle& t, std::span<const double> heights) {
   const Vec2 &a = field.plane[t[0]], &b = field.plane[t[1]], &c = field.plane[t[2]];
   if (!(cross(b - a, c - a) > 0)) {
@@ -66,8 +67,8 @@ class SlopeLimiter {
       if (visits > most_visits * field_.triangles.size() + most_sweeps) return false;
       const bool is_scaling = sweep % sweeps_to_scaling == sweeps_to_scaling - 1;
       const double wanted = max_slope_ * (1 - std::min(most_spare, least_spare * (1 + sweep / 10)));
-      // Triangles are projected one after the other, not concurrently. Each projection then uses the moves of
-      // the earlier ones, which converges faster and gives the same result for any number of threads.
+      // Triangles are projected one after the other, not concurrently. Each projection uses the moves of
+      // earlier ones, which converges faster and makes the result independent of the number of threads.
       for (const Index t : steep)
         if (is_steep(t)) project(field_.triangles[t], wanted, is_scaling);
       steep = steep_around(steep, stars);
@@ -93,7 +94,7 @@ class SlopeLimiter {
         });
   }
 
-  // Returns the steep triangles among those that share a corner with a triangle of `worked_on`.
+  // Returns the steep triangles that share a corner with a triangle of `worked_on`.
   std::vector<Index> steep_around(const std::vector<Index>& worked_on, const VertexStars& stars) const {
     std::vector<Index> around;
     for (const Index t : worked_on)
@@ -104,11 +105,13 @@ class SlopeLimiter {
     return around;
   }
 
-  // Moves the free corners of a triangle by the least sum of squares that reduces its slope to `wanted`.
+  // Reduces the slope of a triangle to `wanted`. Moves its free corners by the least sum of squares that
+  // achieves this.
   void project(const Triangle& t, double wanted, bool is_scaling) {
     const Vec2 slope = triangle_slope(field_, t, heights_);
     const double steepness = slope.norm();
-    if (!slope.allFinite() || steepness < wanted) return;  // no move of heights helps an overturned triangle
+    // Moves of heights cannot help an overturned triangle.
+    if (!slope.allFinite() || steepness < wanted) return;
     if (is_scaling && std::ranges::count_if(t, [&](Index i) { return field_.is_fixed[i]; }) < 2)
       return scale(t, std::max(wanted / steepness, 1 - most_spare));
     const std::array corners{field_.plane[t[0]], field_.plane[t[1]], field_.plane[t[2]]};
@@ -126,7 +129,8 @@ class SlopeLimiter {
       if (pull[i] != 0) move(t[i], (wanted - steepness) * pull[i] / sum_sq);
   }
 
-  // Scales the heights of a triangle about its fixed corner, if it has one, else about its mean.
+  // Scales the heights of a triangle about the height of its fixed corner or, if none is fixed, about their
+  // mean.
   void scale(const Triangle& t, double share) {
     double centre = (heights_[t[0]] + heights_[t[1]] + heights_[t[2]]) / 3;
     for (const Index i : t)
@@ -145,7 +149,7 @@ class SlopeLimiter {
   double max_slope_;
   Rounding rounding_;
   std::span<double> heights_;
-  // The heights before rounding. Without them, moves below half a rounding step would be lost each time.
+  // The heights before rounding. Rounded heights would lose moves below half a rounding step.
   std::vector<double> exact_;
 };
 

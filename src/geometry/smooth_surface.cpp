@@ -11,8 +11,9 @@
 namespace relievo {
 namespace {
 
-// Limits of the distance of a point's slope from the mean slope of the triangles around it, relative to the
-// largest distance of a slope of these triangles from their mean: inside the surface, and at an edge of it.
+// Limits of the distance between a point's slope and the mean slope of the triangles around it: inside the
+// surface, and at an edge of it. The unit is the largest distance between the slope of one of these triangles
+// and their mean.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -22,7 +23,8 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// A least squares fit of x^2, x y, y^2, x and y, in this order, to heights around the origin. Nearer ones count more.
+// A least-squares fit of x^2, x y, y^2, x and y, in this order, to heights around the origin. Points nearer
+// to the origin have more weight.
 class Quadratic {
  public:
   void add(double x, double y, double z) {
@@ -34,11 +36,12 @@ class Quadratic {
     }
   }
 
-  // Returns the factors of x and y: solves by L D L^T, whose last two unknowns need no others.
+  // Returns the coefficients of x and y. Solves by L D L^T; the last two unknowns are found without computing
+  // the others.
   Vec2 slope() const {
     std::array<std::array<double, terms>, terms> l = moments_;
     std::array<double, terms> d, rest = products_;
-    // A small amount of bending energy keeps the system solvable where neighbours lie on two lines.
+    // A small amount of bending energy keeps the system regular if all neighbours lie on two lines.
     for (std::size_t i = 0; i < 3; ++i) l[i][i] += 1e-3 * moments_[3][3] + 1e-12;
     for (std::size_t i = 0; i < terms; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -63,7 +66,7 @@ class Quadratic {
   std::array<double, terms> products_{};
 };
 
-// Returns the slope at the point `centre` of the quadratic through this point that best fits the neighbours;
+// Returns the slope at the point `centre` of the quadratic through it that best fits the neighbours;
 // `fallback` if there are too few neighbours.
 Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
                   const Vec2& fallback) {
@@ -82,8 +85,8 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
   return slope.allFinite() ? slope : fallback;
 }
 
-// Returns the barycentric weights of a place in the triangle a, b, s. If the place lies outside or the
-// triangle is too thin, returns the weights of the nearest place on the side a-b.
+// Returns the barycentric weights of `place` in the triangle a, b, s. If `place` is outside or the triangle
+// is too thin, returns the weights of the nearest point on the side a-b.
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
   const Vec2 side = b - a;
   const Vec3 areas =
@@ -94,15 +97,16 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
   return {1 - share, share, 0};
 }
 
-// Returns how much the slope in the middle of an edge differs from the mean of the slopes at its ends;
-// `change` is the slope at the second end less that at the first. The heights along the edge give one
-// component. For the other, the slope is taken to lie on the line through the slopes of the ends, because
-// most surfaces bend in one direction more than in the other. Bends across rows of points then do not depend
-// on the triangles between the rows.
+// Returns the difference between the slope at the midpoint of an edge and the mean of the slopes at its ends.
+// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine
+// one component. The other follows from the assumption that the slope lies on the line through both end
+// slopes, because most surfaces bend mainly in one direction. So a bend across rows of points does not depend
+// on the triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
-  constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared
-  constexpr double most_share = 1.5;   // largest share of the change; larger ones are noise and count less
+  // Square of the least share of the change that counts as along the edge.
+  constexpr double least_along = .05;
+  constexpr double most_share = 1.5;  // shares much larger than this are noise, and are reduced
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
   const double change_along = change.dot(edge);
   const double divisor =
@@ -112,13 +116,14 @@ Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   return share / (1 + excess * excess) * change;
 }
 
-// Returns the middle Bezier point of a third. With it, the slope in the middle of the edge a-b deviates from
-// the mean of the slopes at its ends by middle_deviation().
+// Returns the middle Bezier point of a third. With it, the slope at the midpoint of the edge a-b deviates
+// from the mean of the end slopes by middle_deviation().
 template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
   const Vec2 edge = b - a;
-  const double foot = (s - a).dot(edge) / edge.squaredNorm();  // where s projects onto the edge
+  // Position of the projection of s onto the edge.
+  const double foot = (s - a).dot(edge) / edge.squaredNorm();
   const double along_a = -(1 - foot), along_b = -foot;
   const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;
   const double across = middle_deviation(t, edge, change).dot(s - a - foot * edge) / 3;
@@ -138,12 +143,12 @@ struct SmoothSurface::Fan {
   std::span<const Index> triangles;
   std::vector<Vec2>& slopes;
   Vec2 mean = Vec2::Zero();
-  bool is_closed = false;  // whether they enclose the point
+  bool is_closed = false;  // whether the triangles enclose the point
 };
 
-// Limits a slope to the range of the triangles' slopes, or a little beyond: slopes from the other side of a
-// bend would make the surface swing to and fro beside it. Where the triangles do not enclose the point, the
-// slope may be farther beyond, because it is extrapolated there.
+// Limits a slope to slightly more than the range of the triangles' slopes. Slopes from the other side of a
+// bend would make the surface oscillate beside it. If the triangles do not enclose the point, its slope is
+// extrapolated and may exceed the range further.
 Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   const double off = (slope - fan.mean).norm();
   if (!(off > 0)) return slope;
@@ -153,10 +158,10 @@ Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
 }
 
-// Returns a flag for each point that smooth triangles touch but do not enclose. Around an enclosed point each
-// neighbour follows the point in one triangle and precedes it in another.
+// Returns a flag for each point that smooth triangles touch but do not enclose. Around an enclosed point,
+// each neighbour comes after the point in one triangle and before it in another, so the sums below cancel.
 std::vector<std::uint8_t> SmoothSurface::open_points() const {
-  // Without scattering, the sums of different numbers would often be equal.
+  // Hashed, because plain indices would often cancel by chance.
   const auto scattered = [](Index i) { return i * 2654435761U ^ i * 2654435761U >> 15; };
   std::vector<Index> balance(points_.size(), 0);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -208,7 +213,7 @@ void SmoothSurface::find_slopes() {
   });
 }
 
-// Sets the slopes of the triangles, and their mean.
+// Computes the slopes of the triangles, and their mean.
 void SmoothSurface::measure(Fan& fan) const {
   fan.slopes.clear();
   double areas = 0;
@@ -222,13 +227,13 @@ void SmoothSurface::measure(Fan& fan) const {
   if (areas > 0) fan.mean /= areas;
 }
 
-// The Bezier points of the three cubics over a triangle; cubic i lies between the side opposite to corner i
-// and the centre.
+// The Bezier points of the three cubics over a triangle. Cubic i covers the third between the centre and the
+// side opposite to corner i.
 struct SmoothSurface::Element {
   std::array<Vec2, 3> corners;
   Vec2 centre;
   std::array<Third, 3> thirds;
-  std::array<double, 3> near_centre;  // on the lines from the corners to the centre
+  std::array<double, 3> near_centre;  // points next to the centre, on the lines to the corners
   double at_centre;
 };
 
@@ -269,7 +274,7 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
   }
   const Element e = element(t);
   const auto& p = e.corners;
-  // The place lies in the third opposite to the corner of least weight.
+  // `place` lies in the third opposite to the corner with the least weight.
   std::array<double, 3> weight;
   for (std::size_t k = 0; k < 3; ++k) weight[k] = cross(p[(k + 1) % 3] - place, p[(k + 2) % 3] - place);
   const auto i = static_cast<std::size_t>(std::ranges::min_element(weight) - weight.begin());
@@ -278,8 +283,9 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
                       weights_in(p[a], p[b], e.centre, place), {p[a], p[b], e.centre});
 }
 
-// Evaluates one cubic: six points of a quadratic, then three of a plane, which give height and slope. `inner`
-// are the cubic's Bezier points next to the centre, on the lines from a and b, and the one at the centre.
+// Evaluates one cubic by de Casteljau's algorithm: the cubic's points give six points of a quadratic, these
+// give three points of a plane, and the plane gives height and slope. `inner` are the cubic's Bezier points
+// next to the centre, on the lines from a and b, and the one at the centre.
 SmoothSurface::Sample SmoothSurface::de_casteljau(const Third& t, const Vec3& inner, const Vec3& share,
                                                   const std::array<Vec2, 3>& corners) {
   const double u = share.x(), v = share.y(), w = share.z();

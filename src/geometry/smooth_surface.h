@@ -9,32 +9,33 @@
 
 namespace relievo {
 
-// A surface that interpolates the heights of points over the plane. Its slope is continuous inside each
-// sheet, a set of triangles marked as smooth that share edges. Other triangles stay plane, so that the
-// surface has a crease along their edges. Each smooth triangle is a Clough-Tocher element of three cubics,
-// which reproduces quadratic surfaces. The slope at a point comes from the quadratic that fits the heights of
-// up to two rings of smooth triangles around the point. It is limited to the slopes of the triangles that the
-// point touches, or a little beyond.
+// A surface that interpolates the heights of points over the plane. `is_smooth` marks smooth triangles; sets
+// of them that are connected by edges form sheets. Inside a sheet the slope is continuous. Other triangles
+// stay plane, so the surface has creases along their edges. Each smooth triangle is a Clough-Tocher element
+// of three cubics, which reproduces quadratic surfaces. The slope at a point comes from a quadratic that is
+// fitted to up to two rings of smooth triangles around the point. It is limited to slightly more than the
+// range of the slopes of the triangles at the point.
 class SmoothSurface {
  public:
-  // The height and slope of the surface at a place.
+  // The height and slope of the surface at a position.
   struct Sample {
     double height = 0;
     Vec2 slope = Vec2::Zero();
   };
 
-  // Keeps views of the points and of the triangles, which are counter-clockwise; both must outlive the
-  // surface. `is_smooth` has a flag per triangle.
+  // Keeps views of the points and the counter-clockwise triangles; both must outlive the surface. `is_smooth`
+  // has a flag per triangle.
   SmoothSurface(std::span<const Vec3> points, std::span<const Triangle> triangles,
                 std::span<const std::uint8_t> is_smooth);
 
-  // Returns the height and slope of triangle `t` at a place in it, or near it.
+  // Returns height and slope at `place`, which must be in triangle `t` or near it.
   Sample at(Index t, const Vec2& place) const;
 
  private:
   // Bezier points of a third of a triangle, between two corners a, b and the centre s.
   struct Third {
-    double a, b, ab, ba, as, bs, abs;  // ab is near a on the side to b, abs in the middle of the third
+    // ab is the point next to a on the side a-b; abs is the middle point of the third.
+    double a, b, ab, ba, as, bs, abs;
   };
   struct Element;
   struct Fan;
@@ -50,7 +51,7 @@ class SmoothSurface {
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   std::span<const std::uint8_t> is_smooth_;
-  std::vector<Vec2> slopes_;  // per point; 0 at points of no smooth triangle
+  std::vector<Vec2> slopes_;  // per point; 0 if the point is in no smooth triangle
 };
 
 }  // namespace relievo

@@ -11,13 +11,13 @@
 namespace relievo {
 namespace {
 
-// Returns a node of the refined lattice: at even places from three nodes of the coarser lattice, at odd
-// places from two (section 4).
+// Returns a node of the refined lattice: from three nodes of the coarser lattice at even positions, from two
+// at odd positions (section 4).
 float halved(const float* node, bool is_even) {
   return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
 }
 
-// Returns the same as cubic_basis() with each value twice, for functions whose nodes are interleaved.
+// Returns the values of cubic_basis(), each one twice, for splines whose nodes are interleaved.
 RELIEVO_INLINE Float8 basis_of(Float8 t) {
   const Float8 c0{1 / 6.F, 1 / 6.F, 4 / 6.F, 4 / 6.F, 1 / 6.F, 1 / 6.F, 0, 0},
       c1{-.5F, -.5F, 0, 0, .5F, .5F, 0, 0}, c2{.5F, .5F, -1, -1, .5F, .5F, 0, 0},
@@ -60,7 +60,7 @@ MultilevelSpline::MultilevelSpline(std::span<const Vec2> sites, std::span<const 
   const auto cells = [&](double length) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(std::ldexp(length / options.cell, -coarsest))));
   };
-  // All lattices consist of whole cells of the coarsest one, so that each lattice refines the one before
+  // All lattices cover whole cells of the coarsest one, so that each lattice refines the previous one
   // exactly.
   const Vec2 size = max_ - min_;
   levels_.resize(static_cast<std::size_t>(options.levels));
@@ -83,7 +83,7 @@ MultilevelSpline::Position MultilevelSpline::locate(const Level& level, const Ve
           static_cast<float>(at.y() - static_cast<double>(row))};
 }
 
-// Precomputes the parts of a level's fit that do not depend on the values: the basis functions at each site
+// Precomputes the parts of a level's fit that do not depend on the values: the basis functions at each site,
 // and the sum of the weights around each node.
 void MultilevelSpline::prepare(Level& level, std::span<const Vec2> sites, double damping) const {
   std::vector<double> weight(level.columns * level.rows, damping);
@@ -127,7 +127,8 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
   function.mean = total_weight_ > 0 ? static_cast<float>(sum / total_weight_) : 0;
   for (std::size_t i = 0; i < values.size(); ++i) workspace.rest[i] = values[i] - function.mean;
   std::fill(function.nodes.begin(), function.nodes.end(), 0.F);
-  // Each level fits the residual of the coarser ones, refined to its own lattice (section 4).
+  // Each level fits the residual of the coarser ones (section 4). Their sum is refined to the level's lattice
+  // first.
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) refine(levels_[i - 1], function.nodes, workspace.coarser);
     if (!levels_[i].sites.empty()) correct(levels_[i], function.nodes, workspace);
@@ -137,7 +138,7 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
 void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, std::vector<float>& copy) {
   std::copy_n(nodes.begin(), coarse.columns * coarse.rows, copy.begin());
   const std::size_t columns = 2 * coarse.columns - 3, rows = 2 * coarse.rows - 3;
-  // The first node lies one cell outside the domain, at an odd place of the finer lattice.
+  // The first node lies one cell outside the domain, at an odd position of the finer lattice.
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       const float* node = copy.data() + (r / 2) * coarse.columns + c / 2;

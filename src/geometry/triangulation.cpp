@@ -1,9 +1,9 @@
-// Incremental construction. Points are inserted one by one, coarse samples first, each round along a Hilbert
-// curve, so that the triangle that contains a point is a few steps from the previous one. After each
-// insertion edges are flipped until all circles are empty again (C. L. Lawson, "Software for C1 Surface
-// Interpolation", 1977).
+// Incremental construction. Points are inserted one by one, coarse samples first, and within each round along
+// a Hilbert curve. So the triangle that contains a point is only a few steps from the previous one. After
+// each insertion edges are flipped until all circumcircles are empty again (C. L. Lawson, "Software for C1
+// Surface Interpolation", 1977).
 //
-// The outside consists of ghost triangles, one on each hull edge, which meet in a vertex at infinity. The
+// Outside the hull there are ghost triangles, one on each hull edge, with a common vertex at infinity. The
 // circle of a ghost is the open half-plane outside its edge, plus the edge itself. Triangles and ghosts
 // together form a closed surface, so that the hull needs no special cases: a point outside or on a hull edge
 // is inserted like any other.
@@ -54,10 +54,9 @@ bool DelaunayBuilder::start() {
   return true;
 }
 
-// Returns a half-edge of the triangle that contains p inside or on its border, or of the ghost at a hull edge
-// that has p strictly outside. In a Delaunay triangulation the walk never returns to a triangle: the power of
-// p with respect to the circles decreases with each step, and triangles with a common circle are linked as a
-// tree.
+// Returns a half-edge of a triangle that has p inside or on its border, or of a ghost whose hull edge has p
+// strictly outside. In a Delaunay triangulation the walk never returns to a triangle: the power of p with
+// respect to the circles decreases with each step, and triangles with a common circle are linked as a tree.
 Index DelaunayBuilder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
@@ -85,7 +84,7 @@ Index DelaunayBuilder::vertex_at(const Vec2& p, Index e) const {
 }
 
 // Returns whether p is strictly inside the circle of e's triangle. For a ghost, returns whether p is in the
-// open half-plane or on the open edge.
+// open half-plane or in the interior of the edge.
 bool DelaunayBuilder::circle_contains(Index e, const Vec2& p) const {
   const Index a = edges_[e].origin, b = edges_[next(e)].origin, c = edges_[previous(e)].origin;
   if (a != infinity && b != infinity && c != infinity) {
@@ -97,8 +96,8 @@ bool DelaunayBuilder::circle_contains(Index e, const Vec2& p) const {
   return side > 0 || (side == 0 && (p - from).dot(p - to) < 0);
 }
 
-// Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one triangle is
-// flat. The flips remove it, because p is inside the circle beyond that side.
+// Splits e's triangle into three triangles with the common corner p. Returns slot 0 of one of them. If p is
+// on a side, one of the three is flat. Flips remove it, because p is inside the circle on the other side.
 Index DelaunayBuilder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
@@ -114,8 +113,8 @@ Index DelaunayBuilder::split(Index e, Index p) {
   return t;
 }
 
-// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), where d is the corner beyond it. The new
-// triangles are (a, d, p) and (d, b, p).
+// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), where d is the opposite corner in the
+// neighbour. The new triangles are (a, d, p) and (d, b, p).
 void DelaunayBuilder::flip(Index e) {
   const Index t = e, f = edges_[e].twin, u = f & ~Index{3};
   const Index b = edges_[f].origin, d = edges_[previous(f)].origin, p = edges_[t + 2].origin;
@@ -144,7 +143,7 @@ bool DelaunayBuilder::insert(Index p) {
     return false;
   }
   e = split(e, p);
-  const Index first = edges_[e].origin;  // stays a neighbour of p, so that the round ends
+  const Index first = edges_[e].origin;  // remains a neighbour of p, so the loop ends
   do {
     while (circle_contains(edges_[e].twin, position)) flip(e);
     e = next_around(e);
@@ -154,7 +153,7 @@ bool DelaunayBuilder::insert(Index p) {
   return true;
 }
 
-// Returns each triangle's number in the result, no_index for ghosts.
+// Returns each triangle's index in the result; no_index for ghosts.
 std::vector<Index> DelaunayBuilder::number_triangles() const {
   std::vector<Index> numbers(edges_.size() / 4);
   Index count = 0;
@@ -172,7 +171,7 @@ void DelaunayBuilder::append_triangle(Index t, const std::vector<Index>& numbers
   to.neighbours.push_back(neighbours);
 }
 
-// Goes around the vertex at infinity, from ghost to ghost.
+// Visits the ghosts around the vertex at infinity.
 std::vector<Index> DelaunayBuilder::hull() const {
   std::vector<Index> vertices;
   Index e = 0;
@@ -207,8 +206,8 @@ Triangulation delaunay(std::span<const Vec2> points) {
   DelaunayBuilder builder(sorted, order);
   if (!builder.start()) return {};
 
-  // Inserts every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even
-  // sample. The order of the curve alone would build long slivers first, which cost many flips where points
+  // Inserts every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on. Each round refines an even
+  // sample. The order of the curve alone would create long slivers first, which cost many flips if the points
   // lie on few lines.
   std::size_t step = 1, coarser = points.size();
   while (step * 4 < points.size()) step *= 4;

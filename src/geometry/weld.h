@@ -11,22 +11,22 @@
 namespace relievo {
 
 namespace detail {
-// Returns a coordinate's bits; adding 0 turns -0 into 0.
+// Returns a coordinate's bits. Adding 0 turns -0 into 0.
 inline std::uint64_t bits_of(double coordinate) {
   return std::bit_cast<std::uint64_t>(coordinate + 0.0);
 }
 }  // namespace detail
 
-// A hash table of the numbers of distinct points, which the caller stores. Points coincide if their
-// coordinates have the same bits, where 0 and -0 are the same.
+// A hash table of the indices of distinct points. The caller stores the points. Points coincide if their
+// coordinates have the same bits; 0 and -0 count as the same.
 class PointTable {
  public:
-  // `expected` is the number of different points to expect; more points make the table grow.
+  // `expected` is the expected number of distinct points; with more points the table grows.
   explicit PointTable(std::size_t expected);
 
-  // Returns a hash in which each coordinate changes all high bits. These determine the slot in the table.
+  // Returns a hash in which each coordinate affects all high bits, which determine the slot in the table.
   static std::uint64_t hash_of(const Vec3& point) {
-    constexpr std::uint64_t factor = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
+    constexpr std::uint64_t factor = 0x9E3779B97F4A7C15;  // 2^64 divided by the golden ratio
     std::uint64_t hash = 0;
     for (int c = 0; c < 3; ++c) {
       hash = (hash ^ detail::bits_of(point[c])) * factor;
@@ -35,18 +35,18 @@ class PointTable {
     return hash * factor;
   }
 
-  // Requests the memory in which a point with that hash is found. The table is larger than caches are, so
-  // reading it for one point at a time would wait for memory most of the time.
+  // Prefetches the slot of a point with that hash. The table is larger than caches, so reads without
+  // prefetching would mostly wait for memory.
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash >> shift_]); }
 
-  // Returns the number of the point in the table that coincides with `point`. Without such a point, adds
-  // `point` as number `next` and returns `next`. points[i] must be the point that was added as number i, also
-  // for `next`.
+  // Returns the index of the point in the table that coincides with `point`. If there is none, adds `point`
+  // with index `next` and returns `next`. points[i] must be the point with index i, also for `next`.
   Index find_or_add(const Vec3& point, std::uint64_t hash, const Vec3* points, Index next);
 
  private:
   struct Slot {
-    std::uint32_t check;  // bits of the hash, which distinguish most points without reading their coordinates
+    // Bits of the hash; most differing points differ in them, so their coordinates need not be read.
+    std::uint32_t check;
     Index number;
   };
 
@@ -54,15 +54,15 @@ class PointTable {
   void grow(const Vec3* points);
 
   std::vector<Slot> slots_;
-  int shift_ = 0;  // number of low bits of a hash, which do not determine the slot
+  int shift_ = 0;  // number of low bits of a hash that are not used for the slot
   std::size_t used_ = 0;
 };
 
-// Calls resolve(i, hash) for each i of [0, n), in order, where point(i) is a point and `hash` its hash. The
-// table's memory is requested a few points ahead.
+// Calls resolve(i, hash) for each i in [0, n), in order; `hash` is the hash of point(i). Slots are prefetched
+// several points ahead.
 template <typename Point, typename Resolve>
 void for_each_hashed(const PointTable& table, std::size_t n, const Point& point, const Resolve& resolve) {
-  constexpr std::size_t ahead = 32;  // fastest of 8 to 64, measured with 3 million corners of an STL file
+  constexpr std::size_t ahead = 32;  // fastest of 8 to 64 for 3 million corners of an STL file
   std::uint64_t hashes[ahead];
   for (std::size_t i = 0; i < n + ahead; ++i) {
     if (i >= ahead) resolve(i - ahead, hashes[i % ahead]);
@@ -72,16 +72,16 @@ void for_each_hashed(const PointTable& table, std::size_t n, const Point& point,
   }
 }
 
-// Returns for each point the lowest number of a point with exactly the same coordinates.
+// Returns for each point the lowest index of a point with exactly the same coordinates.
 std::vector<Index> first_coincident(std::span<const Vec3> points);
 
-// The used points of a mesh and their new numbers.
+// The used points of a mesh and their new indices.
 struct UsedPoints {
-  std::vector<Index> points;      // the old numbers of the used points, ascending
-  std::vector<Index> new_number;  // per old point, its position in `points`; no_index if it is not used
+  std::vector<Index> points;      // old indices of the used points, ascending
+  std::vector<Index> new_number;  // per old point: its position in `points`; no_index if it is unused
 
-  // Returns the elements of the used points, given one element per old point; an empty array for an empty
-  // one.
+  // Returns the elements of the used points. `old` has an element per old point, or is empty; then so is the
+  // result.
   template <typename T>
   std::vector<T> pick(const std::vector<T>& old) const {
     std::vector<T> picked;
@@ -92,11 +92,11 @@ struct UsedPoints {
   }
 };
 
-// Renumbers the corners of triangles over `point_count` points: only used points get numbers, in their old
+// Renumbers the corners of triangles over `point_count` points. Only used points get indices, in their old
 // order.
 UsedPoints compact(std::size_t point_count, std::span<Triangle> triangles);
 
-// Removes the points of a mesh, and their colours, that no triangle uses.
+// Removes the points that no triangle uses, and their colours.
 template <typename AnyMesh>
 UsedPoints drop_unused(AnyMesh& mesh) {
   UsedPoints used = compact(mesh.points.size(), mesh.triangles);
@@ -105,10 +105,10 @@ UsedPoints drop_unused(AnyMesh& mesh) {
   return used;
 }
 
-// Returns for each of `point_count` points whether a triangle uses it.
+// Returns, for each of `point_count` points, whether a triangle uses it.
 std::vector<std::uint8_t> used_points(std::size_t point_count, std::span<const Triangle> triangles);
 
-// Returns the box of the points that triangles use.
+// Returns the bounding box of the points that triangles use.
 Box used_box(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace relievo

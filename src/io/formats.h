@@ -1,5 +1,5 @@
-// All known file formats: the supported ones, and others that errors can name. A new format needs a source
-// file, which defines the two functions declared here, and a row in `formats`.
+// All known file formats: supported formats, and others that errors can name. A new format needs a source
+// file that defines the two functions declared here, and an entry in `formats`.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace relievo::io {
 
-// Return true if the content, or else the name, shows that the file has this format. `source` may be only the
-// beginning of a file.
+// Return whether the content or, if that is not decisive, the name shows that the file has this format.
+// `source` may be only the beginning of a file.
 bool is_ply(const Source& source);
 bool is_pcd(const Source& source);
 bool is_laz(const Source& source);
@@ -31,37 +31,40 @@ bool is_text(const Source& source);
 // Return the content of a file, with as many points as the file has. Errors: kind input. These parts of the
 // formats are read:
 //
-// - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
-//   order, among any other properties and elements. Of the other elements, `face` and `tristrips` are read,
-//   before or after the vertices. Each ascii row begins on a new line.
-//   Vertices with opacity, f_dc, scale and rot are Gaussian splats: f_dc gives their colours, and points of
-//   splats that are less than half opaque are left out. The splats of a .splat file are read likewise.
-// - OBJ: v, also with colours, vn and f. The normal of a vertex is the mean of the normals with which faces use it. If no
-//   face refers to any, it is the vn with the same index. Faces may refer to normals that are missing. Vertices
-//   without colours have those of map_Kd, a picture that is read as depths, too.
-// - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
+// - PLY: ascii, binary little-endian and big-endian; x y z, nx ny nz and red green blue of any numeric type,
+// in any order, among any other properties and elements. Of the other elements, `face` and `tristrips` are
+// read, before or after the vertices. Each ascii row begins on a new line.
+//   Vertices with opacity, f_dc, scale and rot are Gaussian splats. f_dc determines their colours; splats
+//   that are less than half opaque are left out. The splats of a .splat file are read in the same way.
+// - OBJ: v (also with colours), vn and f. The normal of a vertex is the mean of the normals that faces give
+// it. If no face refers to any normal, it is the vn with the same index. Faces may refer to missing normals.
+// Vertices without colours get those of map_Kd, whose picture may have any format that is read as depths.
+// - STL, binary and ascii: coincident corners are merged; the file's normals are ignored.
 // - OFF, text and binary, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
-//   scene, transformed by its nodes or posed by their skins; without nodes, of all meshes. Vertices without
-//   colours have those of the texture of base colours. Numbers may be quantised, and
-//   compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
-// - 3MF: the meshes of the build, moved by its transforms and those of components, with the colours of base
-//   materials and colour groups, but without textures. This is the document in the archive, and other documents
-//   beside it.
-// - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y
-//   normal_z and rgb.
-// - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS
-//   compressed by LASzip 2 or later. Points of the classes 7 and 18 (noise) and withheld points are left out.
-// - E57: all scans that have coordinates, moved by their poses, of cartesian or spherical coordinates; with colours and normals if
-//   all scans have them. Points that the file marks as invalid are NaN. Every checksum must be right.
+// scene, transformed by its nodes or posed by their skins; without nodes, those of all meshes. Vertices
+// without colours get those of the base colour texture. Numbers may be quantised, and compressed by
+// EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
+// - 3MF: the meshes of the build, transformed as the build and components specify, with the colours of base
+// materials and colour groups, but without textures. The file is the XML document in the archive; other
+// documents are found beside it.
+// - PCD: ascii (also with commas between the numbers), binary and binary_compressed; x y z, normal_x normal_y
+// normal_z and rgb.
+// - LAS 1.0 to 1.5, with colours. A file with fewer points than promised is read to its end. LAZ, which is
+// LAS compressed by LASzip 2 or later. Points of the classes 7 and 18 (noise) and withheld points are left
+// out.
+// - E57: all scans with cartesian or spherical coordinates, transformed by their poses; with colours and
+// normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
+// right.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
-//   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
-//   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
-//   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //) and a line of column names, which then
-//   decide. Other columns may contain anything. Numbers have a decimal point, or a decimal comma if
-//   semicolons separate them; they may be in quotation marks. Two columns of whole numbers before three of
-//   fractions are a scanner's rows and columns, and x y z come third.
-// - PTX: all scans, moved by their matrices. Points at 0 0 0 of their scanner are not measured.
+// first. Three columns that are unit vectors in nine of ten rows are normals. Three columns of whole numbers
+// from 0 to 255, or of fractions from 0 to 1, are colours. Comments (#, //) are allowed. A first line may
+// state the number of points: there may be more, but not fewer; in PTS another number and its points may
+// follow. A line of column names, if any, determines the columns. Other columns may contain anything. Numbers
+// have a decimal point, or a decimal comma if semicolons separate them; they may be in quotation marks. Two
+// columns of whole numbers before three columns of fractions are a scanner's row and column; x y z begin in
+// the third column.
+// - PTX: all scans, transformed by their matrices. Points at 0 0 0 of their scanner are not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_laz(const Source& source);
@@ -85,15 +88,16 @@ Result<StreamRecords> find_las_rows(const Source& head);
 enum class Content { points, triangles, both };
 
 struct Format {
-  std::string_view name;     // shown to people
+  std::string_view name;     // name for messages
   std::string_view endings;  // endings of file names, separated by blanks
   Content content;
   bool (*is_format)(const Source&);
   Result<RawCloud> (*read)(const Source&);
-  Result<StreamRecords> (*find_rows)(const Source& head) = nullptr;  // null if files are always read whole
+  // Null if files are always read as a whole.
+  Result<StreamRecords> (*find_rows)(const Source& head) = nullptr;
 };
 
-// The first row that recognises a file reads it, so formats with a mark in their content come first, and text
+// The first entry that recognises a file reads it. Formats with a mark in their content come first, and text
 // of numbers, which may begin with anything, comes last.
 inline constexpr std::array formats = {
     Format{"PLY", ".ply", Content::both, is_ply, read_ply, find_ply_rows},
@@ -110,14 +114,15 @@ inline constexpr std::array formats = {
     Format{"PTX", ".ptx", Content::points, is_ptx, read_ptx},
     Format{"XYZ, PTS", ".xyz .pts .txt .csv .asc", Content::points, is_text, read_text}};
 
-// An unsupported format that errors can name, with a way out for pictures.
+// An unsupported format that errors can name, and what users can do instead.
 struct ForeignFormat {
-  std::string_view mark;  // text in the content, or the ending of the name
-  std::string_view what;  // shown to people
-  std::size_t at = 0;     // place of the mark in the content
+  std::string_view mark;  // text in the content, or ending of the name
+  std::string_view what;  // for messages
+  std::size_t at = 0;     // position of the mark in the content
 };
 
-// Formats that the ending of the name shows better than the content, which is often that of an archive.
+// Formats that are recognised by the ending of the name, because their content is often only recognisable as
+// an archive.
 inline constexpr std::array foreign_names = {
     ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
     ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},
@@ -180,17 +185,17 @@ inline constexpr std::array foreign_endings = {
     ForeignFormat{".raw", "numbers or a photo without a header; save heights as NPY or TIFF, a photo as PNG"},
     ForeignFormat{".ply", "a file that does not begin with the line 'ply'"}};
 
-// Returns a description, such as "a ZIP archive", of a file in an unsupported format or of unknown binary
-// data. Empty for text that does not begin like such a format.
+// Returns a description, such as "a ZIP archive", of a file in an unsupported format or with unknown binary
+// data. Returns no description for text that does not begin like such a format.
 std::string foreign_format(const Source& source);
 
-// Returns the names of the formats with that content: "PLY, PCD, LAS".
+// Returns the names of the formats with that content, such as "PLY, PCD, LAS".
 std::string format_names(Content content);
 
-// Returns the names of the formats of pictures: "PNG, TIFF".
+// Returns the names of the picture formats, such as "PNG, TIFF".
 std::string picture_names();
 
-// Returns the names of the formats that can be read row by row: "PLY, PCD or LAS".
+// Returns the names of the formats that can be read row by row, such as "PLY, PCD or LAS".
 std::string row_format_names();
 
 }  // namespace relievo::io

@@ -26,7 +26,8 @@ Decode decoder(NumberType type) {
   return all[static_cast<std::size_t>(type)];
 }
 
-constexpr std::size_t block = 1024;  // rows decoded at a time: their columns stay in the cache
+// Number of rows decoded at a time, so that their columns stay in the cache.
+constexpr std::size_t block = 1024;
 
 using Values = std::array<std::array<double, block>, 3>;
 

@@ -1,5 +1,5 @@
 // Decodes columns of binary numbers to double, and points in rows of equal size, as in binary PLY, PCD and
-// LAS. Any block of such rows can be decoded separately.
+// LAS. Rows can be decoded independently of each other.
 #pragma once
 
 #include <array>
@@ -22,20 +22,20 @@ enum class NumberType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32
 
 std::size_t size_in_bytes(NumberType type);
 
-// Returns the whole number from 0 to 255 that is nearest to the value; 0 for a NaN.
+// Returns the integer from 0 to 255 that is nearest to the value; 0 for NaN.
 std::uint8_t as_byte(double value);
 
-// Returns colours as bytes. The largest value determines their range: 1, 255 or 65535. Returns no colours if
-// the largest value exceeds 65535.
+// Returns colours as bytes. Their range is 1, 255 or 65535, the least that contains the largest value.
+// Returns no colours if the largest value exceeds 65535.
 std::vector<Colour> colours_in_bytes(const std::vector<Vec3f>& values);
 
-// Decodes `rows` values that are `stride` bytes apart.
+// Decodes `rows` values at a distance of `stride` bytes.
 using Decode = void (*)(const char* first, std::size_t stride, std::size_t rows, double* values);
 
 Decode decoder(NumberType type, bool is_big_endian);
 
-// Returns the number of type T at `from`, which need not be aligned, in the machine's byte order or in the
-// opposite one.
+// Returns the number of type T at `from`, which need not be aligned. Its bytes are in the machine's order or,
+// if `is_swapped`, in the opposite one.
 template <typename T, bool is_swapped>
 T number_at(const char* from) {
   using Sizes = std::tuple<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>;
@@ -57,44 +57,43 @@ struct RecordColumn {
   double scale = 1, shift = 0;  // the value is scale * number + shift
 };
 
-// States which rows are points that do not count, as the file itself says.
+// Decides which rows are left out, according to the file.
 struct LeftOutRows {
   std::function<bool(const char* row)> is_left_out;
-  std::string_view which;  // for people: "that the file marks as noise"
+  std::string_view which;  // for messages, such as "that the file marks as noise"
 };
 
 struct Records {
   std::uint64_t offset = 0;  // offset of the first row in the file
   std::uint64_t count = 0;   // number of rows
-  std::size_t stride = 0;    // bytes from row to row
+  std::size_t stride = 0;    // distance between rows in bytes
   bool is_big_endian = false;
   std::array<RecordColumn, 3> position;
   std::optional<std::array<RecordColumn, 3>> normal, colour;  // colours scaled to [0, 255]
   std::optional<LeftOutRows> left_out;                        // the points of these rows become NaN
 };
 
-// The rows of a file that can be read piece by piece.
+// The location of rows that can be read in blocks.
 struct StreamRecords {
   Records records;
-  std::string format;              // shown to people
-  std::uint64_t faces = 0;         // faces of a mesh, which are not read
-  bool may_end_early = false;      // a file with fewer rows than promised is read up to its end
-  std::uint64_t missing_rows = 0;  // rows that are missing because the file ends early
+  std::string format;              // for messages
+  std::uint64_t faces = 0;         // number of faces of a mesh, which are not read
+  bool may_end_early = false;      // true if a file with fewer rows than promised is read to its end
+  std::uint64_t missing_rows = 0;  // number of rows missing at the end of the file
 };
 
-// Returns a cloud of `points` points, with normals and colours if the records have them; all values are
-// unset.
+// Returns a cloud of `points` uninitialised points, with normals and colours if the records have them.
 Cloud sized_cloud(const Records& records, std::size_t points);
 
-// Decodes `rows` rows, which start at `first`, into the cloud from point `begin` on. Normals are as
-// unit_normal() returns them.
+// Decodes `rows` rows at `first` into the cloud, from point `begin` on. Normals are normalised as by
+// unit_normal().
 void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
                  std::size_t begin);
 
-// Returns the number of rows whose points do not count.
+// Returns the number of rows that are left out.
 std::size_t count_left_out(const Records& records, const char* first, std::size_t rows);
 
-// Decodes all rows, which start at `first`, concurrently.
+// Decodes all rows, concurrently. `first` points to the first row.
 Cloud decode_all(const Records& records, const char* first);
 
 }  // namespace relievo::io

@@ -26,14 +26,14 @@ class ObjReader {
       const std::string_view keyword = words.next();
       if (keyword == "v") RELIEVO_CHECK(take_vertex(words));
       if (keyword == "vn") RELIEVO_CHECK(take_vector(words, normals_));
-      if (keyword == "f" || keyword == "fo") RELIEVO_CHECK(take_face(words));  // fo: an old name of f
+      if (keyword == "f" || keyword == "fo") RELIEVO_CHECK(take_face(words));  // fo is an old name of f
       if (keyword == "vt") textures_.take_coordinates(words);
       if (keyword == "mtllib") textures_.take_libraries(rest_of(keyword));
       if (keyword == "usemtl") textures_.take_material(rest_of(keyword));
       if (keyword == "curv" || keyword == "curv2" || keyword == "surf") take_curve();
     }
     if (points_.empty()) return lines_.fail_at_end("lines 'v x y z'");
-    // The points of a file of curves alone only control them, and need not lie on them.
+    // The points of a file that has only curves are control points, and need not lie on the curves.
     if (curves_ > 0 && corners_.empty())
       return lines_.source().error_in_line(first_curve_line_,
                                            "expected faces, found curves or surfaces, which are not read; "
@@ -51,7 +51,7 @@ class ObjReader {
   }
 
  private:
-  // Reads the next line, together with the lines that follow a backslash at its end.
+  // Reads the next line. A line that ends with a backslash is joined with the following line.
   bool next_line() {
     const auto line = lines_.next();
     if (!line) return false;
@@ -67,7 +67,7 @@ class ObjReader {
     return true;
   }
 
-  // Returns the line after its keyword. A name there may contain blanks.
+  // Returns the line without its keyword. It is a name that may contain blanks.
   std::string_view rest_of(std::string_view keyword) const {
     const std::string_view line = trim(before_comment(line_));
     return trim(line.substr(keyword.size()));
@@ -86,7 +86,7 @@ class ObjReader {
     return {};
   }
 
-  // Reads a vertex with the colour that may follow its coordinates. A single number there is a weight.
+  // Reads a vertex, and the colour that may follow its coordinates. A single number there is a weight.
   Result<void> take_vertex(Words& words) {
     RELIEVO_CHECK(take_vector(words, points_));
     Vec3f colour;
@@ -112,7 +112,7 @@ class ObjReader {
       corners_.push_back({*vertex, no_index});
       if (*vertex < points_.size()) textures_.take_corner(*vertex, word.substr(slash));
       const std::size_t second = word.find('/', slash + 1);
-      if (second >= word.size() - 1) continue;  // no normal: "1", "1/2" and "1/2/"
+      if (second >= word.size() - 1) continue;  // corners without normal: "1", "1/2" and "1/2/"
       const auto normal = resolve(word.substr(second + 1), normals_.size());
       if (!normal) return fail("expected the number of a normal, found " + in_quotes(word));
       corners_.back().normal = *normal;
@@ -121,7 +121,7 @@ class ObjReader {
     return {};
   }
 
-  // Converts an index counted from 1, or backwards from -1, to one counted from 0.
+  // Converts an index that counts from 1, or backwards from -1, to one that counts from 0.
   static std::optional<Index> resolve(std::string_view word, std::size_t defined) {
     std::int64_t index = parse_integer(word).value_or(0);
     if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
@@ -129,7 +129,7 @@ class ObjReader {
     return static_cast<Index>(index - 1);
   }
 
-  // This check comes last because faces may precede their vertices.
+  // This check comes last, because faces may precede their vertices.
   Result<void> check_vertices() const {
     if (corners_.empty() || highest_vertex_ < points_.size()) return {};
     return lines_.source().error_in_line(
@@ -137,15 +137,15 @@ class ObjReader {
                            highest_vertex_ + std::size_t{1}));
   }
 
-  // Some programs refer to normals that they do not write. The geometry is complete without these normals.
+  // Some programs refer to normals that they do not write. The geometry is complete without them.
   void forget_missing_normals() {
     for (Corner& c : corners_)
       if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;
   }
 
-  // Returns one normal per point: the mean of the normals that face corners at this point refer to. If no
-  // corner refers to a normal, point i gets the file's normal i. If the file then does not have as many
-  // normals as points, the result is empty.
+  // Returns one normal per point: the mean of the normals of all face corners at this point. If no corner has
+  // a normal, point i gets the file's normal i, provided that the numbers of normals and points are equal;
+  // otherwise there are no normals.
   std::vector<Vec3f> point_normals() const {
     const bool has_named =
         std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
@@ -167,11 +167,11 @@ class ObjReader {
     if (!raw.cloud.has_colours()) textures_.add_colours(lines_.source(), raw);
   }
 
-  // Adds the triangles of the faces. If the cloud has normals, a corner without a normal gets the normal of
-  // its point.
+  // Adds the triangles of the faces. If the cloud has normals, corners without normal get the normal of their
+  // point.
   void add_mesh(RawCloud& raw) const {
     std::size_t begin = 0;
-    std::vector<Vec3> polygon;  // reused to keep its memory
+    std::vector<Vec3> polygon;  // outside the loop to reuse its memory
     for (const std::size_t end : face_ends_) {
       add_face_of(std::span(corners_).subspan(begin, end - begin), polygon, raw);
       begin = end;
@@ -180,7 +180,7 @@ class ObjReader {
     raw.mesh.points = raw.cloud.points;
     raw.mesh.colours = raw.cloud.colours;
     for (Vec3& point : raw.mesh.points)
-      if (!point.allFinite()) point = Vec3::Zero();  // no triangle uses it
+      if (!point.allFinite()) point = Vec3::Zero();  // no triangle uses this point
   }
 
   void add_face_of(std::span<const Corner> corners, std::vector<Vec3>& polygon, RawCloud& raw) const {
@@ -210,17 +210,17 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  std::vector<Vec3f> colours_;  // as in the file
+  std::vector<Vec3f> colours_;  // as written in the file
   std::size_t curves_ = 0, first_curve_line_ = 0;
-  std::vector<Corner> corners_;         // corners of all faces
-  std::vector<std::size_t> face_ends_;  // index after the last corner of each face
-  Index highest_vertex_ = 0;            // highest index in a face
-  std::size_t highest_line_ = 0;        // line of the face with this index
+  std::vector<Corner> corners_;         // all faces
+  std::vector<std::size_t> face_ends_;  // per face: index after its last corner
+  Index highest_vertex_ = 0;            // highest index of a vertex in a face
+  std::size_t highest_line_ = 0;        // line of the face with that index
 };
 
 }  // namespace
 
-// Recognises a text by its first word, because lines of OBJ begin with only a few different words.
+// Recognises a text by the first word of its lines, because OBJ has only few such words.
 bool is_obj(const Source& source) {
   if (!foreign_format(source).empty()) return false;
   if (has_ending(source.name, ".obj")) return true;

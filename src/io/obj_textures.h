@@ -1,4 +1,4 @@
-// The textures of an OBJ: its materials are in files beside it, and name pictures.
+// The textures of an OBJ file: materials are in files beside it, and refer to pictures.
 #pragma once
 
 #include <array>
@@ -12,17 +12,18 @@
 
 namespace relievo::io {
 
-// Collects the lines of an OBJ that concern textures, and gives a colour to every vertex.
+// Processes the lines of an OBJ that concern textures, and determines a colour per vertex.
 class ObjTextures {
  public:
   void take_coordinates(Words& words);          // vt
   void take_libraries(std::string_view names);  // mtllib
-  void take_material(std::string_view name);    // usemtl: the material of the faces that follow
-  // `vertex` has been read, and `word` is what follows it in a corner of a face, "/2/3". A vertex has the colour of its first
-  // corner with a texture.
+  void take_material(std::string_view name);    // usemtl: material of the following faces
+  // `vertex` is the vertex of a face's corner; `word` is the rest of the corner, such as "/2/3". A vertex
+  // gets the colour of its first corner that has a texture.
   void take_corner(Index vertex, std::string_view word);
 
-  // Adds the colours of the textures to the cloud, which has points but no colours, or says why it has none.
+  // Adds the colours of the textures to the cloud, which has points but no colours. If that is impossible,
+  // adds a remark with the reason.
   void add_colours(const Source& source, RawCloud& raw) const;
 
  private:
@@ -32,9 +33,9 @@ class ObjTextures {
   };
 
   std::vector<std::array<float, 2>> coordinates_;
-  std::vector<std::string> libraries_, materials_;  // materials by the order of their first use
-  std::size_t material_ = no_index;                 // of the faces that follow
-  std::vector<Use> uses_;                           // one for each vertex up to the last one with a texture
+  std::vector<std::string> libraries_, materials_;  // materials_ in the order of first use
+  std::size_t material_ = no_index;                 // material of the following faces
+  std::vector<Use> uses_;                           // per vertex, up to the last one with a texture
 };
 
 }  // namespace relievo::io

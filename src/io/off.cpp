@@ -1,5 +1,5 @@
-// Reads OFF, as text or binary: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a
-// vertex. The keyword may be missing.
+// Reads OFF, as text or binary: a keyword, three counts, vertices and faces. Prefixes of the keyword list the
+// properties of a vertex. The keyword may be missing.
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +12,7 @@
 namespace relievo::io {
 namespace {
 
-// The properties that follow the position of a vertex, according to the keyword [ST][C][N]OFF.
+// The properties after the position of a vertex, according to the keyword [ST][C][N]OFF.
 struct Kind {
   bool has_colours = false, has_normals = false, has_texture = false;
 };
@@ -52,7 +52,7 @@ class OffReader {
   }
 
  private:
-  // Returns the words of the next line that is not empty; no words at the end of the file.
+  // Returns the words of the next non-empty line; no words at the end of the file.
   Words next_row() {
     while (const auto line = lines_.next()) {
       const std::string_view text = trim(before_comment(*line));
@@ -62,8 +62,8 @@ class OffReader {
     return Words();
   }
 
-  // Returns the next word, of this line or a later one, because the format is free-form. If it comes from a
-  // later line, is_wrapped_ becomes true.
+  // Returns the next word of this line or, because the format is free-form, of a later line. In the latter
+  // case sets is_wrapped_.
   std::string_view next_word(Words& words) {
     std::string_view word = words.next();
     while (word.empty() && !is_at_end_) {
@@ -74,8 +74,8 @@ class OffReader {
     return word;
   }
 
-  // Further words in a line belong to properties that are not read. If the row was wrapped over several
-  // lines, however, they are an error.
+  // Further words in a line belong to properties that are not read. But they are an error if the row
+  // continues from an earlier line.
   Result<void> end_row(Words words) {
     const std::string_view word = words.next();
     const bool is_bad = std::exchange(is_wrapped_, false) && !word.empty();
@@ -125,7 +125,7 @@ class OffReader {
     return end_row(words);
   }
 
-  // Colour components are whole numbers up to 255, or fractions of 1 with a decimal point.
+  // Colour components are integers up to 255, or fractions of 1 with a decimal point.
   Result<void> take_colour(Words& words) {
     Colour colour;
     for (std::uint8_t& value : colour) {
@@ -160,8 +160,7 @@ class OffReader {
     return lines_.fail(expected_corners(corners_, cloud_.points));
   }
 
-  // Returns whether the words after a face may be another face. The words of a face's colour usually do not
-  // look like a face.
+  // Returns whether the words after a face look like another face. A face's colour usually does not.
   static bool is_face(Words words) {
     const auto length = parse_integer(words.next());
     std::int64_t corners = 0;
@@ -190,18 +189,18 @@ std::optional<Kind> binary_kind(std::string_view bytes) {
   return words.next() == "BINARY" ? kind : std::nullopt;
 }
 
-// Reads the numbers after the first line of a binary file: integers of 32 bits and floats, big-endian.
+// Reads the numbers after the first line of a binary file: big-endian 32-bit integers and floats.
 class BinaryOffReader {
  public:
   BinaryOffReader(const Source& source, const Kind& kind) : source_(source), kind_(kind) {
-    at_ = source.bytes.find('\n') + 1;  // 0 for a file of one line, which is too short anyway
+    at_ = source.bytes.find('\n') + 1;  // 0 for a file of a single line, which is too short anyway
   }
 
   Result<RawCloud> read() {
     RELIEVO_TRY(const std::size_t vertices, take_count("vertices"));
     RELIEVO_TRY(const std::size_t faces, take_count("faces"));
     RELIEVO_TRY(const std::size_t edges, take_count("edges"));
-    (void)edges;  // they follow from the faces
+    (void)edges;  // edges follow from the faces
     const Records records = rows_of(vertices);
     if (vertices > left() / records.stride)
       return fail(
@@ -246,7 +245,7 @@ class BinaryOffReader {
     return static_cast<std::size_t>(count);
   }
 
-  // A face is the number of its corners, the corners, and the number of its colour's components, which follow.
+  // A face is stored as: number of corners, corners, number of colour components, colour components.
   Result<void> take_face(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
     RELIEVO_TRY(const std::size_t length, take_count("corners"));
     if (length > left() / 4) return fail(cat("expected ", length, " corners, found ", left(), " bytes"));

@@ -1,4 +1,4 @@
-// Reads PCD 0.7 and earlier versions: ascii, binary, and binary_compressed (LZF, one field after the other).
+// Reads PCD 0.7 and earlier versions: ascii, binary, and binary_compressed (LZF, field by field).
 #include <lzf.h>
 
 #include <algorithm>
@@ -15,27 +15,27 @@
 namespace relievo::io {
 namespace {
 
-// The form in which a PCD file stores its points.
+// How a PCD file stores its points.
 enum class PcdData { ascii, binary, compressed };
 
 struct PcdHeader {
   PcdData data = PcdData::ascii;
   Records records;                       // layout of the points; ascii files use only `count`
   std::vector<std::size_t> field_sizes;  // bytes of each field of a point
-  std::size_t lines = 0;                 // lines of the header
-  // For ascii rows: the number of words, and the indices of the words to read.
+  std::size_t lines = 0;                 // number of lines of the header
+  // For ascii rows: the number of words, and the indices of the words that are read.
   std::size_t columns = 0;
   std::array<std::size_t, 3> position_columns = {}, normal_columns = {};
   std::size_t colour_column = 0;
-  bool is_colour_float = false;  // the colour is in the bits of the float, not in its value
+  bool is_colour_float = false;  // whether the bits of the float are the colour, instead of its value
 };
 
 struct Field {
   std::string_view name;
   std::size_t size = 4, count = 1;  // bytes per value; values per point
   char type = 'F';
-  std::size_t at = 0;      // byte within a row
-  std::size_t column = 0;  // number of its first value within a row
+  std::size_t at = 0;      // byte offset within a row
+  std::size_t column = 0;  // index of its first value within a row
 };
 
 class PcdHeaderReader {
@@ -72,7 +72,7 @@ class PcdHeaderReader {
     if (keyword == "HEIGHT") return take_count(words, height_);
     if (keyword == "POINTS") return take_count(words, points_);
     if (keyword == "DATA") return take_data(words.next());
-    // Some programs add lines of their own, whose keywords are in capitals, too.
+    // Some programs add lines of their own, whose keywords also consist of capitals.
     const auto is_capital = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; };
     if (std::ranges::all_of(keyword, is_capital)) return {};
     return lines_.fail("expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found " +
@@ -126,7 +126,8 @@ class PcdHeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // so the product fits
+    // Then the product does not overflow.
+    const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})
       return lines_.fail(cat("expected the number of points before DATA, up to 4294967294, found ",
@@ -204,7 +205,7 @@ class PcdHeaderReader {
     }
     const Field* colour = find("rgb") ? find("rgb") : find("rgba");
     if (!colour || colour->size != 4) return {};
-    // A colour is one number of 32 bits, 0x00RRGGBB, even if its type is float.
+    // A colour is a 32-bit number, 0x00RRGGBB, even if its type is float.
     using enum NumberType;
     records.colour = {{{uint8, colour->at + 2}, {uint8, colour->at + 1}, {uint8, colour->at}}};
     header_.colour_column = colour->column;
@@ -222,7 +223,7 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   SourceLines lines(source, header.records.offset, header.lines);
   Cloud cloud;
   std::vector<double> values(header.columns);
-  std::string spaced;  // a line without commas, which some programs put between numbers
+  std::string spaced;  // a line after replacing commas, which some programs write between numbers
   const auto vector = [&](const std::array<std::size_t, 3>& c) {
     return Vec3(values[c[0]], values[c[1]], values[c[2]]);
   };
@@ -257,8 +258,8 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   return cloud;
 }
 
-// Decompresses `in` to fill `out`. Returns false if the sizes do not match. Empty input is handled here,
-// because the library refuses it.
+// Decompresses `in` to fill `out`. Returns false if the sizes do not match. Handles empty input, which the
+// library refuses.
 bool unpack_lzf(std::string_view in, std::vector<char>& out) {
   if (in.empty() || out.empty()) return in.size() == out.size();
   const auto in_size = static_cast<unsigned>(in.size()), out_size = static_cast<unsigned>(out.size());
@@ -276,7 +277,7 @@ Result<Cloud> read_compressed(const Source& source, const PcdHeader& header) {
   if (packed > data.size() - 8)
     return source.error_at_byte(records.offset,
                                 cat("expected ", packed, " compressed bytes, found ", data.size() - 8));
-  const std::size_t most_growth = 264;  // LZF expands a byte to at most this many
+  const std::size_t most_growth = 264;  // a byte of LZF yields at most this many bytes
   if (size != records.count * records.stride || size / most_growth > packed)
     return source.error_at_byte(records.offset + 4, cat("expected ", records.count * records.stride,
                                                         " bytes of points, found ", size));

@@ -12,12 +12,12 @@ namespace {
 constexpr std::array<std::string_view, VertexColumns::most> column_names = {
     "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "opacity"};
 
-// The properties that only Gaussian splats have. The first three are colours.
+// The properties that only Gaussian splats have; the first three are colours.
 constexpr std::array<std::string_view, 10> splat_names = {"f_dc_0",  "f_dc_1", "f_dc_2", "scale_0", "scale_1",
                                                           "scale_2", "rot_0",  "rot_1",  "rot_2",   "rot_3"};
 
-// Returns the index of the property with that name, or else with that name in upper or lower case, such as X;
-// the number of properties if there is none.
+// Returns the index of the property with that name or, if there is none, with that name in another case, such
+// as X. Returns the number of properties if there is none, either.
 std::size_t find_property(const PlyElement& element, std::string_view name) {
   const auto& all = element.properties;
   auto found = std::ranges::find(all, name, &PlyProperty::name);
@@ -40,8 +40,8 @@ bool is_number(const PlyElement& element, std::size_t property) {
   return property < element.properties.size() && !element.properties[property].is_list();
 }
 
-// In a vertex that is a Gaussian splat, takes f_dc as its colours unless it has others. In any other vertex,
-// opacity has no meaning that is known.
+// If the vertex is a Gaussian splat, uses f_dc as its colours, unless it has others. If not, ignores opacity,
+// whose meaning is then unknown.
 void take_splat(const PlyElement& vertex, VertexColumns& columns) {
   std::array<std::size_t, splat_names.size()> places = {};
   std::ranges::transform(splat_names, places.begin(), [&](auto name) { return find_property(vertex, name); });
@@ -166,7 +166,7 @@ Result<RawCloud> read_ply(const Source& source) {
                      columns};
   RELIEVO_TRY(auto content,
               header.format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body));
-  // Most programs that train splats write zeros as their normals.
+  // Most programs that train splats write zeros as normals.
   if (columns.has_opacity() &&
       std::ranges::all_of(content.cloud.normals, [](const Vec3f& n) { return n.isZero(0); }))
     content.cloud.normals.clear();
@@ -194,7 +194,7 @@ Result<StreamRecords> find_ply_rows(const Source& head) {
                                 cat("expected a number of rows that fits the file, found ", element->count));
     records.offset += size * element->count;
   }
-  if (columns.has_opacity()) records.normal.reset();  // most splats state zeros as their normals
+  if (columns.has_opacity()) records.normal.reset();  // most splats have zeros as normals
   std::uint64_t faces = 0;
   for (const PlyElement& element : elements)
     if (find_face_list(element)) faces += element.count;

@@ -18,26 +18,26 @@
 
 namespace relievo::io {
 
-// A property of an element, as the header of a PLY file declares it.
+// A property of an element, as declared in the header of a PLY file.
 struct PlyProperty {
   std::string_view name;
   NumberType type;                       // type of the value, or of each value of the list
-  std::optional<NumberType> count_type;  // type of a list's length, an integer; for lists only
+  std::optional<NumberType> count_type;  // type of a list's length, an integer; only for lists
 
   bool is_list() const { return count_type.has_value(); }
 };
 
 struct PlyElement {
   std::string_view name;
-  std::uint64_t count = 0;  // number of rows as stated in the header, which may be wrong
+  std::uint64_t count = 0;  // number of rows according to the header, which may be wrong
   std::vector<PlyProperty> properties;
   std::size_t line = 0;  // line of its declaration
 };
 
-// Returns the smallest size of a binary row in bytes, with all lists empty.
+// Returns the smallest possible size of a binary row in bytes, which is that with empty lists.
 std::size_t least_row_size(const PlyElement& element);
 
-// Returns true if any property is a list, so that the rows' sizes differ.
+// Returns whether any property is a list, so that rows differ in size.
 bool has_lists(const PlyElement& element);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
@@ -47,25 +47,25 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
   std::size_t data_offset = 0;  // byte after the header
-  std::size_t lines = 0;        // lines of the header
+  std::size_t lines = 0;        // number of lines of the header
 };
 
 // Returns the header. Errors name the line.
 Result<PlyHeader> read_ply_header(const Source& source);
 
-// Opacities of Gaussian splats are logits: below 0, less than a half of what is behind is hidden.
+// Opacities of Gaussian splats are logits: a splat below 0 is less than half opaque.
 constexpr bool is_faint(double opacity) {
   return opacity < 0;
 }
 
 // The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
-// exist. Of Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity is read, too.
+// exist. For Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity is read, too.
 struct VertexColumns {
   static constexpr std::size_t most = 10;
   std::array<bool, most> is_there = {};
-  std::array<std::size_t, most> property = {};  // index of the property that is read into each column
+  std::array<std::size_t, most> property = {};  // per column: index of the property that is read into it
   bool are_colours_harmonics = false;           // f_dc instead of red, green and blue
-  bool keeps_faint = false;                     // reads splats that are less than half opaque, too
+  bool keeps_faint = false;                     // whether splats that are less than half opaque are kept
 
   bool has_normals() const { return is_there[3]; }
   bool has_colours() const { return is_there[6]; }
@@ -73,7 +73,7 @@ struct VertexColumns {
   bool has_faint(double opacity) const { return has_opacity() && !keeps_faint && is_faint(opacity); }
 };
 
-// A file after its header has been read. Faces are read, whether they are before or after the vertices.
+// A file whose header has been read. Faces may come before or after the vertices.
 struct PlyBody {
   const Source& source;
   const PlyHeader& header;
@@ -85,22 +85,22 @@ struct PlyBody {
 
 struct PlyContent {
   Cloud cloud;
-  std::size_t faint = 0;  // splats that are less than half opaque; their points are NaN
+  std::size_t faint = 0;  // number of splats that are less than half opaque; their points are NaN
   std::vector<Triangle> triangles;
 };
 
-// Return the vertices and faces. Errors: kind input, with the place, for a body that ends early, a word that
-// is not a number, and a face with a vertex that does not exist. Bytes after the faces are ignored.
+// Return the vertices and faces. Errors: kind input, with the position, for a body that ends early, a word
+// that is not a number, and a face with a vertex that does not exist. Bytes after the faces are ignored.
 Result<PlyContent> read_ascii_body(const PlyBody& body);
 Result<PlyContent> read_binary_body(const PlyBody& body);
 
-// Returns the rows of vertices without lists as records; their offset is left 0.
+// Returns the layout of vertices without lists as records; their offset is 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
-// Returns the column of a colour, scaled to [0, 255], without its place.
+// Returns the column of a colour, scaled to [0, 255], without its offset.
 RecordColumn colour_column(const VertexColumns& columns, NumberType type);
 
-// The list property of a face element that contains the face's vertices.
+// The list property with the vertices of a face.
 struct FaceList {
   std::size_t property;
   FaceKind kind;

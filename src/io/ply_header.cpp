@@ -9,7 +9,7 @@
 namespace relievo::io {
 namespace {
 
-// Two names of each type, in the order of NumberType.
+// Two names per type, in the order of NumberType.
 constexpr std::array<std::string_view, 16> type_names = {
     "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
     "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
@@ -23,7 +23,7 @@ std::optional<NumberType> type_named(std::string_view name) {
   return static_cast<NumberType>(found / 2);
 }
 
-// Reads the header in one pass over the lines; each step gets the words after the line's keyword.
+// Reads the header in one pass over the lines. Each function gets the words after the line's keyword.
 class PlyHeaderReader {
  public:
   explicit PlyHeaderReader(const Source& source) : lines_(source) {}
@@ -99,7 +99,7 @@ class PlyHeaderReader {
     if (!has_format_) return lines_.fail("expected a line 'format ...' before end_header, found none");
     header_.lines = lines_.number();
     header_.data_offset = lines_.offset();
-    // If lines end with CR alone, an LF after the last one is the first byte of the data.
+    // If lines end with CR alone, an LF after the last one already belongs to the data.
     const std::string_view bytes = lines_.source().bytes;
     const std::size_t first_end = bytes.find_first_of("\r\n");
     const bool ends_with_cr_alone = bytes.substr(first_end, 2) != "\r\n" && bytes[first_end] == '\r';

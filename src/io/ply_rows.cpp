@@ -20,7 +20,8 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, Rows& r
   return {};
 }
 
-// Reads a body through `rows`, ascii or binary. Faces that precede the vertices are read after them.
+// Reads a body through `rows`, which are ascii or binary. Faces that precede the vertices are read after
+// them.
 template <typename Rows>
 Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
   std::vector<std::pair<const PlyElement*, Rows>> early_faces;
@@ -39,14 +40,14 @@ Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
   return content;
 }
 
-// Reads rows of text. Each row begins on a new line, and may be wrapped over several lines.
+// Reads rows of text. Each row begins on a new line, and may continue on several lines.
 class AsciiRows {
  public:
   AsciiRows(const Source& source, const PlyHeader& header)
       : lines_(source, header.data_offset, header.lines) {}
 
-  // Calls use(property number, word) for each single value of the next row, and use_item(property number,
-  // word) for each value of its lists. Both return false to refuse a word.
+  // Calls use(property index, word) for each single value of the next row, and use_item(property index, word)
+  // for each list item. Both return false to refuse a word.
   template <typename Use, typename UseItem>
   Result<void> read_row(const PlyElement& element, Use&& use, UseItem&& use_item) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -61,8 +62,8 @@ class AsciiRows {
       }
     }
     const std::string_view word = words_.next();
-    // MeshLab writes colours for the corners of faces without declaring them in the header. Therefore only
-    // vertex rows with too many words are errors.
+    // MeshLab writes colours for the corners of faces without declaring them. So too many words are an error
+    // only in vertex rows.
     if (!word.empty() && element.name == "vertex") return fail_in_long_row(element, word);
     words_ = Words();
     ++rows_;
@@ -101,7 +102,7 @@ class AsciiRows {
   Result<void> fail(std::string expected) const { return lines_.fail(std::move(expected)); }
 
  private:
-  // Returns the next word, in this line or a later one; empty at the end of the file.
+  // Returns the next word, from this line or a later one; no text at the end of the file.
   std::string_view next_word() {
     std::string_view word = words_.next();
     while (word.empty()) {
@@ -144,17 +145,17 @@ class AsciiRows {
 
   SourceLines lines_;
   Words words_;
-  std::uint64_t rows_ = 0;  // the complete rows of the element being read
+  std::uint64_t rows_ = 0;  // number of complete rows of the current element
 };
 
-// Returns whether so many bytes can contain the rows of the element. Each value takes at least two bytes, a
-// digit and a separator; only after the last value of the file the separator may be missing.
+// Returns whether this many bytes can contain the rows of the element. Each value takes at least two bytes, a
+// digit and a separator; only the last value of the file needs no separator.
 bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
 
-// Reads the vertices. Allocates no memory if the header promises more vertices than the bytes can contain;
-// reading then ends with an error.
+// Reads the vertices. If the header promises more vertices than the bytes can contain, allocates no memory
+// for them; reading then ends with an error.
 Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& content) {
   Cloud& cloud = content.cloud;
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
@@ -169,7 +170,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& con
           : RecordColumn{};
   std::array<double, VertexColumns::most> values = {};
   const auto take = [&](std::size_t property, std::string_view word) {
-    if (column_of[property] == VertexColumns::most) return true;  // not read: it may be a text, such as True
+    if (column_of[property] == VertexColumns::most) return true;  // not read; it may be a text, such as True
     const auto value = parse_number(word);
     if (value) values[column_of[property]] = *value;
     return value.has_value();
@@ -191,7 +192,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& con
   return {};
 }
 
-// Walks over the bytes of the body, row by row if rows have lists.
+// Iterates over the bytes of the body, row by row if rows have lists.
 class BinaryRows {
  public:
   BinaryRows(const Source& source, const PlyHeader& header)
@@ -199,7 +200,7 @@ class BinaryRows {
 
   std::size_t offset() const { return at_; }
 
-  // Begins an element. Returns an error if it does not fit into the remaining bytes, even with empty lists.
+  // Begins an element. Returns an error if it does not fit into the remaining bytes even with empty lists.
   Result<void> begin(const PlyElement& element) const {
     const std::size_t row = least_row_size(element), left = source_.bytes.size() - at_;
     if (row == 0 || element.count <= left / row) return {};
@@ -230,7 +231,7 @@ class BinaryRows {
       values_.resize(length);
       decoder(type, is_big_endian())(first, size_in_bytes(type), length, values_.data());
       for (const double v : values_) {
-        const bool is_number = v >= -1 && v <= static_cast<double>(no_index);  // false for a NaN
+        const bool is_number = v >= -1 && v <= static_cast<double>(no_index);  // false for NaN
         corners.push_back(is_number ? static_cast<std::int64_t>(v) : -2);
       }
     };
@@ -243,8 +244,8 @@ class BinaryRows {
 
   bool is_big_endian() const { return format_ == PlyFormat::big_endian; }
 
-  // Calls use(property number, its first byte) for each single value of the next row, and use_list(property
-  // number, first byte, length) for each list.
+  // Calls use(property index, pointer to its first byte) for each single value of the next row, and
+  // use_list(property index, pointer to its first byte, length) for each list.
   template <typename Use, typename UseList>
   Result<void> walk_row(const PlyElement& element, Use&& use, UseList&& use_list) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -266,7 +267,7 @@ class BinaryRows {
  private:
   std::size_t left() const { return source_.bytes.size() - at_; }
 
-  // Returns the length of the list that begins here, or an error if the file is too short for that many
+  // Returns the length of the list that begins here. Returns an error if the file is too short for that many
   // values.
   Result<std::size_t> list_length(const PlyProperty& list) {
     if (left() < size_in_bytes(*list.count_type)) return std::unexpected(fail_at_end(list).error());
@@ -290,15 +291,15 @@ class BinaryRows {
   const Source& source_;
   PlyFormat format_;
   std::size_t at_;
-  std::vector<double> values_;  // values of the last list; it is reused to keep its memory
+  std::vector<double> values_;  // values of the last list; a member to reuse its memory
 };
 
-// Rows with lists differ in size. Each row is therefore copied without its lists, and the copies are decoded
-// like rows of equal size.
+// Rows with lists differ in size. So each row is copied without its lists, and the copies are decoded like
+// rows of equal size.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, PlyContent& content) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;
-  std::vector<std::size_t> place(plain.properties.size());  // index of each property in the copy
+  std::vector<std::size_t> place(plain.properties.size());  // byte offset of each property in the copy
   for (std::size_t i = 0; i < plain.properties.size(); ++i) {
     place[i] = bytes.size();
     if (!plain.properties[i].is_list()) bytes.resize(bytes.size() + size_in_bytes(plain.properties[i].type));

@@ -1,7 +1,7 @@
-// Triangulates by ear clipping. For any sequence of triangles that are cut off, the signed areas add up to
-// the polygon's area, and the winding numbers at any point add up to the polygon's winding number. So the
-// triangles cover the inside of the polygon exactly once if no triangle is turned over and the polygon does
-// not cross itself. The tests for ears only serve to find such a sequence.
+// Triangulates by ear clipping. For any sequence of clipped triangles, the signed areas sum up to the
+// polygon's area, and the winding numbers at any point sum up to the polygon's winding number. So if no
+// triangle is turned over and the polygon does not intersect itself, the triangles cover its inside exactly
+// once. The tests for ears only help to find such a sequence.
 #include "io/polygon.h"
 
 #include <Eigen/Geometry>
@@ -17,11 +17,12 @@
 namespace relievo::io {
 namespace {
 
-// The largest negative area of a triangle, as a share of the polygon's area. It is not 0, because collinear
-// corners are rounded to the floats of a file.
+// The largest negative area of a triangle, as a share of the polygon's area. It is not 0, because files round
+// collinear corners to floats.
 constexpr double rounding = 1e-6;
 
-constexpr std::size_t most_corners = 10'000;  // limit for non-convex polygons; the time is quadratic in it
+// Limit for non-convex polygons, for which the time is quadratic.
+constexpr std::size_t most_corners = 10'000;
 
 std::vector<std::array<Index, 3>> fan_of(std::size_t corners) {
   std::vector<std::array<Index, 3>> fan;
@@ -56,7 +57,7 @@ class EarClipper {
     for (Index i = 0; i < n; ++i) is_ear_[i] = turn(i) > 0 && is_empty(i);
   }
 
-  // Returns the triangles; none if the polygon crosses itself.
+  // Returns the triangles; none if the polygon intersects itself.
   std::vector<std::array<Index, 3>> clip() {
     std::vector<std::array<Index, 3>> triangles;
     Index at = 0;
@@ -74,7 +75,7 @@ class EarClipper {
   // Returns twice the signed area of the triangle at corner i.
   double turn(Index i) const { return cross(at_[i] - at_[before_[i]], at_[next_[i]] - at_[before_[i]]); }
 
-  // Returns the next ear, or else a corner whose triangle has almost no area.
+  // Returns the next ear; if there is none, a corner whose triangle has almost no area.
   std::optional<Index> find_ear(Index from, std::size_t left) const {
     std::optional<Index> flat;
     for (std::size_t k = 0; k < left; ++k, from = next_[from]) {
@@ -85,7 +86,7 @@ class EarClipper {
   }
 
   // Returns whether the triangle of a corner contains no other corner. Only reflex corners are tested,
-  // because others cannot be inside unless the polygon crosses itself.
+  // because other corners cannot be inside unless the polygon intersects itself.
   bool is_empty(Index ear) const {
     const Vec2 &a = at_[before_[ear]], &b = at_[ear], &c = at_[next_[ear]];
     for (const Index i : reflex_) {
@@ -101,7 +102,7 @@ class EarClipper {
     return true;
   }
 
-  // Returns true if an edge at corner i leads into the angle between the directions to `right` and `left`.
+  // Returns whether an edge at corner i points into the angle between the directions to `right` and `left`.
   bool enters(Index i, const Vec2& right, const Vec2& left) const {
     const auto is_between = [&](const Vec2& q) {
       return cross(right - at_[i], q - at_[i]) > 0 && cross(q - at_[i], left - at_[i]) > 0;
@@ -109,7 +110,7 @@ class EarClipper {
     return is_between(at_[next_[i]]) || is_between(at_[before_[i]]);
   }
 
-  // Cuts the ear off. Only its two neighbouring corners can become ears by this.
+  // Cuts the ear off. Only its two neighbours can become ears because of that.
   void cut(Index ear) {
     const Index before = before_[ear], next = next_[ear];
     next_[before] = next;
@@ -125,7 +126,7 @@ class EarClipper {
   std::vector<Index> reflex_;  // remaining corners whose angle is 180 degrees or more
 };
 
-// Returns the corners in the plane of their vector area, in which they run counter-clockwise.
+// Returns the corners projected onto the plane of their vector area, where they are counter-clockwise.
 std::vector<Vec2> in_plane(std::span<const Vec3> corners, const Vec3& area) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(area, Vec3::UnitZ());
   std::vector<Vec2> flat;
@@ -157,7 +158,7 @@ void add_polygon(std::span<const std::int64_t> corners, std::span<const Vec3> po
     add_triangle(corners[a], corners[b], corners[c], triangles);
   };
   if (corners.size() == 3) return add(0, 1, 2);
-  // Most polygons have at most four corners; no memory is allocated for them.
+  // Most polygons have at most four corners; for them no memory is allocated.
   std::array<Vec3, 4> four;
   std::vector<Vec3> more(corners.size() > four.size() ? corners.size() : 0);
   const std::span<Vec3> polygon =
@@ -210,7 +211,7 @@ Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles) {
   if (triangles.empty()) return {};
   Mesh mesh{cloud.points, std::move(triangles), {}, cloud.colours};
   for (Vec3& p : mesh.points)
-    if (!p.allFinite()) p = Vec3::Zero();  // no triangle uses it
+    if (!p.allFinite()) p = Vec3::Zero();  // no triangle uses this point
   if (!cloud.has_normals()) return mesh;
   mesh.corner_normals.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles)

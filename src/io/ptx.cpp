@@ -1,6 +1,6 @@
-// Reads PTX: scans one after the other, each with a header of ten lines and one line per point. The header
-// states the numbers of columns and rows, the scanner's frame (four lines) and the matrix that moves the
-// points into the common frame (four lines).
+// Reads PTX: a sequence of scans, each with a header of ten lines and one line per point. The header has the
+// numbers of columns and rows, the scanner's axes (four lines), and the matrix that transforms the points to
+// common axes (four lines).
 #include <Eigen/Geometry>
 #include <limits>
 
@@ -12,7 +12,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns the numbers of a line; nothing if a word is no number or there are more than eight.
+// Returns the numbers of a line; no numbers if a word is not a number or there are more than eight words.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   Words words(line);
@@ -48,7 +48,7 @@ class PtxReader {
     return line;
   }
 
-  // `line` is the first line of the header, which has been read.
+  // `line` is the first line of the header.
   Result<void> take_header(std::string_view line) {
     std::int64_t columns = 0, rows = 0;
     RELIEVO_CHECK(take_count(line, columns));
@@ -102,14 +102,14 @@ class PtxReader {
 
   SourceLines lines_;
   RawCloud raw_;
-  std::int64_t points_ = 0;  // of the scan
+  std::int64_t points_ = 0;  // number of points of the scan
   std::size_t unmeasured_ = 0;
   Eigen::AffineCompact3d to_common_ = Eigen::AffineCompact3d::Identity();
 };
 
 }  // namespace
 
-// A PTX begins with two lines of one whole number; the third line has the scanner's position.
+// A PTX begins with two lines of one integer each; the third line has the scanner's position.
 bool is_ptx(const Source& source) {
   if (has_control_bytes(source.bytes)) return false;
   if (has_ending(source.name, ".ptx")) return true;

@@ -34,12 +34,12 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
   return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
-// Depth cameras write 0, 0, 0 where they have not measured anything. A small number of such points may belong
-// to the model.
+// Depth cameras write 0, 0, 0 where they measured nothing. A small number of such points may belong to the
+// model.
 constexpr std::size_t most_at_origin = 16;
 
-// Returns the number of points at 0, 0, 0 that count as not measured; 0 for a mesh, or if most points are
-// there.
+// Returns the number of points at 0, 0, 0 that count as not measured. It is 0 for a mesh, and if most points
+// are there.
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
@@ -50,9 +50,9 @@ std::size_t count_unmeasured(const CloudFile& file) {
   return zeros < finite ? zeros : 0;
 }
 
-// Removes points that are not finite or not measured. If some points have no normal, these points are removed
-// if they are the minority; otherwise all normals are removed. Losing a few points is better than losing all
-// normals, but losing most points is worse.
+// Removes points that are not finite or not measured. If some points have no normal, removes these points if
+// they are a minority, otherwise all normals. Losing few points is better than losing all normals, but losing
+// most points is worse.
 void drop_unusable(CloudFile& file) {
   Cloud& cloud = file.cloud;
   file.unmeasured_points = count_unmeasured(file);
@@ -84,9 +84,9 @@ std::uint64_t big_endian_32(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// Estimates the size of a scan at 20 bytes per point, which gives too many points rather than too few. A text
-// of three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two triangles per vertex
-// has about 60 bytes per vertex, a glTF 36.
+// Estimates the size of a scan with 20 bytes per point, which gives rather too many points than too few. A
+// text with three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two triangles per
+// vertex has about 60 bytes per vertex, a glTF 36.
 ScanSize estimate(const io::Source& head, std::uint64_t file_bytes) {
   constexpr std::uint64_t bytes_per_point = 20;
   ScanSize size{file_bytes / bytes_per_point, 0, 0};
@@ -111,7 +111,7 @@ ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
   return size;
 }
 
-// Returns the number of pixels that the beginning of a picture states; 0 if it states none.
+// Returns the number of pixels according to the beginning of a picture; 0 if it does not contain it.
 std::uint64_t stated_pixels(const io::Source& head) {
   if (io::is_png(head) && head.bytes.size() >= 24)
     return big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);
@@ -120,8 +120,8 @@ std::uint64_t stated_pixels(const io::Source& head) {
   return header.width * header.height;
 }
 
-// Returns the number of pixels of a picture. A TIFF may state it anywhere in the file, so it is estimated as one
-// pixel per byte.
+// Returns the number of pixels of a picture. A TIFF may state it anywhere in the file, so one pixel per byte
+// is assumed.
 ScanSize picture_size(const io::Source& head, std::uint64_t file_bytes) {
   const std::uint64_t pixels = stated_pixels(head);
   if (pixels == 0) return {0, 0, file_bytes};
@@ -170,7 +170,7 @@ std::vector<std::string> remarks_on(const CloudFile& file) {
     lines.push_back(cat("left out ", file.unmeasured_points,
                         " points at 0, 0, 0, as devices write what they have not measured"));
   lines.insert(lines.end(), file.remarks.begin(), file.remarks.end());
-  // A mesh keeps its points, even with unusable normals.
+  // A mesh keeps points with unusable normals.
   if (file.dropped_normals > 0 && file.mesh.empty())
     lines.push_back(cat("left out ", file.dropped_normals,
                         file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));

@@ -16,8 +16,8 @@ namespace relievo::io {
 // The bytes of a file, or of its beginning.
 struct Source {
   std::string_view bytes;
-  std::string_view name;                // name of the file, for messages and for its ending
-  const FilesBeside* beside = nullptr;  // access to files in the same folder; null if there is none
+  std::string_view name;                // file name, for messages and for its ending
+  const FilesBeside* beside = nullptr;  // access to files in the same folder, or null
   bool keeps_doubtful = false;          // as in ReadOptions
 
   std::unexpected<Error> error(std::string place, std::string expected) const {
@@ -31,10 +31,10 @@ struct Source {
   }
 };
 
-// The lines of a text file, with errors that state the line.
+// The lines of a text file. Errors name the line.
 class SourceLines : public Lines {
  public:
-  // Begins with the file's first line, or behind its header.
+  // Begins with the file's first line, or after its header.
   explicit SourceLines(const Source& source)
       : Lines(source.bytes, byte_order_mark_size(source.bytes)), source_(source) {}
   SourceLines(const Source& source, std::size_t offset, std::size_t lines_before)
@@ -42,11 +42,11 @@ class SourceLines : public Lines {
 
   const Source& source() const { return source_; }
 
-  // Returns an error in the line last returned.
+  // Returns an error in the last returned line.
   std::unexpected<Error> fail(std::string expected) const {
     return source_.error_in_line(number(), std::move(expected));
   }
-  // Returns an error in the line after the last one, if more was expected there.
+  // Returns an error for the end of the file, in the line after the last one.
   std::unexpected<Error> fail_at_end(const std::string& expected, const std::string& after = {}) const {
     return source_.error_in_line(number() + 1,
                                  "expected " + expected + ", found the end of the file" + after);
@@ -56,23 +56,23 @@ class SourceLines : public Lines {
   const Source& source_;
 };
 
-// Which points of Gaussian splats are left out, as for the remark below.
+// Describes the splats that are left out, for remark_on_left_out().
 inline constexpr std::string_view what_splats_leave_out =
     "of splats that are less than half opaque; --doubtful keep keeps them";
 
-// Returns "left out 40 points that the file marks as noise".
+// Returns a remark such as "left out 40 points that the file marks as noise".
 std::string remark_on_left_out(std::uint64_t points, std::string_view which);
 
 // The content of a file before unusable points are removed.
 struct RawCloud {
-  Cloud cloud;         // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
-  std::string format;  // shown to people
-  Mesh mesh = {};      // a copy of the same points with the file's triangles; empty if it has none
-  std::size_t missing_points = 0;         // points that are missing because the file ends early
-  std::size_t left_out_points = 0;        // points that do not count, which leave_out() counts; they are NaN
+  Cloud cloud;         // coordinates may be NaN or infinite; normals are normalised by unit_normal()
+  std::string format;  // for messages
+  Mesh mesh = {};      // a copy of the same points with the file's triangles; empty without triangles
+  std::size_t missing_points = 0;         // number of points missing at the end of the file
+  std::size_t left_out_points = 0;        // number of points left out by leave_out(); they are NaN
   std::vector<std::string> remarks = {};  // as in CloudFile
 
-  // Counts points that the file says do not count, and says so.
+  // Counts points that are left out according to the file, and adds a remark.
   void leave_out(std::size_t points, std::string_view which) {
     if (points == 0) return;
     left_out_points += points;
@@ -80,10 +80,10 @@ struct RawCloud {
   }
 };
 
-// Returns true if the first 4,096 bytes contain a control character that does not occur in text.
+// Returns whether the first 4,096 bytes contain a control character that does not occur in text.
 bool has_control_bytes(std::string_view bytes);
 
-// Returns true if the file's name ends with `ending` (".obj"), in upper or lower case.
+// Returns whether the file's name ends with `ending` (such as ".obj"), in upper or lower case.
 bool has_ending(std::string_view name, std::string_view ending);
 
 }  // namespace relievo::io

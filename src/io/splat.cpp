@@ -1,5 +1,5 @@
-// Reads .splat: Gaussian splats in rows of 32 bytes, without a header. A row has the position and the scales
-// as floats, then red, green, blue and opacity, and a rotation, as bytes.
+// Reads .splat: Gaussian splats in rows of 32 bytes, without a header. A row has position and scales as
+// floats, then red, green, blue and opacity, and a rotation, as bytes.
 #include "io/formats.h"
 #include "io/numbers.h"
 #include "relievo/core/text.h"

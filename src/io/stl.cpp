@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t header_size = 84, triangle_size = 50;
 
-// Returns true for a binary file. Some binary files begin with "solid" although the format forbids it, and
-// some text files do not. So the size decides first. Then zero bytes decide, because the number of triangles
-// contains one in any binary file of less than 800 MB.
+// Returns whether a file is binary. Some binary files begin with "solid" although the format forbids it, and
+// some text files do not. So the size decides first. Otherwise zero bytes decide, because in any binary file
+// of less than 800 MB the number of triangles contains one.
 bool is_binary(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (bytes.size() < header_size) return has_control_bytes(bytes);
@@ -27,7 +27,7 @@ bool is_binary(const Source& source) {
 class Corners {
  public:
   explicit Corners(std::size_t triangles)
-      : table_(triangles / 2 + 3) {  // a closed mesh has about that many vertices
+      : table_(triangles / 2 + 3) {  // about the number of vertices of a closed mesh
     points_.reserve(triangles / 2 + 3);
     triangles_.reserve(triangles);
   }
@@ -101,7 +101,7 @@ class AsciiReader {
   }
 
  private:
-  // Takes one statement. Line ends do not matter, because some programs write none.
+  // Processes one statement. Line ends are ignored, because some programs write none.
   Result<void> take(std::string_view keyword, Words& words) {
     if (equals_ignoring_case(keyword, "vertex")) return take_vertex(words);
     if (equals_ignoring_case(keyword, "endfacet")) return end_facet();
@@ -113,7 +113,7 @@ class AsciiReader {
     return {};
   }
 
-  // Skips a solid's name, which goes up to the first facet and may contain any words.
+  // Skips a solid's name, which extends to the first facet and may contain any words.
   static void skip_name(Words& words) {
     Words ahead = words;
     for (auto word = ahead.next(); !word.empty(); word = ahead.next()) {
@@ -151,7 +151,7 @@ bool is_ascii(std::string_view bytes) {
 
 }  // namespace
 
-// Binary STL has no magic word, but its size follows from its number of triangles.
+// Binary STL has no magic number, but its size follows from the number of triangles.
 bool is_stl(const Source& source) {
   if (is_ascii(source.bytes) || has_ending(source.name, ".stl")) return true;
   if (source.bytes.size() < header_size || !has_control_bytes(source.bytes)) return false;

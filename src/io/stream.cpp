@@ -14,18 +14,19 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t head_size = 1 << 20;                       // bytes; more than any header has
-constexpr std::size_t piece_size = 8 << 20;                      // bytes read at a time
-constexpr std::size_t sample_points = 200000, sample_run = 200;  // points in the sample, and points per read
+constexpr std::size_t head_size = 1 << 20;   // in bytes; larger than any header
+constexpr std::size_t piece_size = 8 << 20;  // bytes read at a time
+// Number of points in the sample, and number of points per read.
+constexpr std::size_t sample_points = 200000, sample_run = 200;
 
-// Reads and decodes the rows of the file piece by piece.
+// Reads and decodes the rows of the file in blocks.
 class Rows {
  public:
   Rows(ByteSource& source, const io::Records& records) : source_(source), records_(records) {}
 
   const io::Records& records() const { return records_; }
 
-  // Returns the number of rows last read whose points do not count.
+  // Returns how many of the last rows are left out.
   std::size_t left_out() const {
     return io::count_left_out(records_, reinterpret_cast<const char*>(bytes_.data()),
                               bytes_.size() / records_.stride);
@@ -44,7 +45,7 @@ class Rows {
     return {};
   }
 
-  // Calls f(cloud) for every piece in the file's order.
+  // Calls f(cloud) for every block, in the order of the file.
   template <typename F>
   Result<void> each(std::string_view stage, double from, double to, Progress* progress, F&& f) {
     const std::size_t most = std::max<std::size_t>(1, piece_size / records_.stride);
@@ -65,10 +66,10 @@ class Rows {
   std::vector<std::byte> bytes_;
 };
 
-// Returns a sample of the rows, taken from all over the file.
+// Returns a sample of the rows, from all parts of the file.
 Result<Cloud> take_sample(Rows& rows) {
   const std::uint64_t count = rows.records().count;
-  if (count == 0) return Cloud{};  // their offset may lie behind the end of the file
+  if (count == 0) return Cloud{};  // the offset may be beyond the end of the file
   const std::uint64_t runs =
       std::max<std::uint64_t>(1, std::min(count, std::uint64_t{sample_points}) / sample_run);
   Cloud sample, run;
@@ -89,12 +90,12 @@ Result<Cloud> take_sample(Rows& rows) {
 // Values that are estimated from the sample.
 struct Scout {
   Vec3 middle;                // median of the points
-  double outlier_radius = 0;  // points further from the middle are outliers
+  double outlier_radius = 0;  // points farther from the middle are outliers
   float sign = 1;             // -1 if the normals point inwards
 };
 
-// Estimates the values. The outlier radius is defined as for outliers(): 20 times the distance within which
-// 90 % of the points lie.
+// Estimates the values. The outlier radius is defined as in outliers(): 20 times the distance within which 90
+// % of the points are.
 Scout scout(const Cloud& sample) {
   Scout it;
   std::vector<double> values(sample.size());
@@ -111,15 +112,15 @@ Scout scout(const Cloud& sample) {
   return it;
 }
 
-// A grid over the view that keeps, per square, the sums of the front-most points. The number of squares
-// bounds the memory, so three passes over the file are made: they find the box, the front depth of each
-// square, and the sums.
+// A grid over the view plane with the sums of the front-most points of each square. Memory is proportional to
+// the number of squares. Three passes over the file find the box, the largest depth in each square, and the
+// sums.
 class ViewGrid {
  public:
   ViewGrid(const View& view, const Scout& scout, bool has_normals, bool has_colours)
       : turn_(view.R_view_model), scout_(scout), has_normals_(has_normals), has_colours_(has_colours) {}
 
-  // First pass: finds the box in the view and counts the points that face the viewer.
+  // First pass: finds the box in the view, and counts the points that face the viewer.
   void look(const Cloud& piece) {
     place(piece);
     for (const Place& p : places_) {
@@ -132,13 +133,13 @@ class ViewGrid {
   double extent() const { return std::max(box_.size().x(), box_.size().y()); }
 
   // Chooses the size of the squares so that about `wanted` of them contain points. The sample shows which
-  // share of the box the points fill. Returns false for a cloud without extent, and for an extent too large
-  // or small for single precision.
+  // share of the box the points cover. Returns false for a cloud without extent, and for an extent too large
+  // or too small for single precision.
   bool lay_grid(const Cloud& sample, double wanted) {
     const Vec3 size = box_.size();
     const double longer = extent();
     if (!(longer > 1e-18 && longer < 1e18)) return false;
-    // Squares have about 20 points of the sample, so that hardly a square on the model is empty.
+    // Squares contain about 20 points of the sample, so that few squares on the model are empty.
     const auto side =
         static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(sample.size()) / 20), 8.0, 192.0));
     const double coarse = longer / static_cast<double>(side);
@@ -167,8 +168,8 @@ class ViewGrid {
       if (p.counts) top_[p.square] = std::max(top_[p.square], static_cast<float>(p.at.z()));
   }
 
-  // Third pass: adds up the points near the front-most depth. On a slope a square spans a range of depths,
-  // which follows from the normal or, without normals, from a slope of 2.
+  // Third pass: sums the points near the front-most depth. On a slope a square contains a range of depths,
+  // which follows from the normal or, without normals, from an assumed slope of 2.
   void gather(const Cloud& piece) {
     if (sums_.empty()) sums_.resize(top_.size());
     place(piece);
@@ -204,7 +205,7 @@ class ViewGrid {
   }
 
  private:
-  // A point in view coordinates, relative to the middle.
+  // A point in view coordinates, relative to the middle of the cloud.
   struct Place {
     Vec3 at;
     Vec3f normal;
@@ -214,7 +215,8 @@ class ViewGrid {
   struct Sum {
     Vec3 at = Vec3::Zero();
     Vec3f normal = Vec3f::Zero();
-    std::array<std::uint32_t, 3> colour = {};  // integers, because floats above 2^24 lose additions of 1
+    // Integers, because adding 1 to a float above 2^24 has no effect.
+    std::array<std::uint32_t, 3> colour = {};
     std::uint32_t count = 0;
   };
 
@@ -237,7 +239,7 @@ class ViewGrid {
   Mat3 turn_;
   const Scout& scout_;
   bool has_normals_, has_colours_;
-  std::vector<Place> places_;  // points of the current piece
+  std::vector<Place> places_;  // points of the current block
   std::uint64_t points_ = 0;
   Box box_;
   double square_ = 0;

@@ -20,15 +20,15 @@ using io::Source;
 using io::XmlElement;
 
 constexpr std::size_t most_drawn_corners = 50000;
-constexpr double tolerance_share = 2e-4;  // of the drawing's longer side
+constexpr double tolerance_share = 2e-4;  // tolerance of curves, as a share of the drawing's longer side
 constexpr double most_coordinate = 1e9;
 
-// Draws the data of one path.
+// Interprets the commands of one path.
 class PathPen {
  public:
   PathPen(std::string_view data, CurvePolygons& out) : data_(data), out_(out) {}
 
-  // Returns an empty text, or what was expected and found.
+  // Returns no text, or a message about what was expected and found.
   std::string draw() {
     while (skip_space(), at_ < data_.size()) {
       if (std::isalpha(static_cast<unsigned char>(data_[at_])) != 0)
@@ -57,7 +57,7 @@ class PathPen {
     return true;
   }
 
-  // Reads a flag, after which no space is needed.
+  // Reads a flag, which may be followed by the next number without a space.
   bool flag(bool& to) {
     skip_space();
     if (at_ == data_.size() || (data_[at_] != '0' && data_[at_] != '1')) return false;
@@ -78,7 +78,7 @@ class PathPen {
     return std::ranges::all_of(to, [&](Vec2& p) { return point(p); });
   }
 
-  // Draws the segment of the command; a move is followed by lines.
+  // Interprets the next arguments of the command. After a move, further arguments are lines.
   bool step() {
     const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(command_)));
     const char before = std::exchange(last_, upper);
@@ -111,7 +111,7 @@ class PathPen {
     }
   }
 
-  // Lines behind a closed outline begin a new one where it began.
+  // A line after a closed outline begins a new one at the same starting point.
   void begin() {
     if (last_ != 'M') out_.continue_at(pen_);
   }
@@ -152,7 +152,7 @@ class PathPen {
     return true;
   }
 
-  // Draws an elliptical arc by cubic curves; appendix F.6 of SVG 1.1 gives its centre.
+  // Approximates an elliptical arc by cubic curves. Appendix F.6 of SVG 1.1 has the formula of its centre.
   bool arc() {
     Vec2 radii, p;
     double turn_deg = 0;
@@ -200,7 +200,7 @@ class PathPen {
   Vec2 pen_ = Vec2::Zero(), start_ = Vec2::Zero(), control_ = Vec2::Zero();
 };
 
-// Returns a property of an element, from its style or its attribute of that name.
+// Returns a property of an element, from its style or from the attribute of that name.
 std::string_view property(const XmlElement& element, std::string_view name) {
   const std::string_view style = element.attribute("style");
   for (std::size_t at = 0; at < style.size();) {
@@ -223,7 +223,8 @@ double area_of(const std::vector<Vec2>& outline) {
   return twice / 2;
 }
 
-// Turns outlines that do not cross so that the winding number is 0 where the even-odd rule leaves holes.
+// Reverses outlines so that the winding number is 0 where the even-odd rule leaves holes. The outlines must
+// not intersect.
 void wind_by_depth(Outlines& outlines) {
   std::vector<std::uint8_t> is_hole;
   for (std::size_t i = 0; i < outlines.size(); ++i) {

@@ -9,15 +9,15 @@
 namespace relievo::io {
 namespace {
 
-// Returns whether a number beyond the range of double is too small rather than too large. from_chars does not
-// distinguish the two.
+// Returns whether a number outside the range of double is too small instead of too large. from_chars does not
+// distinguish these.
 bool is_tiny(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
   return word.substr(0, word.find('.')).find_first_of("123456789") == std::string_view::npos;
 }
 
-// Returns the word without a plus sign, which from_chars refuses but some programs write.
+// Returns the word without a plus sign. Some programs write it, but from_chars refuses it.
 std::string_view without_plus(std::string_view word) {
   const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return word.substr(has_plus ? 1 : 0);
@@ -67,7 +67,7 @@ std::optional<double> parse_number(std::string_view word) {
     with_e[static_cast<std::size_t>(end - word.data())] = 'e';
     return parse_number(with_e);
   }
-  const bool is_old_runtimes_nan = *end == '#';  // 1.#QNAN, -1.#IND, 1.#INF
+  const bool is_old_runtimes_nan = *end == '#';  // texts of old runtimes: 1.#QNAN, -1.#IND, 1.#INF
   return is_old_runtimes_nan ? std::optional(std::numeric_limits<double>::quiet_NaN()) : std::nullopt;
 }
 

@@ -9,8 +9,7 @@
 
 namespace relievo::io {
 
-// Iterates over the lines of a text, without their ends: LF, CRLF or CR, even mixed. The time is linear in
-// the text.
+// Iterates over the lines of a text, without their ends. LF, CRLF and CR may be mixed. Takes linear time.
 class Lines {
  public:
   explicit Lines(std::string_view text, std::size_t offset = 0, std::size_t lines_before = 0)
@@ -20,29 +19,30 @@ class Lines {
         lf_(text.find('\n', offset)),
         cr_(text.find('\r', offset)) {}
 
-  // Returns the next line, or nothing at the end. A text that ends with a line end has no empty line after
-  // it.
+  // Returns the next line; nothing at the end. A line end at the end of the text is not followed by an empty
+  // line.
   std::optional<std::string_view> next();
 
-  // Returns the number of the line last returned, counted from 1; 0 before the first.
+  // Returns the number of the last returned line, counted from 1; 0 before the first line.
   std::size_t number() const { return number_; }
 
-  // Returns the offset of the byte after the line last returned and its end.
+  // Returns the byte offset after the last returned line and its end.
   std::size_t offset() const { return at_; }
 
  private:
   std::string_view text_;
   std::size_t at_, number_;
-  // The next LF and CR, kept because searching for a missing one in each line would take quadratic time.
+  // The next LF and CR. They are cached, because searching for a missing one in each line would take
+  // quadratic time.
   std::size_t lf_, cr_;
 };
 
-// Returns true for a character that separates words within a line.
+// Returns whether a character separates words within a line.
 constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// Iterates over the words of a line, which are separated by blanks; returns an empty view at the end.
+// Iterates over the words of a line, which are separated by blanks. Returns an empty view at the end.
 class Words {
  public:
   explicit Words(std::string_view line = {}) : at_(line.data()), end_(line.data() + line.size()) {}
@@ -65,20 +65,20 @@ std::string_view trim(std::string_view text);
 // Returns the text before a comment, which begins with '#'. The '#' in 1.#QNAN does not begin one.
 std::string_view before_comment(std::string_view line);
 
-// Returns the number that the whole word spells: a decimal with optional sign and exponent (after e, or d as
-// in Fortran), or a spelling of nan or inf. The number is infinite if it is too large for a double, and zero
-// if it is too small. Returns nothing if the word is not a number.
+// Returns the number that the whole word represents: a decimal with optional sign and exponent (after e, or d
+// as in Fortran), or a spelling of nan or inf. The result is infinite if the number is too large for a
+// double, and zero if it is too small. Returns nothing if the word is not a number.
 std::optional<double> parse_number(std::string_view word);
 
-// Returns the integer that the whole word spells; nothing for other words and beyond 64 bits.
+// Returns the integer that the whole word represents; nothing for other words and beyond 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// Return the text for messages, shortened to `most` bytes and with '?' for unprintable ones; in_quotes() puts
-// it in quotes, and returns "nothing" for an empty text.
+// Return the text for messages, shortened to `most` bytes, with '?' for unprintable bytes. in_quotes() adds
+// quotation marks, and returns "nothing" for an empty text.
 std::string printable(std::string_view text, std::size_t most = 32);
 std::string in_quotes(std::string_view text);
 
-// Returns true if both are equal apart from the case of ASCII letters.
+// Returns whether the texts are equal, ignoring the case of ASCII letters.
 bool equals_ignoring_case(std::string_view a, std::string_view b);
 
 // Returns 3 if the text begins with a UTF-8 byte order mark, else 0.

@@ -1,4 +1,4 @@
-// Pictures on the surfaces of meshes, sampled at the vertices to give them colours.
+// Textures of meshes, sampled at the vertices to colour them.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@ namespace relievo::io {
 
 class Texture {
  public:
-  // Reads a picture of any format that is read as depths. Returns nothing for other files.
+  // Reads a picture in any format that is read as depths. Returns nothing for other files.
   static std::optional<Texture> read(std::string_view bytes, std::string_view name);
 
-  // Returns the colour at a place between pixels; the picture repeats. (0, 0) is its upper left corner,
-  // (1, 1) its lower right one.
+  // Returns the colour at a position in the picture, which repeats periodically. (0, 0) is the upper left
+  // corner, (1, 1) the lower right one.
   Colour at(double u, double v) const;
 
  private:

@@ -1,5 +1,5 @@
-// Reads the model of a 3MF file: the XML document in its archive, with the parts that other documents beside
-// it have. The meshes stand as the build places them.
+// Reads the model of a 3MF file: the XML document in its archive, and the documents beside it that it refers
+// to. Meshes are placed according to the build.
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t most_levels = 8, most_corners = 100'000'000;
 
-// One document. Its texts are views of its bytes.
+// A document. Its texts are views of its bytes.
 struct ModelPart {
   std::vector<std::byte> bytes;
   XmlElements elements;
-  std::map<std::string_view, std::size_t> objects;  // indices of the objects, by their ids
+  std::map<std::string_view, std::size_t> objects;  // by id: index of the object's element
   ThreeMfColours colours;
 };
 
@@ -55,7 +55,7 @@ class ThreeMfReader {
   using Transform = Eigen::Affine3d;
   struct Place {
     Transform transform;
-    std::size_t level = 0;  // number of objects around this one
+    std::size_t level = 0;  // number of enclosing objects
   };
   struct Placed {
     const ModelPart* part;
@@ -79,8 +79,8 @@ class ThreeMfReader {
     return &part;
   }
 
-  // Returns the document of that path in the archive, "/3D/Objects/a.model". The main one lies in the folder
-  // "3D".
+  // Returns the document with that path in the archive, such as "/3D/Objects/a.model". The main document is
+  // in the folder "3D".
   Result<const ModelPart*> part_at(std::string_view path, const XmlElement& element) {
     constexpr std::string_view folder = "/3D/";
     const std::string name(path.starts_with(folder) ? path.substr(folder.size()) : "");
@@ -94,7 +94,7 @@ class ThreeMfReader {
     return parsed(name, text_of(parts_[name]->bytes));
   }
 
-  // Opens the objects to which the children of an element, items or components, refer.
+  // Opens the objects to which the children of an element (items or components) refer.
   Result<void> place_children(const ModelPart& part, std::size_t parent, const Place& at) {
     if (at.level > most_levels)
       return fail(part.elements[parent],
@@ -117,7 +117,7 @@ class ThreeMfReader {
     return {};
   }
 
-  // The twelve numbers are the rows of a matrix that is multiplied from the left by points.
+  // The twelve numbers are the rows of a matrix; points are row vectors on its left.
   Result<Transform> transform_of(const XmlElement& element) const {
     Transform transform = Transform::Identity();
     const std::string_view text = element.attribute("transform");
@@ -181,8 +181,8 @@ class ThreeMfReader {
     return {};
   }
 
-  // Gives the corners of a triangle, whose numbers were checked, their colours. A vertex has that of its first
-  // corner with a colour.
+  // Gives the corners of a triangle their colours. The vertex indices must have been checked. A vertex gets
+  // the colour of its first corner that has one.
   void colour_corners(const ThreeMfColours& known, const XmlElement& object, const XmlElement& triangle,
                       std::size_t first) {
     constexpr std::array names = {"v1", "v2", "v3"};
@@ -202,13 +202,14 @@ class ThreeMfReader {
   static constexpr Colour white = {255, 255, 255};
 
   const Source& source_;
-  std::map<std::string, std::unique_ptr<ModelPart>> parts_;  // by their names; the main one's is empty
+  // By name; the name of the main document is empty.
+  std::map<std::string, std::unique_ptr<ModelPart>> parts_;
   std::vector<Placed> open_;
   std::size_t placed_ = 0, supports_ = 0;
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;
-  std::vector<Colour> colours_;            // of the first points; empty if none has a colour
-  std::vector<std::uint8_t> is_coloured_;  // whether a vertex has one
+  std::vector<Colour> colours_;            // colours of the first points; empty if no point has a colour
+  std::vector<std::uint8_t> is_coloured_;  // per vertex: whether it has a colour
 };
 
 }  // namespace

@@ -9,12 +9,12 @@
 namespace relievo::io {
 namespace {
 
-// Returns the name without the prefix of its namespace, which documents choose: "m:color" is "color".
+// Returns the name without its namespace prefix, which documents choose: "color" for "m:color".
 std::string_view local_name(const XmlElement& element) {
   return element.name.substr(element.name.find(':') + 1);
 }
 
-// Reads "#RRGGBB" or "#RRGGBBAA", whose opacity does not count.
+// Reads "#RRGGBB" or "#RRGGBBAA"; the opacity AA is ignored.
 std::optional<Colour> parse_colour(std::string_view text) {
   if (!text.starts_with('#') || (text.size() != 7 && text.size() != 9)) return std::nullopt;
   Colour colour = {};
@@ -41,7 +41,8 @@ void ThreeMfColours::take(const XmlElements& elements, std::size_t resource) {
 
 std::optional<Colour> ThreeMfColours::of_corner(const XmlElement& object, const XmlElement& triangle,
                                                 std::size_t corner) const {
-  // A triangle without a colour of its own has the object's, and corners without one that of the first corner.
+  // A triangle without colour has the colour of its object. A corner without colour has the colour of the
+  // first corner.
   constexpr std::array names = {"p1", "p2", "p3"};
   std::string_view index = triangle.attribute(names[corner]), id = triangle.attribute("pid");
   if (index.empty()) index = triangle.attribute("p1");

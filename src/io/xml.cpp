@@ -50,7 +50,7 @@ class XmlParser {
   Result<void> take_text() {
     const std::size_t end = std::min(text_.find('<', at_), text_.size());
     const std::string_view text = without_space(text_.substr(at_, end - at_));
-    // Some writers pad the end of the section with zeros.
+    // Some writers append zeros to the section.
     if (!text.empty() && open_.empty() && text.find_first_not_of('\0') != std::string_view::npos)
       return error(cat("expected an element, found ", in_quotes(text)));
     keep(text);
@@ -77,7 +77,7 @@ class XmlParser {
     return {};
   }
 
-  // Moves behind the next `mark`, and returns the text before it.
+  // Moves to the end of the next `mark`. Returns the text before the mark.
   Result<std::string_view> skip_to(std::string_view mark) {
     const std::size_t end = text_.find(mark, at_);
     if (end == std::string_view::npos) return error(cat("expected ", mark, ", found the end"));
@@ -97,7 +97,7 @@ class XmlParser {
     return {};
   }
 
-  // Returns the position of the '>' that ends the tag, which is not inside quotation marks.
+  // Returns the position of the '>' that ends the tag, ignoring those in quotation marks.
   std::size_t end_of_tag() const {
     for (std::size_t i = at_; i < text_.size(); ++i) {
       if (text_[i] == '>') return i;

@@ -48,8 +48,8 @@ class XyzReader {
     if (layout_.has_colours) colours_.reserve(points);
   }
 
-  // Returns whether the line is the number of points of another scan, which may follow when the last scan has
-  // as many points as it promised. If so, begins that scan.
+  // Returns whether the line is the number of points of another scan. Such a line may follow when the last
+  // scan has as many points as promised. If it does, begins that scan.
   bool begins_block(std::string_view line) {
     if (!layout_.promised_points || promised_ != cloud_.size()) return false;
     const auto points = parse_integer(line);
@@ -83,11 +83,12 @@ class XyzReader {
 
   const XyzLayout& layout_;
   SourceLines lines_;
-  std::vector<std::size_t> slots_;  // index in values_ of each column; most_wanted if it is not read
+  std::vector<std::size_t> slots_;  // per column: index in values_; most_wanted if the column is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
-  std::size_t promised_, promising_line_, before_block_ = 0;  // points up to the end of this scan; before it
+  // promised_: number of points up to the end of this scan; before_block_: before it.
+  std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
-  std::vector<Vec3f> colours_;  // as in the file
+  std::vector<Vec3f> colours_;  // as written in the file
 };
 
 std::string to_string(const XyzLayout& layout) {
@@ -103,8 +104,8 @@ using Row = std::vector<double>;
 
 using Names = std::span<const std::string_view>;
 
-// Names of coordinates in files of other programs, the most usual first: pairs of names for the plane, and
-// single names for the height.
+// Names of coordinates in files of other programs, the most common ones first: pairs of names for the plane,
+// and single names for the height.
 constexpr std::array<std::string_view, 18> plane_names = {
     "x",       "y",       "easting", "northing", "east",    "north",  "e",      "n",          "point_x",
     "point_y", "x_coord", "y_coord", "coord_x",  "coord_y", "xcoord", "ycoord", "rechtswert", "hochwert"};
@@ -118,8 +119,8 @@ constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
 constexpr std::array<std::string_view, 9> colour_names = {"r",    "g",  "b",  "red", "green",
                                                           "blue", "rf", "gf", "bf"};
 
-// Classes of points in LAS go up to 31. Columns of whole numbers up to this value are regarded as classes or
-// numbers of echoes.
+// Classes of points in LAS go up to 31. Columns of integers up to this value count as classes or numbers of
+// returns, not as colours.
 constexpr double largest_class = 31;
 
 std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
@@ -138,8 +139,8 @@ bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t
   return false;
 }
 
-// Returns the line around a byte, or the part of the line within 1,000 bytes. Without that limit, a file of
-// one long line would be searched once per sample.
+// Returns the line around a byte, or its part within 1,000 bytes. Without this limit, a file of a single long
+// line would be searched once per sample.
 std::string_view line_around(std::string_view data, std::size_t byte) {
   const std::size_t limit = 1000, first = byte - std::min(byte, limit);
   const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
@@ -148,8 +149,8 @@ std::string_view line_around(std::string_view data, std::size_t byte) {
   return data.substr(first + begin, byte + end - first - begin);
 }
 
-// Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
-// with two decimals, whose length is uncertain by 0.01.
+// Returns whether nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
+// with two decimals, whose length has an error of up to 0.01.
 bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
   const auto is_unit = [&](const Row& row) {
     return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
@@ -158,7 +159,7 @@ bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
   return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
 }
 
-// Returns true if three columns are whole numbers from 0 to 255, some of them above the largest class, or
+// Returns whether three columns are integers from 0 to 255, some of them above the largest class, or
 // fractions from 0 to 1.
 bool are_colours(const std::vector<Row>& rows, std::size_t column) {
   double largest = 0;
@@ -175,8 +176,9 @@ bool are_colours(const std::vector<Row>& rows, std::size_t column) {
 // A test of three consecutive columns.
 using IsTriple = bool (*)(const std::vector<Row>&, std::size_t column);
 
-// Returns whether a scanner's row and column come before the coordinates: two columns of whole numbers before
-// three with fractions in most rows. Rows of three coordinates and a normal or a colour may look alike.
+// Returns whether the coordinates come after a scanner's row and column: two columns of integers, then three
+// columns with fractions in most rows. Returns false if the columns may be three coordinates and a normal or
+// a colour.
 bool has_scan_positions(const std::vector<Row>& rows, std::size_t columns) {
   if (rows.empty() || columns < 5) return false;
   if (columns >= 6 && (are_unit_vectors(rows, 3) || (columns == 6 && are_colours(rows, 3)))) return false;
@@ -250,7 +252,7 @@ void take_columns(const ColumnNames& names, XyzLayout& layout) {
 void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   if (layout.columns < 5 && !has_name) return;
   const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
-  // If other rows begin with a number, the first column is not a name: a word in it replaces a missing
+  // If other rows begin with a number, the first column has no names; a word in it replaces a missing
   // coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
@@ -262,8 +264,8 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   const std::span wanted(layout.wanted);
   layout.has_normals =
       find_triple(rows, are_unit_vectors, candidates, wanted.subspan(XyzLayout::first_normal, 3));
-  // The columns of a normal are not a colour. After a line with the number of points (PTS), the fourth column
-  // is the intensity.
+  // The columns of a normal are not a colour. If a first line states the number of points (PTS), the fourth
+  // column is the intensity.
   const std::size_t normal = layout.has_normals ? layout.wanted[XyzLayout::first_normal] : layout.columns + 3;
   const bool has_intensity = layout.promised_points && layout.columns > first + 6;
   std::erase_if(candidates, [&](std::size_t column) {

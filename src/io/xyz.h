@@ -13,8 +13,9 @@
 
 namespace relievo::io {
 
-// Iterates over the fields of a line: words if `separator` is ' ', else the texts between separators, without
-// surrounding blanks and quotation marks. A separator at the end of the line ends the last field.
+// Iterates over the fields of a line: words if `separator` is ' ', otherwise the texts between separators,
+// without surrounding blanks and quotation marks. A separator at the end of the line ends the last field; no
+// further field follows.
 class Fields {
  public:
   Fields(std::string_view line, char separator) : line_(line), words_(line), separator_(separator) {}
@@ -27,7 +28,7 @@ class Fields {
   char separator_;
 };
 
-// Returns the line without a comment (# or //) and without blanks at its ends.
+// Returns the line without comment (# or //) and without blanks at its ends.
 std::string_view without_comment(std::string_view line);
 
 using ColumnNames = std::vector<std::string_view>;
@@ -36,40 +37,40 @@ struct XyzLayout {
   static constexpr std::size_t most_wanted = 9, first_normal = 3, first_colour = 6;
   char separator = ' ';
   bool has_decimal_commas = false;                          // instead of decimal points
-  std::size_t columns = 0;                                  // number of columns of every line
+  std::size_t columns = 0;                                  // number of columns in every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
-  bool has_names = false;                                   // whether a line names the columns
+  bool has_names = false;                                   // whether a line has names of the columns
   bool has_normals = false, has_colours = false;
-  bool has_scan_positions = false;              // the first two columns are a scanner's row and column
-  std::optional<std::int64_t> promised_points;  // number of points, if a first line states it
+  bool has_scan_positions = false;  // the first two columns are a scanner's row and column
+  // Number of points according to the first line, if that states it.
+  std::optional<std::int64_t> promised_points;
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // first line of data, counted from 1
   std::size_t data_offset = 0;
 };
 
-// Returns the number that a field spells, with a decimal comma if the layout has them.
+// Returns the number in a field, with a decimal comma if the layout has decimal commas.
 std::optional<double> parse_field(std::string_view field, const XyzLayout& layout);
 
-// Returns true if the names include x, y and z, or easting, northing and elevation, or other names of
-// coordinates.
+// Returns whether the names include coordinates: x, y and z, or easting, northing and elevation, or others.
 bool has_coordinates(const ColumnNames& names);
 
-// Returns true if the only coordinates among the names are longitude and latitude.
+// Returns whether the only coordinates among the names are longitude and latitude.
 bool has_degrees(const ColumnNames& names);
 
-// Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
-// find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
-// first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
-// with a number, or the three after a scanner's row and column.
+// Set the columns of coordinates, normals and colours. take_columns() uses the names of the columns.
+// find_columns() uses the values in lines from the whole file, which show unit vectors and colours. For it,
+// the coordinates are the first three columns; or the three after the first, if `has_name` and no sampled
+// line begins with a number; or the three after a scanner's row and column.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
-// Returns up to 256 rows from all over the file as numbers, without rows that have a different number of
-// columns. Words that are not numbers become NaN.
+// Returns up to 256 rows of numbers from the whole file, except rows with a different number of columns.
+// Words that are not numbers become NaN.
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
 
-// Detects the layout: from the names of the columns if the file has any, else from the first line of data
-// (separator, number of columns) and from lines throughout the file (normals, colours).
+// Detects the layout. If the file has names of columns, they determine it. Otherwise the first line of data
+// shows separator and number of columns, and lines from the whole file show normals and colours.
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

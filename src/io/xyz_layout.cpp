@@ -13,7 +13,7 @@ bool is_comment(std::string_view trimmed) {
   return trimmed.starts_with('#') || trimmed.starts_with("//");
 }
 
-// Returns a name without a unit in brackets, as in "X (m)" or "x[mm]", and without quotation marks.
+// Returns a name without quotation marks and without a unit in brackets, as in "X (m)" or "x[mm]".
 std::string_view plain_name(std::string_view field) {
   field = field.substr(0, field.find_first_of("(["));
   const std::string_view around = " \t\v\f\"'";
@@ -63,8 +63,8 @@ bool are_numbers(std::string_view text) {
   return true;
 }
 
-// Returns the end of the quoted text at the beginning of a line, 0 if there is none. Inside it, two quotation
-// marks mean one.
+// Returns the end of the quoted text at the beginning of a line; 0 if there is none. In a quoted text, two
+// quotation marks represent one.
 std::size_t end_of_quoted(std::string_view line) {
   std::size_t at = 0;
   while (at < line.size() && is_blank(line[at])) ++at;
@@ -74,7 +74,7 @@ std::size_t end_of_quoted(std::string_view line) {
   return 0;
 }
 
-// Returns the line without its quoted fields, because separators inside them do not count.
+// Returns the line without quoted fields, because separators in them do not count.
 std::string without_quoted(std::string_view line) {
   std::string plain;
   bool begins_field = true;
@@ -91,8 +91,8 @@ std::string without_quoted(std::string_view line) {
   return plain;
 }
 
-// Returns true if not all commas can be separators, as in "1,5 2,5". Commas as in "1, 2,5" count as decimal
-// only if no number has a decimal point.
+// Returns whether the commas cannot all be separators, as in "1,5 2,5". Commas as in "1, 2,5" are decimal
+// commas only if no number has a decimal point.
 bool has_decimal_commas(std::string_view line) {
   std::size_t commas = 0, spaced_commas = 0;
   Fields fields(line, ',');
@@ -107,7 +107,7 @@ bool has_decimal_commas(std::string_view line) {
   return spaced_commas > 0 && spaced_commas < commas && !line.contains('.');
 }
 
-// Returns whether each field between tabs is a number with a decimal point or comma; the first field may be a
+// Returns whether all fields between tabs are numbers with a decimal point or comma; the first field may be a
 // name.
 bool is_between_tabs(std::string_view line) {
   if (!line.contains('\t')) return false;
@@ -129,8 +129,8 @@ char likely_separator(std::string_view line) {
 }
 
 // Returns whether the first column is a name, which begins with a letter, and three numbers follow. If blanks
-// separate the fields, there must be three, six or nine numbers; otherwise, in "Point 1 10 20 30", the number
-// 1 would be read as x.
+// separate the fields, there must be three, six or nine numbers; otherwise "Point 1 10 20 30" would have x =
+// 1.
 bool begins_with_name(std::string_view line) {
   XyzLayout layout;
   layout.separator = likely_separator(line);
@@ -167,8 +167,8 @@ class Preamble {
 
   std::size_t line() const { return lines_.number(); }
 
-  // A line of names must have as many names as there are columns. A comment counts as names only if it has
-  // that many.
+  // A line of names must have as many names as there are columns. Only then does a comment count as a line of
+  // names.
   Result<void> name_columns() {
     if (names_.empty() && commented_names_.size() == layout_.columns && has_coordinates(commented_names_)) {
       names_ = commented_names_;
@@ -190,7 +190,7 @@ class Preamble {
       layout_.promising_line = lines_.number();
       return false;
     }
-    // After a line of names, the first column may be a text.
+    // After a line of names, the first column may contain text.
     const bool has_number =
         std::ranges::any_of(words, [](auto word) { return parse_number(word).has_value(); });
     if (!words.empty() && (parse_number(words[0]) || (!names_.empty() && has_number))) return true;
@@ -259,8 +259,8 @@ Result<XyzLayout> find_layout(const Source& source) {
   layout.first_line = preamble.line();
   RELIEVO_TRY(const auto separator, find_separator(source, line, layout.first_line));
   layout.separator = separator;
-  // Between semicolons or tabs a comma is not a separator. It is then a decimal comma, which may first occur
-  // in a later line.
+  // Between semicolons or tabs a comma is not a separator but a decimal comma. The first one may occur in a
+  // later line.
   const bool has_other_separators =
       layout.separator == ';' || (layout.separator == ' ' && line.contains('\t'));
   layout.has_decimal_commas = has_other_separators && !line.contains('.');

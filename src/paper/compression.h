@@ -10,23 +10,23 @@ namespace relievo::paper {
 
 // The coefficients of height and saturation, and two constants.
 struct Coefficients {
-  // u = alpha^-beta replaces alpha in (6): it gives the same weights, and gives every height at beta = 0, too,
-  // where alpha has no effect. Infinity stands for alpha = 0.
+  // u = alpha^-beta replaces alpha in (6). It gives the same weights; with beta = 0, where alpha has no
+  // effect, it can still give every height. Infinity corresponds to alpha = 0.
   double u = 1;
   double beta = .01;
-  double max_slope = 4;       // steepest slope of an expected normal; 4 is 76 degrees
-  double boundary_width = 2;  // width of (7), in rho
+  double max_slope = 4;       // largest slope of an expected normal; 4 is 76 degrees
+  double boundary_width = 2;  // width of the boundary in (7), in rho
 };
 
-// Equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of |k|; where it is 0,
-// all points get the weight of beta = 0.
+// Equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of |k|; if it is 0,
+// all points get the weight for beta = 0.
 inline double curvature_weight(double k, double delta, const Coefficients& c) {
   if (c.u == std::numeric_limits<double>::infinity()) return 1;
   const double power = delta > 0 ? std::pow(std::abs(k) / delta, c.beta) : 1;
   return 1 - std::exp(-c.u * power);
 }
 
-// Equation (7), for a boundary 2 rho wide: 1 - exp(-(distance / (2 rho))^2).
+// Equation (7), whose boundary is 2 rho wide: 1 - exp(-(distance / (2 rho))^2).
 inline double boundary_weight(double distance, double width) {
   return 1 - std::exp(-(distance / width) * (distance / width));
 }
@@ -36,9 +36,9 @@ inline Vec3 expected_normal(const Vec3& normal, double w) {
   return w * normal + (1 - w) * Vec3::UnitZ();
 }
 
-// Returns the slope (dz/dx, dz/dy) of a surface with that normal, of any length; a steeper one is shortened to
-// `max_slope`. The text says that the matrix of (9) is fixed. This is so if each of its rows is divided by the
-// z of the expected normal, which is 0 at silhouettes: hence the limit.
+// Returns the slope (dz/dx, dz/dy) of a surface with this normal, which may have any length. Slopes above
+// `max_slope` are shortened to it. The limit is needed because the paper's matrix in (9) is constant only if
+// each row is divided by the z of the expected normal, which is 0 at silhouettes.
 inline Vec2 slope_of(const Vec3& normal, double max_slope) {
   const double length = normal.head<2>().norm();
   if (!(length <= max_slope * normal.z())) return -max_slope / length * normal.head<2>();

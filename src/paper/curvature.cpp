@@ -24,7 +24,7 @@ Jet weight(const Vec3& y, double h) {
   return {value, scale * value * y, value * (scale * scale * y * y.transpose() + scale * Mat3::Identity())};
 }
 
-// n(x), the weighted mean of the neighbours' normals, scaled to unit length.
+// n(x), the weighted mean of the neighbours' normals, normalised.
 JetVector mean_normal(std::span<const Neighbour> neighbours, double h) {
   JetVector sum;
   for (const Neighbour& q : neighbours) {
@@ -39,8 +39,8 @@ JetVector mean_normal(std::span<const Neighbour> neighbours, double h) {
   return sum;
 }
 
-// Equation (2): g(x) = n(x)^T (de(y, n(x)) / dy at y = x), where e is the sum of ((y - q)^T n(x))^2
-// theta(y, q). With d = (x - q)^T n(x) the derivative of each term is 2 theta d (n - d (x - q) / h^2).
+// Equation (2): g(x) = n(x)^T (de(y, n(x)) / dy at y = x), where e is the sum of ((y - q)^T n(x))^2 theta(y,
+// q). With d = (x - q)^T n(x), the derivative of each term is 2 theta d (n - d (x - q) / h^2).
 Jet surface_function(std::span<const Neighbour> neighbours, double h) {
   const JetVector n = mean_normal(neighbours, h);
   const double inverse = 1 / (h * h);

@@ -10,13 +10,13 @@
 namespace relievo::paper {
 
 // Returns the mean curvature at the points with the indices `queries`, in 1 / length, positive where the
-// surface is convex. Q, the neighbours of a point, are all points of the cloud within 3 h, and the Gaussian
-// weight is exp(-d^2 / h^2); h is 3 rho. The curvature is 0 where the gradient of g vanishes. Normals have unit length.
-// If no curvature is above 1e-6 / rho, the surface is flat up to the rounding of normals, and all are 0. Once the progress is cancelled, it ends early and the values have no meaning.
+// surface is convex. Q, the neighbours of a point, are all points of the cloud within 3 h. The Gaussian
+// weight is exp(-d^2 / h^2), and h is 3 rho. Normals must have unit length. The curvature is 0 where the
+// gradient of g is 0. If no curvature exceeds 1e-6 / rho, the surface is flat up to the rounding of normals,
+// and all curvatures are set to 0. After cancellation, returns early with meaningless values.
 //
-// The printed (3) is twice the mean curvature, and negative for normals that point outwards. Its sign and the
-// factor are changed here: otherwise detail, the second (9), would flatten
-// ridges.
+// The printed equation (3) gives twice the mean curvature, negated for outward normals. Here the sign and the
+// factor are corrected; otherwise the detail of the second equation (9) would flatten ridges.
 std::vector<double> mean_curvature(const Cloud& cloud, double rho, std::span<const Index> queries,
                                    const Progress* progress = nullptr);
 

@@ -1,32 +1,32 @@
-// A relief of a given height (section 3.6): Algorithm 1.
+// Finds a relief of a given height (section 3.6): Algorithm 1.
 #pragma once
 
 #include <cmath>
 
 namespace relievo::paper {
 
-// The coefficients of (6) at which a height was looked for.
+// The result of a search for a height: the coefficients of (6).
 struct HeightToOrder {
   double alpha = 0, beta = 0;
-  double height = 0;    // the height that they give
-  bool is_met = false;  // whether it is within 1 % of the height asked for
+  double height = 0;    // the height for these coefficients
+  bool is_met = false;  // whether the height is within 1 % of the requested one
 };
 
-// Returns alpha and beta at which the height is within 1 % of `wanted`, for the smallest beta that has such an
-// alpha. `height_at(alpha, beta)` makes the relief and returns its height, which falls with alpha; the last call
-// made the relief that is returned. Beta is doubled from 1e-5; if none up to 100 gives the height, `is_met` is
-// false. For each beta, alpha is doubled from 0.001 until the height falls below the one wanted, and is then
-// found by bisection in (alpha / 2, alpha).
+// Returns alpha and beta for which the height is within 1 % of `wanted`, with the smallest possible beta.
+// `height_at(alpha, beta)` makes the relief and returns its height, which decreases with alpha; the last call
+// is for the returned alpha and beta. Beta is doubled from 1e-5 to at most 100; if that is not enough,
+// `is_met` is false. For each beta, alpha is doubled from 0.001 until the height falls below `wanted`; then
+// bisection in (alpha / 2, alpha) finds alpha.
 //
-// The listing does not run as it is printed: line 4 lacks an absolute value, and its 0.001 is a length in no
-// unit; lines 9 to 16 halve alpha in the wrong branch; lines 17 to 23 move both ends of the bracket at once. The
-// section's text says what is meant. Two things are added. The number of doublings is found by bisection, too,
-// because heights change little by one doubling if beta is small. Doubling ends at the largest number, instead
-// of where the height changes by less than 0.001.
+// The algorithm as printed has mistakes: line 4 lacks an absolute value, and its 0.001 is a length without a
+// unit; lines 9 to 16 halve alpha in the wrong branch; lines 17 to 23 move both ends of the bracket at once.
+// This function follows the section's text, with two changes. The number of doublings is also found by
+// bisection, because for small beta one doubling hardly changes the height. Doubling ends at the largest
+// double, instead of where the height changes by less than 0.001.
 template <typename F>
 HeightToOrder adjust_to_height(double wanted, F&& height_at) {
   constexpr double tolerance = .01, first_beta = 1e-5, last_beta = 100;
-  constexpr int most_doublings = 1033;  // the last whose alpha is finite
+  constexpr int most_doublings = 1033;  // after more doublings alpha would be infinite
   HeightToOrder found;
   const auto is_below = [&](double alpha) {
     found.alpha = alpha;

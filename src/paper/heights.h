@@ -13,16 +13,16 @@ namespace relievo::paper {
 // Equation (9) as A^T A z = A^T b, factored once. A has these rows:
 //   z_p = 0                                                 for each boundary point p,
 //   z_p - z_q = s_p . ((x, y)_p - (x, y)_q)                 for each point p and each of its neighbours q.
-// The neighbours Q of a point are the six points nearest to it in the view plane. The second row is (8),
-// n~_p . (p - q) = 0, divided by the z of n~_p; s_p is the slope of n~_p. Concurrent solves are safe, each with
-// a workspace of its own.
+// The neighbours Q of a point are the six points nearest to it in the view plane. The second row is (8), n~_p
+// . (p - q) = 0, divided by the z of n~_p; s_p is the slope of n~_p. Concurrent solves are safe if each has
+// its own workspace.
 class NormalEquations {
  public:
   using Workspace = solver::Cholesky::Workspace;
 
-  // Prepares the system of points in the view plane. A set of points that neighbours connect, but that has no
-  // boundary point, would have no definite height: the lowest index in it counts as one. Errors: those of
-  // solver::Cholesky::factor().
+  // Prepares the system for points in the view plane. A set of points that are connected as neighbours but
+  // include no boundary point would have undetermined heights; its point with the lowest index is treated as
+  // a boundary point. Errors: those of solver::Cholesky::factor().
   static Result<NormalEquations> build(std::span<const Vec2> points,
                                        std::span<const std::uint8_t> is_boundary);
 
@@ -30,7 +30,7 @@ class NormalEquations {
   std::size_t memory() const;
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Writes the heights above the base for one slope per point, in single precision.
+  // Writes the heights above the base, given one slope per point, in single precision.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
  private:
@@ -42,7 +42,7 @@ class NormalEquations {
   explicit NormalEquations(solver::Cholesky factor) : factor_(std::move(factor)) {}
 
   solver::Cholesky factor_;
-  std::vector<Vec2f> steps_;  // per point p, the sum of the steps of its rows
+  std::vector<Vec2f> steps_;  // per point p: sum of the steps of its rows
   Groups<Row> rows_;          // the rows of (8), grouped by q
 };
 

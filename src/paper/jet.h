@@ -1,4 +1,4 @@
-// Functions of space with their first and second derivatives, as equation (3) needs them.
+// Functions in space with their first and second derivatives, for equation (3).
 #pragma once
 
 #include "relievo/core/types.h"
@@ -34,7 +34,7 @@ struct Derivatives {
   double value, first, second;
 };
 
-// Returns f(a), given f and its derivatives at the value of a.
+// Returns f(a), given f and its derivatives at the value of `a`.
 inline Jet chain(const Derivatives& f, const Jet& a) {
   return {f.value, f.first * a.gradient,
           f.first * a.hessian + f.second * a.gradient * a.gradient.transpose()};
@@ -42,7 +42,7 @@ inline Jet chain(const Derivatives& f, const Jet& a) {
 
 using JetVector = std::array<Jet, 3>;
 
-// Returns the scalar product of two vectors, of which `y` is the position relative to a fixed point.
+// Returns the scalar product of two vectors; `y` is the position relative to a fixed point.
 inline Jet dot(const Vec3& y, const JetVector& n) {
   Jet sum;
   for (Eigen::Index i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// The mapping of heights from the control points to all visible points (section 3.5).
+// Maps heights from the control points to all visible points (section 3.5).
 #pragma once
 
 #include <algorithm>
@@ -9,27 +9,28 @@
 
 namespace relievo::paper {
 
-// Heights below this share of the largest have no definite ratio.
+// Heights below this share of the largest height have no well-defined ratio.
 inline constexpr float faint_share = .02F;
 
-// Returns the compression ratio z / z0, which goes to 0 where z0 is below `faint`.
+// Returns the compression ratio z / z0, which fades to 0 where z0 is below `faint`.
 inline float compression_ratio(float z, float z0, float faint) {
   return z * z0 / std::max(z0 * z0 + faint * faint, 1e-30F);
 }
 
-// Carries the compression ratio of the control points, their height divided by the one without compression, to
-// all visible points by a multilevel B-spline, and multiplies it there by the heights without compression.
+// Computes the compression ratio of the control points: their height divided by their height without
+// compression. A multilevel B-spline interpolates the ratio at all visible points, where it is multiplied by
+// their heights without compression.
 class HeightMapping {
  public:
-  // Scratch memory of carry(), so that it allocates nothing.
+  // Scratch memory, so that carry() allocates nothing.
   struct Workspace {
-    std::vector<float> ratio;  // of the control points
+    std::vector<float> ratio;  // compression ratio of the control points
     SplineFunction function;
     MultilevelSpline::Workspace fit;
   };
 
-  // The heights that (9) gives with w_k = 1, at the control points and at all visible points. The depth jumps of
-  // the model are gone from them ("prediscontinuous removal" in Fig. 6).
+  // The heights from (9) with w_k = 1, at the control points and at all visible points. They do not contain
+  // the model's depth jumps ("prediscontinuous removal" in Fig. 6).
   struct Uncompressed {
     std::vector<float> control, visible;
   };
@@ -40,7 +41,7 @@ class HeightMapping {
   std::size_t memory() const;
   Workspace make_workspace() const;
 
-  // Writes the heights of all visible points for those of the control points.
+  // Writes the heights of all visible points, given those of the control points.
   void carry(std::span<const float> control_heights, Workspace& workspace, std::span<float> heights) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Returns the heights of a system without compression, w_k = 1.
+// Returns the heights without compression: w_k = 1.
 std::vector<float> uncompressed_heights(const PaperModel& model) {
   PaperModel::SolveWorkspace workspace = model.make_solve_workspace();
   std::vector<float> heights(model.control_points());

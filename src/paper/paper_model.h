@@ -1,4 +1,4 @@
-// Reliefs by the paper to the letter (sections 3.3 to 3.5), from a surface that is prepared once.
+// Reliefs exactly by the paper (sections 3.3 to 3.5), from a surface that is prepared once.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,24 @@
 
 namespace relievo {
 
-// The system (9) of all visible points, or of the control points with the mapping to all visible points. Const
-// calls may run concurrently, each with a workspace of its own.
+// The system (9) of all visible points, or that of the control points with the mapping to all visible points.
+// Const calls may run concurrently if each has its own workspace.
 class PaperModel {
  public:
-  // Scratch memory of solve() and of map(), so that frames allocate nothing.
+  // Scratch memory, so that solve() and map() allocate nothing.
   struct SolveWorkspace {
     paper::NormalEquations::Workspace system;
     std::vector<Vec2f> slopes;
   };
   using MapWorkspace = paper::HeightMapping::Workspace;
 
-  // Factors the system of the surface of paper::find_surface(). `control_points` is the paper's n2, see
-  // paper::control_points(); if it is not less than the number of visible points, all of these are control
-  // points. Errors: see NormalEquations::build(); kind cancelled.
+  // Factors the system for a surface from paper::find_surface(). `control_points` is the paper's n2, see
+  // paper::control_points(). If it is not less than the number of visible points, all of them are control
+  // points. Errors: those of NormalEquations::build(); kind cancelled.
   static Result<PaperModel> prepare(const Surface& surface, std::size_t control_points,
                                     Progress* progress = nullptr);
 
-  // Returns the number of visible points, and that of control points.
+  // Return the number of visible points, and the number of control points.
   std::size_t size() const { return k_.size(); }
   std::size_t control_points() const { return system_.size(); }
   bool is_subspace() const { return mapping_.has_value(); }
@@ -40,9 +40,10 @@ class PaperModel {
   void solve(const paper::Coefficients& coefficients, SolveWorkspace& workspace,
              std::span<float> control_heights) const;
 
-  // Writes the heights of all visible points for those of the control points, with detail, the paper's second
-  // equation (9): z_p += gamma k_p h. Here h is the height without detail, highest minus lowest of z and 0.
-  // Boundary points are then put on the base, near which the rows of (9) only keep them: a plate must be closed.
+  // Writes the heights of all visible points, given those of the control points, with detail by the paper's
+  // second equation (9): z_p += gamma k_p h. Here h is the height without detail: the highest minus the
+  // lowest of z and 0. Then boundary points are set to 0, because (9) only brings them close to 0, and a
+  // plate must be closed.
   void map(std::span<const float> control_heights, double gamma, MapWorkspace& workspace,
            std::span<float> heights) const;
 
@@ -51,7 +52,7 @@ class PaperModel {
 
   struct ControlPoint {
     Vec3f normal;
-    float k = 0, distance = 0;  // to the boundary
+    float k = 0, distance = 0;  // distance to the boundary
   };
 
   paper::NormalEquations system_;

@@ -6,12 +6,12 @@
 
 namespace relievo::paper {
 
-// Returns the visible points with their normals, normalised mean curvature, Delaunay triangulation and
-// boundary. The view must be one that `measured` serves and must ask for no removal of noise. Errors: kind
-// geometry if fewer than 4 points face the viewer or all visible points are on one line; kind cancelled.
+// Returns the visible points with normals, normalised mean curvature, Delaunay triangulation and boundary.
+// `measured.serves(view)` must be true, and the view must not remove noise. Errors: kind geometry if fewer
+// than 4 points face the viewer or all visible points are collinear; kind cancelled.
 //
-// The paper does not say how P_b is found. Here a triangle with an empty circle of more than 3 rho is outside
-// the relief, and its corners are in P_b.
+// The paper does not say how P_b is found. Here a triangle is outside the relief if its empty circle is
+// larger than 3 rho; its corners are in P_b.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo::paper

@@ -11,10 +11,10 @@
 namespace relievo {
 namespace {
 
-// The surface turns by more than this at a plate's edges, and by less between the facets of round parts.
+// At a plate's edges normals differ by more than this angle, between the facets of round parts by less.
 constexpr double sharpest_deg = 20;
 
-// Solids are rounded to single precision, so the heights of points on the ground differ a little.
+// Solids are rounded to single precision, so the heights of points on the ground differ slightly.
 constexpr double rounding_mm = 1e-6;
 
 bool is_at_ground(const Solid& solid, const Triangle& corners) {
@@ -46,7 +46,7 @@ Part part_of(const Solid& solid, std::size_t t) {
 
 }  // namespace
 
-// The ground and the rim's bevel are smoothed separately, because they always meet in an edge, even at a
+// The ground and the rim's bevel are smoothed separately, because their common edge stays sharp even at a
 // small angle.
 PlateParts plate_parts(const Solid& solid) {
   const std::size_t count = solid.triangles.size();
@@ -74,7 +74,7 @@ PlateParts plate_parts(const Solid& solid) {
   return out;
 }
 
-// Level triangles are ignored: those of the ground are large and thin, and would smear the shading of the
+// Level triangles are ignored. Those of the ground are large and thin, and would spread the shading of the
 // relief's rim across the ground.
 std::vector<Vec3f> relief_normals(const Solid& solid) {
   std::vector<Vec3f> normals(solid.points.size(), Vec3f::Zero());

@@ -1,5 +1,4 @@
-// The triangles of a body in the form that the renderer needs. A body is a finished solid, or a frame on its
-// plate.
+// The triangles of a body, with the data for rendering. A body is a finished solid, or a frame on its plate.
 #pragma once
 
 #include <array>
@@ -13,13 +12,13 @@ namespace relievo {
 
 struct SurfaceDetail;
 
-// The part of the body that a triangle belongs to, which decides how it is shaded.
+// The part of the body that a triangle belongs to. It determines the shading.
 enum class Part : std::uint8_t {
   nothing,
   relief,  // shaded by the normals of its points, or flat if it is level
   ground,  // level, at height 0
-  curved,  // the rest of the front (a base, a rim), shaded by normals of its own corners
-  wall     // sides and bottom, shaded like `curved`, without cast shadows
+  curved,  // the rest of the front, such as a base or a rim; shaded by the normals of its corners
+  wall     // sides and bottom; shaded like `curved`, but without cast shadows
 };
 
 // The part of each triangle, and corner normals for triangles that are not shaded by the normals of their
@@ -29,30 +28,32 @@ struct PlateParts {
   std::vector<Index> corners_at;                     // per triangle: index into corner_normals, or no_index
   std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
   std::size_t front_triangles = 0;                   // number of front triangles, which come first
-  bool has_curved_ground = false;                    // the ground is on a base, or the plate is bent
+  bool has_curved_ground = false;                    // whether the ground is on a base or bent around a wrap
 };
 
-// Returns the parts of a solid. Corner normals are smooth where triangles of one part meet at less than 20
-// degrees.
+// Returns the parts of a solid. Corner normals are smoothed across edges between triangles of the same part
+// that meet at less than 20 degrees.
 PlateParts plate_parts(const Solid& solid);
 
-// A body with x and y from the middle of its box and z from the ground. Triangles refer to its points by
-// index: first come the points with heights, then `box_corners`. A DrawnBody does not own its arrays.
+// A body whose x and y are relative to the middle of its box, and whose z is relative to the ground.
+// Triangles refer to its points by index: first the points with heights, then `box_corners`. A DrawnBody does
+// not own its arrays.
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
-  std::span<const Vec2> places;  // in units of mm_per_place
+  std::span<const Vec2> places;  // unit: mm_per_place
   double mm_per_place = 1;
-  std::span<const float> heights;  // in units of mm_per_height
+  std::span<const float> heights;  // unit: mm_per_height
   float mm_per_height = 1;
   std::span<const Vec3f> normals;         // normals of the relief's points, unit length
-  float stretch = 1;                      // factor that makes `normals` steeper
-  const SurfaceDetail* detail = nullptr;  // shown between the points with `gains`, see Shown
+  float stretch = 1;                      // factor by which `normals` are made steeper
+  const SurfaceDetail* detail = nullptr;  // detail between the points, added with `gains` (see Shown)
   std::span<const float> gains = {};
   Vec2f middle = Vec2f::Zero();  // middle of the surface's points, in the coordinates of `detail`
   std::vector<Vec3> box_corners = {};
   Box front = {};  // box of the front's points, in mm
-  // True if no point of the front hides another when seen from above. That view then needs no heights.
+  // Whether no point of the front hides another in the view from above. Then rendering that view does not
+  // need the heights.
   bool is_height_field = false;
 
   Vec3 point(Index i) const {
@@ -64,12 +65,12 @@ struct DrawnBody {
   float span_mm() const { return static_cast<float>(front.size().z()); }
 };
 
-// A finished solid as a body.
+// A finished solid for rendering.
 class SolidBody {
  public:
   explicit SolidBody(const Solid& solid);
 
-  // Returns a body that is valid as long as this object and the solid.
+  // Returns the body, which is valid as long as this object and the solid.
   DrawnBody body() const;
 
  private:
@@ -80,7 +81,7 @@ class SolidBody {
   std::vector<Vec3f> normals_;
 };
 
-// Returns unit normals of the relief's points, weighted by the areas around them; zero for all other points.
+// Returns unit normals of the relief's points, as means weighted by area; zero for all other points.
 std::vector<Vec3f> relief_normals(const Solid& solid);
 
 }  // namespace relievo

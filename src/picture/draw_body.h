@@ -1,4 +1,4 @@
-// Renders all pictures of bodies: previews, live pictures and comparisons.
+// Renders bodies, for previews, live pictures and comparisons.
 #pragma once
 
 #include <memory>
@@ -15,16 +15,17 @@
 
 namespace relievo {
 
-// A point on a triangle, given by its barycentric weights in 65535ths; the third corner has the rest.
+// A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is the rest.
 struct VisiblePoint {
   Triangle corners = {no_index, no_index,
-                      no_index};  // stored here, because looking them up makes live pictures a third slower
+                      // Stored here, because looking them up would make live pictures a third slower.
+                      no_index};
   Index triangle = no_index;
   std::uint16_t first = 0, second = 0;
   float z = 0;  // height towards the viewer, in pixels
   Part part = Part::nothing;
 
-  // Returns the mean of three values with these weights.
+  // Returns the mean of the values at the three corners with these weights.
   template <typename T>
   T mean(const T& a, const T& b, const T& c) const {
     const float s = static_cast<float>(first) / 65535, t = static_cast<float>(second) / 65535;
@@ -34,21 +35,21 @@ struct VisiblePoint {
 
 using VisibilityBuffer = Image<VisiblePoint>;
 
-// Returns the body's triangles in pixels of the picture, without heights for height fields seen from above.
+// Returns the body's triangles in pixels of the picture; without heights, for a height field seen from above.
 RasterInput raster_input(const DrawnBody& body, const ScreenTransform& transform);
 
-// Returns the point of one of the body's triangles that is at `place` in the picture.
+// Returns the point of a triangle of the body at position `place` in the picture.
 VisiblePoint visible_point(const DrawnBody& body, const RasterInput& input, Index triangle,
                            const Vec3f& place);
 
-// Overwrites the buffer with the points that are visible at the centres of the picture's pixels.
+// Overwrites the buffer with the visible points at the centres of the picture's pixels.
 void draw_visibility(const DrawnBody& body, const RasterInput& input, VisibilityBuffer& buffer);
 
 // Returns the height of a point above the ground, in mm.
 float height_mm(const DrawnBody& body, const VisiblePoint& seen);
 
-// Caches a visibility buffer as long as it shows the same points. In the view from above it does so while
-// only heights change, and not the plate's size.
+// Caches a visibility buffer as long as it shows the same points. In the view from above, that is while only
+// heights change and the plate's size does not.
 class CachedVisibility {
  public:
   const VisibilityBuffer& get(const DrawnBody& body, const ScreenTransform& transform);
@@ -66,25 +67,24 @@ class CachedVisibility {
 
 struct DrawParams {
   Material material = Material::plaster;
-  Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
+  Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate
   bool has_shadows = true;
-  bool is_fine = false;                         // more samples per pixel and finer shadows
-  std::shared_ptr<const ToolReach> reach = {};  // material left on the front is coloured
-  const Progress* progress = nullptr;           // a cancelled picture is left unfinished
+  bool is_fine = false;                         // more samples per pixel, and finer shadows
+  std::shared_ptr<const ToolReach> reach = {};  // colours the material that a tool leaves on the front
+  const Progress* progress = nullptr;           // if cancelled, the picture stays unfinished
 };
 
-// Results that stay valid between pictures of the same body, if it is a height field.
+// Results that can be reused for pictures of the same body, if it is a height field.
 struct DrawCache {
   CachedVisibility front, quick_light, fine_light;
 };
 
 // Overwrites the picture (4 channels) with the body and its drop shadow on a transparent background. The same
-// body, transform and parameters give the same pixels, for any number of threads and after any earlier
-// pictures.
+// body, transform and parameters give the same pixels for any number of threads and any previous pictures.
 void draw_body(const DrawnBody& body, const ScreenTransform& transform, const DrawParams& params,
                DrawCache& cache, Image8& picture);
 
-// Returns the heights of the body's front above its lowest point, with a longer side of that many pixels.
+// Returns the heights of the body's front above its lowest point, as an image with that longer side.
 HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisibility& cache);
 
 }  // namespace relievo

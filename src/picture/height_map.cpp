@@ -15,14 +15,13 @@ namespace {
 constexpr float background = 236, darkest = 40, brightest = 225;
 const Vec3f mild(255, 170, 60), strong(200, 20, 20);  // colours of small and of large residuals
 
-// The average of the samples that a pixel shows.
+// The average of the samples within a pixel.
 struct Averaged {
   Vec3f colour = Vec3f::Zero();
   int samples = 0;
 };
 
-// Returns the brightness of a surface that is lit from the upper left, given its slopes to the right and
-// down.
+// Returns the brightness of a surface lit from the upper left, given its slopes to the right and down.
 float grey(float right, float down) {
   const Vec3f lamp = Vec3f(-1, 1, 1.2F).normalized();
   const float facing = Vec3f(-right, down, 1).normalized().dot(lamp);

@@ -9,10 +9,10 @@ namespace relievo {
 namespace {
 
 constexpr double frame_padding =
-    .055;  // space around the plate for its shadow, as a share of the picture's shorter side
+    .055;  // space for the shadow around the plate, as a share of the picture's shorter side
 
-// The plate's triangles are computed once, for a relief of this width. Only the plate's corners move with the
-// options.
+// The plate's triangles are computed once, for a relief with this width. Options only move the plate's
+// corners.
 constexpr double width_mm = 100;
 
 Mat3 rotation_of(const Camera& camera) {
@@ -43,8 +43,8 @@ PlateMesh plate_mesh(const Surface& surface) {
   Result<Solid> solid = make_plate(front, {});
   if (!solid) return mesh;
   mesh.parts = plate_parts(*solid);
-  // A thin triangle on the hull may have been flipped together with a triangle of the ground; then it has a
-  // corner of the plate.
+  // A thin triangle on the hull may have been flipped together with a triangle of the ground. Then one of its
+  // corners is a corner of the plate.
   const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
   for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
     if (surface.boundary.is_inside[t] && is_of_points(solid->triangles[t]))
@@ -70,16 +70,16 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   body.front.extend({-half.x(), -half.y(), static_cast<double>(scale * std::min(0.F, lowest))});
   body.front.extend({half.x(), half.y(), static_cast<double>(scale * std::max(0.F, highest))});
   const double bottom = body.front.min.z() - options.thickness_mm;
-  for (int i = 0; i < 8; ++i) {  // corners in the order of make_plate()
+  for (int i = 0; i < 8; ++i) {  // corners are in the same order as in make_plate()
     const double x = i % 4 == 1 || i % 4 == 2 ? half.x() : -half.x(), y = i % 4 >= 2 ? half.y() : -half.y();
     body.box_corners.push_back({x, y, i < 4 ? 0 : bottom});
   }
   return body;
 }
 
-// An orbiting camera keeps the scale of the view from the front as long as the plate's corners stay in the
-// picture. The corners may come closer to the picture's edge than in the view from the front, where the
-// plate's shadow needs space.
+// An orbiting camera keeps the scale of the front view as long as the plate's corners stay in the picture.
+// The corners may be closer to the picture's edge than in the front view, where the plate's shadow needs
+// space.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
   constexpr double least_padding = .03;
   const double side = std::min(options.width, options.height);

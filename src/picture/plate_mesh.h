@@ -1,4 +1,4 @@
-// The rectangular plate around a model's frames, as triangles that stay the same when heights change.
+// The rectangular plate around a model's frames, with triangles that do not depend on heights.
 #pragma once
 
 #include <vector>
@@ -9,24 +9,25 @@
 
 namespace relievo {
 
-// The corners of the triangles are the surface's points and, numbered after them, the plate's eight corners.
+// Triangles refer to the surface's points and, with the following indices, to the plate's eight corners.
 struct PlateMesh {
   std::vector<Triangle> triangles;
   PlateParts parts;
-  std::vector<Vec2> places;      // the surface's points relative to the middle, in its units
+  std::vector<Vec2> places;      // the surface's points relative to the middle, in the surface's units
   Vec2 half = Vec2::Zero();      // half the size of the points' box
   Vec2f middle = Vec2f::Zero();  // middle of the points' box
 };
 
 PlateMesh plate_mesh(const Surface& surface);
 
-// Returns the body of a frame on its plate. The body refers to the mesh and to `shown`.
+// Returns the body of a frame on its plate. It refers to the mesh and to `shown`.
 DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options);
 
-// Returns the transform that fits a box around the origin into the picture, turned and moved by the camera.
+// Returns the transform that fits a box of that size around the origin into the picture, after rotating and
+// moving it by the camera.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options);
 
-// Returns the transform that fits the plate into the picture, turned and moved by the camera.
+// Returns the transform that fits the plate into the picture, after rotating and moving it by the camera.
 ScreenTransform frame_transform(const PlateMesh& mesh, const RenderOptions& options);
 
 }  // namespace relievo

@@ -16,14 +16,15 @@ namespace relievo {
 namespace {
 
 constexpr double preview_padding =
-    .06;  // space around the plate for its shadow, as a share of the picture's longer side
-constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;  // of each picture, with 3 samples per pixel
+    .06;  // space for the shadow around the plate, as a share of the picture's longer side
+// For each of the two pictures, with 3 samples per pixel.
+constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;
 
-// Linear brightness of the background, from the top to the bottom: bright enough for the plate to stand out,
-// and darker at the bottom, like a wall that is lit from above.
+// Linear brightness of the background, at the top and at the bottom. It contrasts with the plate, and is
+// darker at the bottom like a wall lit from above.
 constexpr float brightest_wall = .90F, darkest_wall = .70F;
 
-// The oblique view is from above right: from there the upper left lamp shows slopes and the plate's edge
+// The oblique view is from above on the right, where the upper left lamp shows slopes and the plate's edge
 // best.
 constexpr double oblique_yaw_deg = -35, oblique_pitch_deg = 20;
 
@@ -34,7 +35,7 @@ Mat3 oblique_rotation() {
       .matrix();
 }
 
-// Returns the part of a body below that height.
+// Returns the part of a body below `most_z`.
 Solid cut_open(const Solid& solid, double most_z) {
   Solid open{solid.points, {}};
   open.ground_mm = solid.ground_mm;
@@ -67,8 +68,8 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// Returns the transforms for the front of a body, in a picture with that longer side, and for the oblique
-// view of another body in a picture of the same size.
+// Returns the transform for the front view of one body, in a picture with that longer side, and for the
+// oblique view of another body in a picture of the same size.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
   const Mat3 rotation = oblique_rotation();
@@ -84,7 +85,7 @@ std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, c
           ScreenTransform{width, height, std::min(scale, fit), rotation, middle, false}};
 }
 
-// Composites a picture with opacity over the background, with its left edge at column `left`.
+// Composites a picture with opacity over the background, starting at column `left`.
 void lay_on_wall(const Image8& picture, int left, Image8& image) {
   const DisplayTable& display = display_table();
   const auto lay_row = [&](std::size_t row) {
@@ -134,7 +135,7 @@ struct SolidRenderer::State {
   DrawCache cache = {};
   std::shared_ptr<const ToolReach> reach = {};
 
-  // Returns the size of the box around the origin that contains the body.
+  // Returns the size of the smallest box around the origin that contains the body.
   static Vec3 size_around_ground(const DrawnBody& body) {
     Vec3 half = Vec3::Zero();
     for (const Triangle& t : body.triangles)

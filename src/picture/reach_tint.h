@@ -1,4 +1,4 @@
-// Colours, in pictures of a body, the material that a milling tool leaves. Tested by
+// Colours the material that a milling tool leaves, in pictures of a body. Tested by
 // tests/picture/reach_tint_test.cpp.
 #pragma once
 
@@ -11,11 +11,12 @@ namespace relievo {
 
 class ReachTint {
  public:
-  // Colours nothing if `reach` is null. `front` is the measured front's box, in the body's coordinates.
+  // `front` is the box of the measured front in the body's coordinates. If `reach` is null, nothing is
+  // coloured.
   ReachTint(std::shared_ptr<const ToolReach> reach, const Box& front);
 
-  // Returns the linear colour of a point on the front: orange to red where more than the tolerance is left,
-  // else `colour`.
+  // Returns the linear colour of a point on the front: orange to red if more than the tolerance is left
+  // there, otherwise `colour`.
   Vec3f operator()(const Vec3f& colour, const Vec3f& place) const;
 
  private:

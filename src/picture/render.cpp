@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// The longer side, in pixels, of the height field from which profiles are read. Displays show fewer pixels.
+// The longer side, in pixels, of the height field for profiles, which are shown with fewer pixels.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {
@@ -26,14 +26,15 @@ std::vector<float> depths_of(const Surface& surface) {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// The lamp is nearer to the viewer than for reliefs, because much of a whole body faces away from the light.
+// The lamp is nearer to the viewer than the lamp for reliefs, because large parts of a whole body face away
+// from the light.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
-// Radius of a point's disc, in sampling distances: with this radius, randomly scattered points leave hardly a
-// gap.
+// Radius of a point's disc, in sampling distances. With this radius, randomly scattered points leave few
+// gaps.
 constexpr double disc_radius = 1.7;
 
-// A point in the picture: its position and depth in pixels, and its normal in view coordinates.
+// A point in the picture: position and depth in pixels, normal in view coordinates.
 struct Dot {
   Vec3f place, normal;
 };
@@ -43,9 +44,8 @@ struct Canvas {
   Image<Vec3f> normals;  // weighted sums
 };
 
-// Calls f(pixel, depth there, weight) for the pixels of rows [first, last) whose centres the dot covers. The
-// dot is a disc in the surface, as the viewer sees it; the weight falls from 1 in its middle to 0 at its
-// edge.
+// Calls f(pixel, depth there, weight) for the pixels of rows [first, last) whose centres are covered by the
+// dot, a disc in the surface. The weight falls from 1 at the disc's centre to 0 at its edge.
 template <typename F>
 void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
   constexpr float least_z = .2F;  // discs seen more obliquely would leave gaps
@@ -66,8 +66,8 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Draws the dots in two passes, as in surface splatting: first the front-most depths, then the mean normals
-// of the dots near these depths.
+// Draws the dots in two passes (surface splatting): first the front-most depths, then the mean normals of the
+// dots near these depths.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {

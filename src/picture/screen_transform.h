@@ -1,4 +1,4 @@
-// The map from the points of a body to their positions in a picture.
+// Maps the points of a body to positions in a picture.
 #pragma once
 
 #include <algorithm>
@@ -7,18 +7,18 @@
 
 namespace relievo {
 
-// An orthographic projection: pixel = middle of the picture + pixels_per_mm * R_screen_body * (point - pan),
-// y downwards.
+// An orthographic projection: pixel = centre of the picture + pixels_per_mm * R_screen_body * (point - pan),
+// with y downwards.
 struct ScreenTransform {
-  // Points are clamped to this distance from the picture's middle, in pixels, because the rasterizer's
-  // integers would otherwise overflow.
+  // Points are clamped to this distance from the picture's centre, in pixels. Otherwise the rasteriser's
+  // integers could overflow.
   static constexpr double farthest_px = 100000;
 
   int width = 0, height = 0;
   double pixels_per_mm = 1;
   Mat3 R_screen_body = Mat3::Identity();
   Vec3 pan = Vec3::Zero();
-  bool is_front = true;  // R_screen_body is the identity
+  bool is_front = true;  // whether R_screen_body is the identity
 
   Vec3 to_screen(const Vec3& point) const {
     const Vec3 p = pixels_per_mm * (R_screen_body * (point - pan));
@@ -26,8 +26,8 @@ struct ScreenTransform {
             height / 2.0 - std::clamp(p.y(), -farthest_px, farthest_px), p.z()};
   }
 
-  // Returns the point of the body at a position in the picture. In the view from the front, z is unknown and
-  // becomes 0.
+  // Returns the point of the body for a position in the picture. In the front view its z is unknown and set
+  // to 0.
   Vec3f to_body(double x, double y, double z) const {
     if (is_front)
       return {static_cast<float>((x - width / 2.0) * (1 / pixels_per_mm) + pan.x()),
@@ -38,7 +38,7 @@ struct ScreenTransform {
 
   Vec3f to_viewer() const { return R_screen_body.row(2).transpose().cast<float>(); }
 
-  // Returns the transform for the same picture with more pixels.
+  // Returns the transform for the same picture with `times` as many pixels per side.
   ScreenTransform finer(int times) const {
     ScreenTransform out = *this;
     out.width *= times;

@@ -6,20 +6,20 @@
 namespace relievo {
 namespace {
 
-// Strengths of lamp and sky. Their sum is 1, so that a surface that faces both is as bright as its material
-// and nothing is clipped. With less sky, forms in shadow are lost; with more, the relief looks flat.
+// Strengths of lamp and sky. Their sum is 1, so a surface that faces both has the brightness of its material,
+// and nothing is clipped. With less sky light, shadows lose their detail; with more, the relief looks flat.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
-// The brightest sky is above, and a little on the side away from the lamp, so that slopes turned away from
-// the lamp keep their form.
+// The direction of the brightest sky: above, and slightly away from the lamp, so that slopes facing away from
+// the lamp are modelled, too.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// The exposure is raised for a raking lamp, as a photographer would do. The exposure is 1 at this cosine of
-// the angle between lamp and normal, at which the lamp is as far to the left and above as in front.
+// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and normal
+// is `usual_lamp_z`; that lamp is as far to the left and above as in front.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
-// The exponent lies between linear and sRGB's 2.2: most of a relief is in the middle tones, which 2.2 makes
+// The exponent is between 1 (linear) and 2.2 (sRGB). Most of a relief has middle tones, which 2.2 would make
 // flat and pale.
 constexpr float display_gamma = 1.45F;
 
@@ -28,8 +28,8 @@ constexpr float knee = .85F;
 
 const Vec3f plaster_colour(.93F, .91F, .87F);
 
-// Colours of light that passes through thin and thick porcelain. Thick porcelain transmits exp(-1.45), about
-// a quarter, as in lithophanes.
+// Colours of light after thin and after thick porcelain. Thick porcelain transmits exp(-1.45), about a
+// quarter, as in lithophanes.
 const Vec3f thin_porcelain(1, .965F, .89F), thick_porcelain(.62F, .33F, .16F);
 constexpr float porcelain_absorption = 1.45F;
 
@@ -45,7 +45,7 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
   return a + t * (b - a);
 }
 
-// The room that metal and varnish mirror: a soft box around the lamp, a lower and dimmer reflector on the
+// The room that metal and varnish reflect: a soft box around the lamp, a lower and dimmer reflector on the
 // other side, walls that are bright above and dark below, and the dark room beside the plate. The brightness
 // of box and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values
 // were chosen by eye; silver was compared with a photograph of coins.
@@ -53,15 +53,15 @@ constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// The viewer's distance, in units of half of the body's longer side. It is finite, so that each part of level
-// ground mirrors another part of the room, and the ground does not have one uniform tone.
+// The viewer's distance, in units of half the body's longer side. Because it is finite, different parts of
+// level ground reflect different parts of the room, and the ground does not have a uniform tone.
 constexpr float viewer_distance = 3.6F;
 
-// The properties by which metals differ.
+// The properties of a metal.
 struct Metal {
   Vec3f bare, worn;       // colours of the bare metal, and of edges polished by hands
   Vec3f patina;           // colour in hollows
-  float diffuse, mirror;  // strengths of scattered and of mirrored light
+  float diffuse, mirror;  // strengths of diffuse and of mirror reflection
   float mottle;           // variation of the patina
 };
 
@@ -71,8 +71,8 @@ const Metal& metal_of(Material material) {
   return material == Material::silver ? silver : bronze;
 }
 
-// Returns value noise: random values in [0, 1] at the corners of a square grid, interpolated smoothly. The
-// values repeat after `period` cells, if that is positive.
+// Returns value noise: random values in [0, 1] at the corners of a square grid, interpolated smoothly. If
+// `period` is positive, the values repeat after that many cells.
 float smooth_noise(float x, float y, int period = 0) {
   const auto corner = [period](int i, int j) {
     if (period > 0) i %= period, j %= period;
@@ -88,9 +88,9 @@ float smooth_noise(float x, float y, int period = 0) {
   return low + t * (high - low);
 }
 
-// Patches of patina, in [-0.75, 0.75]: noise of 3 mm and of half a millimetre, repeating after 64 mm. The
-// noise grids are rotated, because the eye notices level grids. The values are tabulated, because computing
-// the noise would take half of a picture's time.
+// Patches of patina, in [-0.75, 0.75]: noise with scales of 3 mm and half a millimetre, repeating after 64
+// mm. The grids are rotated, because the eye notices horizontal and vertical grids. The values are tabulated,
+// because computing the noise would take half of a picture's time.
 class Patches {
  public:
   Patches() : values_(static_cast<std::size_t>(side) * side) {
@@ -113,7 +113,7 @@ class Patches {
   }
 
  private:
-  // A rotated grid: `period` times the vector (right, up), in cells of the grid, is a side of the table.
+  // A rotated grid. The side of the table is `period` times the vector (right, up), in cells of the grid.
   struct Slant {
     float right, up;
     int period;
@@ -140,7 +140,7 @@ const Patches& patches() {
   return table;
 }
 
-// Returns the light that comes from a direction of the room, given as a unit vector.
+// Returns the light from a direction of the room, given as a unit vector.
 float light_from(const Vec3f& direction, const Vec3f& to_lamp) {
   const Vec3f to_reflector = Vec3f(-.8F * to_lamp.x(), -.45F * to_lamp.y() - .1F, .55F).normalized();
   const float up = smooth_step(-.8F, 1.F, direction.y() - .35F * direction.x());
@@ -190,8 +190,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       room_(material == Material::plaster ? Room() : Room(to_lamp)) {}
 
-// Returns the light of lamp and sky on the point `lit`, computed from the point's normal and the shadows on
-// it.
+// Returns the light of lamp and sky on the point `lit`, from its normal and its shadows.
 Light Shader::facing(const Lit& lit) const {
   return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
           (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};
@@ -212,14 +211,14 @@ Vec3f Shader::colour(const Lit& lit) const {
   }
 }
 
-// Returns the room's light that the point `lit` mirrors towards the viewer.
+// Returns the room's light that the point `lit` reflects towards the viewer.
 float Shader::mirrored_light(const Lit& lit) const {
   const Vec2f to_viewer = to_viewer_.head<2>() - lit.from_middle / viewer_distance;
   const float cosine = lit.normal.head<2>().dot(to_viewer) + lit.normal.z() * to_viewer_.z();
   return room_(2 * cosine * lit.normal.head<2>() - to_viewer);
 }
 
-// Patina stays in hollows and on low ground, in patches; hands polish the raised parts.
+// Patina remains in patches in hollows and on low ground; hands have polished the raised parts.
 Vec3f Shader::metal(const Lit& lit) const {
   const Metal& m = metal_of(material_);
   const Light light = facing(lit);
@@ -233,9 +232,9 @@ Vec3f Shader::metal(const Lit& lit) const {
   return colour * (exposure_ * (m.diffuse * light.lamp + mirror) + .12F * light.sky);
 }
 
-// The grain runs vertically and bends a little. Growth rings are slanted in the board, so that they shift
-// sideways with the depth of the carving. Lengths are in millimetres: rings are 3.3 mm apart, bend over some
-// 30 and 80 mm, and the noise of fibres and pores is ten to twenty times as long as wide. All values were
+// The grain runs vertically and bends slightly. Growth rings are slanted in the board, so that they shift
+// sideways with the depth of the carving. Lengths are in millimetres: rings are 3.3 mm apart and bend over
+// about 30 and 80 mm; the noise of fibres and pores is ten to twenty times as long as wide. All values were
 // chosen by eye.
 Vec3f Shader::wood(const Lit& lit) const {
   const float x = lit.place.x() + 1.6F * lit.place.z(), y = lit.place.y();
@@ -251,7 +250,7 @@ Vec3f Shader::wood(const Lit& lit) const {
   return exposure_ * (tone * (1.02F * light.lamp + .30F * light.sky) + varnish * oil);
 }
 
-// The lamp is behind the middle, and its light falls off towards the edge. The glaze mirrors a little of the
+// The lamp is behind the middle, and its light falls off towards the edge. The glaze reflects some of the
 // room.
 Vec3f Shader::porcelain(const Lit& lit) const {
   const float behind = 1 - .22F * lit.from_middle.squaredNorm();

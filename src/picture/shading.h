@@ -1,5 +1,5 @@
-// Computes colours from light: the lamp, the sky, shadows that the relief casts on itself, and the materials
-// of all pictures.
+// Computes colours from the lamp, the sky, the relief's shadows on itself, and the materials, for all
+// pictures.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 
 namespace relievo {
 
-// Light that arrives at a place: from the lamp, and from the sky around it.
+// The light that arrives at a point: from the lamp, and from the sky.
 struct Light {
   float lamp = 0, sky = 0;
 };
 
-// Shares of light in [0, 1] over the front's plane; 1 is full light. They depend on the position and not on
-// the viewer, so that all views of a plate show the same light.
+// Shares of light in [0, 1] over the plane of the front; 1 is full light. They depend on the position but not
+// on the viewer, so all views of a plate have the same shadows.
 class LightMap {
  public:
-  // `to_lamp` has length 1. A field without pixels gives a map of ones.
+  // `to_lamp` has unit length. If the field has no pixels, the light is full everywhere.
   LightMap(const HeightField& field, const Vec3f& to_lamp);
 
   // Returns the light at a point of the front, interpolated between pixels.
@@ -32,19 +32,20 @@ class LightMap {
   float pixels_per_mm_ = 1;
 };
 
-// A point of a body with the light on it.
+// A point of a body, and the light on it.
 struct Lit {
   Vec3f normal;
-  Light light;                        // shares of light that reach the point
-  Vec3f place;                        // position on the plate, in mm
-  float height = 0;                   // share of the relief's height, 0 is its lowest point
-  Vec2f from_middle = Vec2f::Zero();  // offset in units of half the body's longer side, in [-1, 1]
+  Light light;       // the shares of light that reach the point
+  Vec3f place;       // position on the plate, in mm
+  float height = 0;  // as a share of the relief's height; 0 at its lowest point
+  // Offset from the middle, in units of half the body's longer side; in [-1, 1].
+  Vec2f from_middle = Vec2f::Zero();
 };
 
-// Returns the vector scaled to length 1; a zero vector stays zero.
+// Returns the vector scaled to unit length; zero for a zero vector.
 Vec3f direction_of(const Vec3f& light);
 
-// The light of the room around a body, as a function of direction. It is tabulated, because every pixel uses
+// The light of the room around a body, as a function of direction. It is tabulated, because every pixel needs
 // it.
 class Room {
  public:
@@ -53,8 +54,8 @@ class Room {
 
   explicit Room(const Vec3f& to_lamp);
 
-  // Returns the light from a direction, given as x and y of a unit vector towards the viewer's side. For
-  // other vectors it is the light from the nearest such direction.
+  // Returns the light from a direction, given as x and y of a unit vector with positive z. For longer
+  // vectors, returns the light from the nearest such direction.
   float operator()(const Vec2f& direction) const;
 
  private:
@@ -64,7 +65,7 @@ class Room {
 
 class Shader {
  public:
-  // Both directions are seen from the plate and have length 1. If `to_lamp` is zero, there is no lamp.
+  // Both directions are unit vectors in the axes of the plate. If `to_lamp` is zero, there is no lamp.
   Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer);
 
   // Returns linear red, green and blue in [0, 1].

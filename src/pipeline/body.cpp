@@ -16,29 +16,31 @@
 namespace relievo {
 namespace {
 
-// Shares of the tolerance that curved bases and flips of thin triangles' edges may use.
+// Shares of the tolerance for curved bases and for flips of thin triangles' edges.
 constexpr double bending_share = .25, turning_share = .01;
-constexpr double least_error_mm = 1e-4;  // limit of files; used if only the number of triangles is limited
-constexpr double rim_bevel = .3;  // share of the rim's height: 17 degrees off the vertical, so dies come off
+// Precision of files; used if only the number of triangles is limited.
+constexpr double least_error_mm = 1e-4;
+// Width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off.
+constexpr double rim_bevel = .3;
 
-// The limit for slopes of simplified fronts, as a share of the steepest slope allowed. It is above the 0.999
-// of limit_draft(), to give simplification some freedom, and below 1 because of rounding.
+// The limit for slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the 0.999 of
+// limit_draft(), so that simplification has some freedom, and is below 1 because of rounding.
 constexpr double front_share = .9995;
-constexpr double ornament_share = .997;  // the same for walls of ornaments, whose corners are rounded
-constexpr double most_held_mm = 1e-5;    // usual upper limit of moves by enforce_draft_in_float()
+constexpr double ornament_share = .997;  // as front_share, for walls of ornaments, whose corners are rounded
+constexpr double most_held_mm = 1e-5;    // usual limit for moves of points by enforce_draft_in_float()
 constexpr double rounded_up = 1.002;     // curved rims are polygons, which makes their bevels steeper
 
 bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
 }
 
-// Returns the width of the bevel with which a rim of that height leans by that angle to the vertical.
+// Returns the width of the bevel of a rim with that height whose bevel has this angle to the vertical.
 double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
 
-// Returns the base of a form. A mirrored form mirrors the base, and a die makes a raised base hollow, or a
-// hollow one raised.
+// Returns the base of a form. A mirrored form mirrors the base. A die turns a raised base into a hollow one,
+// and a hollow one into a raised one.
 BaseOptions formed_base(const ReliefOptions& options) {
   BaseOptions base = options.base;
   base.is_mirrored = is_mirrored(options.form);
@@ -46,12 +48,12 @@ BaseOptions formed_base(const ReliefOptions& options) {
   return base;
 }
 
-// Returns the rim of a form. By default its bevel leans at least as much as walls must.
+// Returns the rim of a form. The default bevel is at least as far off the vertical as walls must be.
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
   const double width = *options.rim_mm;
-  const double most = width / lean;  // height at which the usual bevel is as wide as the rim
+  const double most = width / lean;  // height at which the default bevel is as wide as the rim
   const double usual_height = options.rim_bevel_mm ? relief_mm : std::min(most, relief_mm);
   const double height = options.rim_height_mm.value_or(usual_height);
   const double usual_bevel = height < most ? lean * height : width;
@@ -59,7 +61,7 @@ RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   return {width, options.form == Form::die ? -height : height, bevel};
 }
 
-// Returns the hull of a relief, scaled to a longer side of 1.
+// Returns the convex hull of a relief, scaled to a longer side of 1.
 std::vector<Vec2> unit_hull(const Surface& surface) {
   const double longer_side = surface.longer_side();
   std::vector<Vec2> hull;
@@ -73,8 +75,8 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return ((box.min + box.max) / 2).head<2>();
 }
 
-// Returns the largest width of a relief that leaves room for margin and rim on all sides of the plate. The
-// middles of the relief's hull and of the plate's outline coincide, so each side of the outline limits the
+// Returns the largest width of a relief that leaves space for margin and rim on all sides of the plate. The
+// centres of the relief's hull and of the plate's outline coincide, so each side of the outline limits the
 // scale independently.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
@@ -100,7 +102,7 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-// A given bevel may be too steep: it must lean at least as much as walls must.
+// Returns an error if the requested bevel is closer to the vertical than the draft angle allows.
 Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
   const RimOptions rim = formed_rim(options, height_mm);
@@ -111,7 +113,7 @@ Result<void> check_rim(const ReliefOptions& options, double height_mm) {
                           " mm leans as draft asks, found ", rim.bevel_mm, " mm"));
 }
 
-// No font takes the place of one that was not read.
+// A font that was not read is not replaced by another font.
 Result<void> check_files(const ReliefOptions& options) {
   if (!options.font_name.empty() && !options.font)
     return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));
@@ -196,7 +198,7 @@ Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& op
   }
   const double largest = largest_width_mm(surface, options);
   sized.width_mm = options.width_mm.value_or(largest);
-  constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a report
+  constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a rounded report
   if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding)
     return with_height(surface, std::move(sized));
   return option_error(

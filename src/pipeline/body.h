@@ -1,4 +1,4 @@
-// Makes the front, the plate and the body that the options of a relief ask for.
+// Makes the front, the plate and the body for the options of a relief.
 #pragma once
 
 #include "relievo/core/progress.h"
@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Returns whether left and right are swapped in this form.
+// Returns whether the form swaps left and right.
 bool is_mirrored(Form form);
 
 // Returns whether the solid must be simplified after sampling.
@@ -17,23 +17,24 @@ inline bool is_simplified(const ReliefOptions& options) {
   return options.tolerance_mm || options.triangles;
 }
 
-// Returns width and height of the plate in millimetres; 0 if they follow from the relief.
+// Returns the width and height of the plate in millimetres; 0 if they follow from the relief.
 Vec2 plate_size_of(const ReliefOptions& options);
 
-// Returns the plate options for a relief of that height. The options have passed check(). If they ask for
-// simplification, `options.triangles` is here the limit for the triangles of the front, not of the solid.
+// Returns the plate options for a relief of that height. The options must have passed check(). If they ask
+// for simplification, `options.triangles` limits the triangles of the front instead of those of the solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
-// Returns the limits for simplifying the front. The tolerance excludes the share that a curved base takes.
-// The options must ask for simplification.
+// Returns the limits for simplifying the front. A curved base takes a part of the tolerance, which is
+// subtracted here. The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether make_plate() must simplify, and not simplified_front(). If the options ask for
-// simplification, this is so on curved ground, because the triangles of the ground are not triangles of the
-// front, and for the finish `reachable`. It is never so for the outline `none`.
+// Returns whether make_plate() has to simplify instead of simplified_front(). This is so for curved ground,
+// whose triangles are not triangles of the front, and for the finish `reachable`; but never for the outline
+// `none`, or if the options do not ask for simplification.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
-// Returns options with a width with a height in mm in the place of one that is a share of the diagonal.
+// Returns options whose height is in mm, converted if it is given as a share of the diagonal. The options
+// must have a width.
 ReliefOptions with_height(const Surface& surface, ReliefOptions options);
 
 // A solid, and the same solid before it was bent around a wrap.
@@ -45,45 +46,45 @@ struct Body {
   const Solid& plate() const { return wrap ? flat : solid; }
 };
 
-// Returns the body with that front; `relief_mm` is the relief's height. Errors: kind option for a rim that
-// leans less than the draft angle requires; those of make_plate(), enforce_draft_in_float() and wrap_plate().
+// Returns the body with that front. `relief_mm` is the height of the relief. Errors: kind option if the rim's
+// bevel is too close to the vertical for the draft angle; those of make_plate(), enforce_draft_in_float() and
+// wrap_plate().
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options);
 
 struct FormedFront {
   HeightFieldMesh front;
-  double height_mm = 0;                // lowest to highest point
-  double simplification_error_mm = 0;  // largest difference to the front with all samples
+  double height_mm = 0;                // distance from the lowest to the highest point
+  double simplification_error_mm = 0;  // largest difference from the front with all samples
   std::size_t full_triangles = 0;      // triangles of the front with all samples
 };
 
-// Returns the heights in millimetres of the base under the points of an upright front; empty for a plane.
-// Errors: those of plate_base().
+// Returns the heights in millimetres of the base under the points of an upright front; no heights for a
+// plane. Errors: those of plate_base().
 Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options);
 
-// Returns the surface's triangles as a front in millimetres, with its points at these heights.
+// Returns the surface's triangles as a front in millimetres, with the given heights of its points.
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 
 // Returns the front before simplification, in the form `options.form`. Errors: kind cancelled.
 Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                const Progress* progress);
 
-// Returns the front, simplified as the options ask unless make_plate() will simplify it. With the outline
-// `none`, the result is only the relief. Errors: those of simplify().
+// Returns the front, simplified as the options ask, unless make_plate() will simplify it. For the outline
+// `none` the result has only the relief. Errors: those of simplify().
 Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress);
 
-// Returns the depth of the front's lowest point below the ground: 0 or more.
+// Returns how far the front's lowest point is below the ground, >= 0.
 double depth_below_ground(const HeightFieldMesh& front);
 
-// A front, simplified if the options ask for it, and the body made from it. If the options give a number of
-// triangles, the body's solid has at most that many.
+// A front, simplified if the options ask for it, and the body with that front. If the options limit the
+// number of triangles, the body's solid has at most that many.
 struct FormedBody {
   FormedFront formed;
   Body body;
 };
 
-// Returns the body with that front, which is simplified as the options ask. Errors: those of
-// simplified_front() and make_body(); kind option for fewer triangles than the solid needs for its outline
-// and its walls.
+// Returns the body with that front, simplified as the options ask. Errors: those of simplified_front() and
+// make_body(); kind option if the solid needs more triangles than the limit for its outline and walls alone.
 Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 }  // namespace relievo

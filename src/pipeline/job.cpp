@@ -13,13 +13,13 @@
 namespace relievo {
 namespace {
 
-// From this u on, weights are 1 to the last bit.
+// With this u or more, all weights are exactly 1.
 constexpr double uncompressed_u = 1e12;
 
-// Stretching heights by less than this is not noticed while the picture moves.
+// While the picture moves, viewers do not notice when heights are scaled by up to this share.
 constexpr double moving_tolerance = .03;
 
-// The sizes on which the largest width of a relief in a plate of given size depends.
+// Returns the sizes that determine the largest width of a relief in a plate of a given size.
 std::vector<double> plate_sizes(const ReliefOptions& options) {
   const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
   return {plate.x(),
@@ -44,15 +44,15 @@ struct LiveModel::State {
   std::vector<SampleNote> notes;
   double longer_side;  // longer side of the surface, in its units
 
-  std::optional<FrameMaker> maker;        // none before the first frame
-  std::optional<FrameRenderer> renderer;  // none before the first picture
+  std::optional<FrameMaker> maker;        // empty before the first frame
+  std::optional<FrameRenderer> renderer;  // empty before the first picture
   std::vector<float> gains;               // gains of the last frame
   Frame frame, highest;
-  std::optional<FrameOptions> made;  // options of the frame; none before the first
+  std::optional<FrameOptions> made;  // options of the frame; empty before the first one
   LiveFrame last;
 
   std::shared_ptr<const ToneCurve> curve;  // curve of the last frame that had one
-  std::vector<double> sizes;               // sizes of the plate for which most_width_mm was computed
+  std::vector<double> sizes;               // plate_sizes() for which most_width_mm was computed
   std::optional<double> most_width_mm;
 
   FrameMaker& frames() {
@@ -60,8 +60,8 @@ struct LiveModel::State {
     return *maker;
   }
 
-  // Returns the options of a frame. The tone curve object is reused as long as its points are the same, so
-  // that equal frames compare as equal.
+  // Returns the options of a frame. The tone curve object is reused if its points are the same, because equal
+  // frames share it.
   FrameOptions frame_options(const ReliefOptions& options) {
     FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side), std::nullopt, nullptr};
     wanted.shape.boundary_width *= shown.spacing_ratio;
@@ -74,7 +74,7 @@ struct LiveModel::State {
   LiveFrame make(const FrameOptions& wanted, double mm_per_unit) {
     const bool is_known = made == wanted;
     if (!is_known) {
-      made.reset();  // so that an unfinished frame is not reused if memory runs out
+      made.reset();  // so that an unfinished frame is not reused after running out of memory
       last = {};
       frames().make(wanted, frame);
       if (shown.detail) frames().write_gains(gains);
@@ -104,7 +104,7 @@ Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
     const Method method = options.effective_method();
     if (!has_shape(method))
       return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
-    // While a model is turned, its coarse surface serves all methods.
+    // While a model is turned, its coarse surface is used for all methods.
     if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
     RELIEVO_TRY(ReliefOptions sized, with_width(options));
     sized.height_mm = sized.effective_height_mm();
@@ -142,7 +142,7 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
   }
   sized.width_mm = options.width_mm.value_or(*most_mm);
   if (*sized.width_mm > *most_mm)
-    return relievo::with_width(model().surface(), sized);  // its error states why the width is refused
+    return relievo::with_width(model().surface(), sized);  // its error says why the width is refused
   return with_height(model().surface(), std::move(sized));
 }
 

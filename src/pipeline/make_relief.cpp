@@ -34,7 +34,7 @@ struct ReliefFacts {
 
 void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport& report) {
   const Compression& compression = shape.compression;
-  // A given alpha is reported as it was given: computed from u it would have a rounding error.
+  // A given alpha is reported unchanged, because computing it from u would cause a rounding error.
   const bool is_given = !options.effective_height_mm() && compression.beta > 0;
   report.method = options.effective_method();
   report.alpha = is_given ? options.effective_alpha() : compression.alpha();
@@ -49,7 +49,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Fills in the heights of a front that a tool has changed. The tool leaves material in narrow, deep places.
+// Sets the heights of a front after the tool, which leaves material in narrow and deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)
@@ -83,7 +83,7 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
                    body.wrap->is_inside(), body.wrap->across()};
 }
 
-// Fills in the transform from the scan to the plate.
+// Sets the transform from the scan to the plate.
 void report_place(const ReliefFacts& facts, ReliefReport& report) {
   const Form form = facts.options.form;
   const Vec3 sign(is_mirrored(form) ? -1 : 1, 1, form == Form::die ? -1 : 1);
@@ -103,7 +103,7 @@ ReliefReport report_on(const ReliefFacts& facts) {
   return report;
 }
 
-// Returns the heights of the base under the surface's points, in the surface's units; empty for a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; no heights for a plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();
@@ -114,7 +114,7 @@ Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOpt
   return heights;
 }
 
-// Makes the relief with the height that follows from its shape. Errors: kind geometry if that height is 0.
+// Makes the relief whose height follows from its shape. Errors: kind geometry if that height is 0.
 Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
   Relief relief = model.make(shape);
   const double least = 1e-6 * model.surface().longer_side();
@@ -130,10 +130,11 @@ Shape uncompressed(Shape shape) {
   return shape;
 }
 
-// Makes the relief of the height that the options give, or else of the height that follows from the shape.
+// Makes the relief with the height in the options or, if they have none, with the height that follows from
+// the shape.
 Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, const Shape& shape,
                             Progress* progress) {
-  // For a lithophane no height is searched: its height is exact by construction.
+  // A lithophane needs no search, because its height is exact by construction.
   if (options.form == Form::lithophane) return model.make(shape);
   if (options.mm_per_value)
     return relief_of_values(model.surface(), options, mm_per_unit(model.surface(), options));
@@ -152,9 +153,9 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
-// Makes the relief of the given height, or else of the usual one. If the model is too shallow in this view
-// for the usual height, the slopes stay uncompressed, and the height follows from them. For a given height
-// that is an error.
+// Makes the relief with the requested or the default height. If the model is too shallow in this view for the
+// default height, the slopes stay uncompressed and determine the height. A requested height that is too large
+// is an error.
 Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
   const double scale = mm_per_unit(model.surface(), options);
   const bool is_usual = !options.height_mm && options.effective_height_mm();
@@ -168,7 +169,7 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
-// Returns the relief of relief_of_height(). If a height that is a share of the diagonal is out of reach, the
+// Returns the relief of relief_of_height(). If the height is a share of the diagonal and out of reach, the
 // error also says which share the normals alone reach.
 Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options, bool is_share,
                          Progress* progress) {
@@ -181,12 +182,12 @@ Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options,
   return relief;
 }
 
-// Returns the number of points and the wanted resolution, which determine the memory that a body takes.
+// Returns the number of points and the requested resolution, which determine the memory for a body.
 MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }
 
-// Makes the body of a model, with options that have passed check().
+// Makes the body of a model. The options must have passed check().
 Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
   const Surface& surface = model.surface();
   RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));

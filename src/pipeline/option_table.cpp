@@ -12,7 +12,7 @@ namespace {
 
 using enum OptionStage;
 
-// These wrappers have the text as their only argument.
+// Wrappers with only the text as argument.
 Result<Method> method_of(std::string_view text) {
   return parse_method(text);
 }
@@ -56,10 +56,10 @@ Result<void> read_crumbs(const OptionValue& value, OptionTargets& to) {
   return {};
 }
 
-// A row is easier to read in few long lines than with a line for each member.
+// Table entries are easier to read in few long lines than with one line per member.
 // clang-format off
 
-// Returns the rows of the relief's height and compression.
+// Returns the options for the relief's height and compression.
 std::vector<OptionRow> shape_rows() {
   return {
       {.name = "width", .unit = "MM", .stage = shape, .min = .1, .max = 1e5,
@@ -100,7 +100,7 @@ std::vector<OptionRow> shape_rows() {
   };
 }
 
-// Returns the rows of the relief's limits.
+// Returns the options for the relief's limits.
 std::vector<OptionRow> limit_rows() {
   return {
       {.name = "steepest", .unit = "DEG", .stage = shape, .min = 1, .max = 89,
@@ -149,7 +149,7 @@ std::vector<OptionRow> limit_rows() {
   };
 }
 
-// Returns the rows of options that select the part of the model to show.
+// Returns the options that select the part of the model to show.
 std::vector<OptionRow> view_rows() {
   return {
       {.name = "view", .unit = "SIDE", .stage = view,
@@ -221,7 +221,7 @@ std::vector<OptionRow> plate_rows() {
   };
 }
 
-// Returns the rows of texts and ornaments on the ground.
+// Returns the options for texts and ornaments on the ground.
 std::vector<OptionRow> ornament_rows() {
   return {
       {.name = "text", .unit = "TEXT", .stage = plate,
@@ -248,7 +248,7 @@ std::vector<OptionRow> ornament_rows() {
   };
 }
 
-// Returns the rows of options that bend and form the solid.
+// Returns the options for the shape of the solid.
 std::vector<OptionRow> body_rows() {
   return {
       {.name = "base", .unit = "SHAPE", .stage = body, .choices = names_of(base_choices),
@@ -295,7 +295,7 @@ std::vector<OptionRow> triangle_rows() {
   };
 }
 
-// Returns the rows of options for reading a file.
+// Returns the options for reading a file.
 std::vector<OptionRow> input_rows() {
   return {
       {.name = "doubtful", .unit = "WHAT", .stage = input, .choices = names_of(keep_choices),

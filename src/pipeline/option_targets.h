@@ -1,5 +1,4 @@
-// Stores the options while they are read from values, and contains the functions that read them for rows of
-// the table.
+// The variables into which options are read, and the functions that read them for the option table.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,7 @@ struct OptionTargets {
   ReliefOptions relief;
   DepthOptions depth;
   bool keeps_doubtful = false;     // as in ReadOptions
-  std::string side = "front", up;  // the two together give the view
+  std::string side = "front", up;  // together they determine the view
   std::optional<Outline> outline;  // default: a circle if there is a diameter
 };
 
@@ -46,19 +45,19 @@ std::optional<double> ruling_number(const ReliefOptions& options) {
     return options.*of;
 }
 
-// Reads a number into a member. `ruling` returns the number that applies: it is the same member, or a
+// Reads a number into a member. `ruling` is used to return the effective value; it is the member, or a
 // function that includes the default.
 template <auto member, auto ruling = member>
 constexpr OptionAccess number{read_number<member>, ruling_number<ruling>};
 
-// Reads a text into a member by a function that takes only the text.
+// Reads a text into a member with a function that takes only the text.
 template <auto member, auto parse>
 constexpr OptionAccess text{[](const OptionValue& value, OptionTargets& to) -> Result<void> {
   RELIEVO_TRY(target(member, to), parse(std::get<std::string>(value)));
   return {};
 }};
 
-// Reads one of the words of a table into a member.
+// Reads one of the words in `choices` into a member.
 template <auto member, const auto& choices>
 constexpr OptionAccess word{[](const OptionValue& value, OptionTargets& to) -> Result<void> {
   RELIEVO_TRY(target(member, to), parse_choice({}, std::get<std::string>(value), choices));

@@ -75,7 +75,7 @@ Result<void> check_rim(const ReliefOptions& options) {
   return {};
 }
 
-// Only a plate on a plane base can have a reachable surface, be a lithophane, or be bent around a body.
+// Only a plate with a plane base can be cut by a tool, be a lithophane, or be bent around a body.
 Result<void> check_base(const ReliefOptions& options) {
   if (options.base.kind == BaseKind::plane) return {};
   if (options.form == Form::lithophane)
@@ -111,7 +111,7 @@ Result<void> check_text_options(const ReliefOptions& options) {
   return {};
 }
 
-// Returns the name of the option that gives the plate a size, and the shorter side of that size.
+// Returns the name of the option that determines the size of the plate, and the shorter side of that size.
 std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
   if (options.diameter_mm) return {"diameter", *options.diameter_mm};
   return {"plate", options.plate_mm ? options.plate_mm->minCoeff() : 0};
@@ -137,12 +137,12 @@ Result<void> check_plate_size(const ReliefOptions& options) {
       name, cat("expected more than ", edge_mm, " mm, which margin and rim take, found ", least_mm, " mm"));
 }
 
-// Returns `paper` for the paper's method, else `others`.
+// Returns `paper` for the paper's method, `others` for all others.
 double by_method(const ReliefOptions& options, double paper, double others) {
   return options.effective_method() == Method::paper ? paper : others;
 }
 
-// Returns the value in the option's type. A length may be given as a text with a unit.
+// Returns the value with the option's type. A length may be a text with a unit.
 Result<OptionValue> typed_value(const OptionRow& option, const OptionValue& value) {
   if (std::holds_alternative<double>(value) == option.is_number()) return value;
   if (!option.is_length() || !option.is_number()) return option_error({}, std::string(expected_type(option)));

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // gap and largest width, in units of a model's height
+constexpr double gap = .08, widest = 1.5;  // in units of the height that all models are scaled to
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");
@@ -31,8 +31,8 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-// Returns `count` of the cloud's points. They are spread over the file by multiples of the golden ratio,
-// because equal steps could meet the rows of a scanner.
+// Returns `count` of the cloud's points. Their indices are multiples of the golden ratio, because equal steps
+// could coincide with the rows of a scanner.
 Cloud some_of(const Cloud& cloud, std::size_t count) {
   constexpr double golden_ratio = .6180339887498949;
   Cloud some;
@@ -79,7 +79,7 @@ PlacedModel placed_as_told(const SceneModel& model) {
   return placed;
 }
 
-// Arranges models in a row.
+// Arranges models side by side.
 class Row {
  public:
   explicit Row(const Mat3& to_view) : to_view_(to_view) {}
@@ -108,12 +108,12 @@ class Row {
 
   Mat3 to_view_;
   double height_ = 0;
-  Vec3 at_ = Vec3::Zero();  // left, bottom and middle depth of the next model
+  Vec3 at_ = Vec3::Zero();  // left and bottom of the next model, and the middle of its depth
 };
 
 }  // namespace
 
-// The result is exactly the identity if the pose does not turn.
+// If the pose does not rotate, the result is exactly the identity.
 Mat3 turn_of(const Pose& pose) {
   const auto about = [&](int axis) {
     return Eigen::AngleAxisd(to_radians(pose.rotate_deg[axis]), Vec3(Vec3::Unit(axis))).toRotationMatrix();

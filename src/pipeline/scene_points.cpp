@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// A cloud keeps its points unless its sampling distance, divided by the scene's, is below the first or above
-// the second of these factors.
+// A cloud keeps its points unless its sampling distance, divided by that of the scene, is outside these
+// limits.
 constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
 constexpr Colour white{255, 255, 255};
 
@@ -27,7 +27,7 @@ struct PlacedCloud {
 
 struct Parts {
   std::vector<PlacedCloud> clouds;
-  Mesh mesh;  // all meshes of the scene in one
+  Mesh mesh;  // all meshes of the scene, merged
   std::size_t left_out = 0;
   std::vector<SampleNote> notes;
 };
@@ -38,7 +38,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }
 
 // Appends the colours of `added` points to those of `size` points. If only one of the two groups has colours,
-// the points of the other become white.
+// the points of the other group become white.
 void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector<Colour>& from,
                     std::size_t added) {
   if (to.empty() && from.empty()) return;
@@ -49,7 +49,7 @@ void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector
     append(to, from);
 }
 
-// Appends the own heights of points, as append_colours() does. Points without one have 0.
+// Appends the own heights of points, in the same way as append_colours(). Points without own height get 0.
 void append_own_heights(std::vector<float>& to, std::size_t size, const std::vector<float>& from,
                         std::size_t added) {
   if (to.empty() && from.empty()) return;
@@ -145,7 +145,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// Returns the area that the points facing the viewer cover. All layers of points behind each other count.
+// Returns the area of the points that face the viewer, including hidden ones.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -155,19 +155,20 @@ double shown_area(const PlacedCloud& cloud) {
   return sum;
 }
 
-// Returns the area that a mesh shows to the viewer, hidden layers included. The orientation of triangles is
-// ignored.
+// Returns the area, in the view plane, of the triangles of a closed mesh that face the viewer, including
+// hidden ones. The orientation of triangles is ignored.
 double shown_area(const Mesh& mesh, const View& view) {
   const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
-    sum += std::abs(p.cross(q).dot(to_viewer)) / 4;  // half of a closed mesh faces the viewer
+    // / 2 for a triangle, / 2 because half of a closed mesh faces the viewer
+    sum += std::abs(p.cross(q).dot(to_viewer)) / 4;
   }
   return sum;
 }
 
-// Returns the sampling distance that all points should have.
+// Returns the common sampling distance of all points.
 double common_spacing(const Parts& parts, const View& view, double points) {
   double area = shown_area(parts.mesh, view), finest = std::numeric_limits<double>::infinity();
   for (const PlacedCloud& cloud : parts.clouds) {
@@ -178,7 +179,7 @@ double common_spacing(const Parts& parts, const View& view, double points) {
   return parts.mesh.empty() ? std::max(wanted, finest) : wanted;
 }
 
-// Returns the front of a coarse cloud as a mesh in the scene's frame.
+// Returns the visible side of a coarse cloud as a mesh in the scene's axes.
 Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   Mesh mesh = front_mesh(placed.viewed, placed.spacing);
   const Mat3 back = view.R_view_model.transpose();
@@ -189,11 +190,13 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   return mesh;
 }
 
-// Brings clouds to the common spacing. Returns their points; coarse clouds become triangles in parts.mesh.
+// Brings clouds to the common spacing. Returns their points, except that coarse clouds become triangles in
+// parts.mesh.
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
-    if (placed.cloud.units_per_value) all.units_per_value = 0;  // models are scaled, each by its own factor
+    // Models are scaled, each by a factor of its own.
+    if (placed.cloud.units_per_value) all.units_per_value = 0;
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {
       append(parts.mesh, front_in_scene(placed, view));
@@ -211,7 +214,7 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   return all;
 }
 
-// Returns the cloud without its outliers. A cloud without outliers is not copied.
+// Returns the cloud without its outliers. Without outliers the cloud is not copied.
 ViewSample without_outliers(std::shared_ptr<const Cloud> cloud) {
   const std::vector<Index> far = outliers(*cloud);
   if (far.empty()) return {std::move(cloud), 0, {}};

@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// The points that were measured last, and their measurements.
+// The last points that were measured, and their measurements.
 struct Measured {
   std::shared_ptr<const Cloud> of;
   std::shared_ptr<const MeasuredCloud> cloud;
@@ -25,20 +25,21 @@ struct Waiting {
   std::shared_ptr<Progress> progress;
 };
 
-// The state that the callers and the session's thread share.
+// The state that callers share with the session's thread.
 struct Shared {
   std::optional<Waiting> waiting;
-  std::shared_ptr<Progress> progress;  // progress of the running preparation
+  std::shared_ptr<Progress> progress;  // progress of the preparation that is running
   std::shared_ptr<const ReliefModel> model;
-  std::weak_ptr<const Cloud> of_model;  // the points from which the model was made
+  std::weak_ptr<const Cloud> of_model;  // the points of the model
   SessionStatus status;
   Measured measured;  // the last measurement
   std::function<Preparation::Points(Progress&)> all_sides;
   std::shared_ptr<const Turntable> turntable;  // turntable of the measured points; null before the first turn
-  std::shared_ptr<Progress> turning;           // progress of the newest turn(), until it returns
+  std::shared_ptr<Progress> turning;           // progress of the newest turn(), until that returns
   std::optional<TurnedRelief> first;           // relief in first_view, until there is a model
   View first_view;
-  std::shared_ptr<Progress> making_first;  // not null while `first` is made; status() then refuses turn()
+  // Not null while `first` is being made; meanwhile status() says that turn() is not possible.
+  std::shared_ptr<Progress> making_first;
 
   void cancel_turning() {
     if (turning) turning->cancel();
@@ -48,7 +49,7 @@ struct Shared {
     if (making_first) making_first->cancel();
   }
 
-  // Frees the points if there is no model. The next view of a model may need them.
+  // Frees the points, unless there is a model, whose next view may need them.
   void forget_unused() {
     if (!model) forget_points();
   }
@@ -82,7 +83,7 @@ struct Session::State {
   Guarded<Shared> shared;
   BackgroundLoop loop{[this] { return step(); }};  // the last member, because the thread starts at once
 
-  // Prepares the waiting model, if any; returns whether there was one.
+  // Prepares the waiting model, if any. Returns whether there was one.
   bool step() {
     const std::optional<Waiting> next = shared.with([&](Shared& s) {
       std::optional<Waiting> first = std::exchange(s.waiting, std::nullopt);
@@ -99,7 +100,7 @@ struct Session::State {
   void finish(const Preparation& wanted, const Progress& progress, Result<Preparation::Model> made) {
     shared.with([&](Shared& s) {
       s.progress = nullptr;
-      if (s.waiting) return;  // a newer open() has replaced this one
+      if (s.waiting) return;  // a newer open() has replaced this preparation
       if (progress.is_cancelled()) return s.forget_unused();
       s.status.is_preparing = false;
       if (made && wanted.ready) made = within_memory([&] { return wanted.ready(*made), made; });
@@ -143,8 +144,8 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes the first coarse relief, if it is wanted. This is done before the model, because doing both at once
-  // would take longer.
+  // Makes the first coarse relief, if wanted, before the model. Making both at the same time would take
+  // longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
@@ -168,7 +169,7 @@ struct Session::State {
     return made;
   }
 
-  // Measures the points, unless the last measurement is of the same points and also serves this view.
+  // Measures the points, unless the last measurement is of the same points and can be used for this view.
   Result<std::shared_ptr<const MeasuredCloud>> measure(const std::shared_ptr<const Cloud>& points,
                                                        const View& view, Progress& progress) {
     const Measured last = shared.with([](const Shared& s) { return s.measured; });
@@ -176,7 +177,7 @@ struct Session::State {
     return MeasuredCloud::measure(*points, view, &progress);
   }
 
-  // Returns the turntable of the points that were measured last. If these points show only one view, the
+  // Returns the turntable of the points that were measured last. If these are visible in one view only, the
   // points of all sides are measured first.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides] =
@@ -281,8 +282,8 @@ bool Session::wait_until_idle(std::chrono::milliseconds timeout) {
 struct Turntable::State {
   explicit State(const MeasuredCloud& measured) : scan(measured) {}
 
-  // Returns the scan without the plane of a surface that has one. The last result is cached, because it is
-  // needed many times a second while a model is turned.
+  // Returns the scan without the surface's support plane. The last result is cached, because a turning model
+  // needs it many times a second.
   std::shared_ptr<const TurningScan> without_plane(const Surface& surface) const {
     const WithoutPlane last = last_.with([](const WithoutPlane& w) { return w; });
     if (last.scan && last.plane == *surface.plane && last.R_view_model == surface.view.R_view_model)

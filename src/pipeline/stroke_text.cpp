@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_of_a_value = 40;  // of a wrong value, in errors
+constexpr std::size_t most_of_a_value = 40;  // characters of a wrong value that a message shows
 
 std::string found(const Json& value) {
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);

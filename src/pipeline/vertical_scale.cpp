@@ -17,17 +17,17 @@ class ValueScale {
         centre_((surface.view.R_view_model * surface.centre).z()) {
     if (options.ground_value) {
       ground_ = *options.ground_value * sign();
-    } else if (!surface.units_per_value || units_per_value_ < 0) {  // else it is 0, the level of the sea
+    } else if (!surface.units_per_value || units_per_value_ < 0) {  // otherwise it is 0, sea level
       ground_ = HUGE_VAL;
       for (const Vec3& p : surface.points) ground_ = std::min(ground_, rising(p));
     }
   }
 
-  // Returns how far the value lies above the ground; 0 below it.
+  // Returns the height of the value above the ground; 0 below the ground.
   double above_ground(const Vec3& p) const { return std::max(0., rising(p) - ground_); }
 
  private:
-  // Returns the value, negated if values grow away from the viewer.
+  // Returns the value, negated if values increase away from the viewer.
   double rising(const Vec3& p) const { return (p.z() + centre_) / std::abs(units_per_value_); }
   double sign() const { return std::copysign(1., units_per_value_); }
 
@@ -39,7 +39,7 @@ struct Side {
   Vec2 place, inwards;
 };
 
-// Returns the sides of the hull. Neighbouring edges of nearly the same direction are one side.
+// Returns the sides of the hull. Neighbouring edges with nearly the same direction count as one side.
 std::vector<Side> sides_of(const Surface& surface) {
   constexpr double same_direction = 1 - 1e-6;
   const std::vector<Index>& hull = surface.triangulation.hull;
@@ -55,7 +55,7 @@ std::vector<Side> sides_of(const Surface& surface) {
   return sides;
 }
 
-// Returns the edges between the relief and what is not the relief; the relief lies to their left.
+// Returns the edges between the relief and its surroundings. The relief is on their left.
 std::vector<BoundaryEdge> relief_edges(const Surface& surface) {
   std::vector<Triangle> inside;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
@@ -66,7 +66,7 @@ std::vector<BoundaryEdge> relief_edges(const Surface& surface) {
 }  // namespace
 
 std::vector<std::uint8_t> tile_edges(const Surface& surface) {
-  constexpr double near = .01;  // in rho: sides are straight up to rounding
+  constexpr double near = .01;  // in rho; sides are straight up to rounding
   const std::vector<Side> sides = sides_of(surface);
   std::vector<std::uint8_t> is_on_side(surface.points.size());
   for (std::size_t i = 0; i < is_on_side.size(); ++i)
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> tile_edges(const Surface& surface) {
         surface.boundary.is_boundary[i] && std::ranges::any_of(sides, [&](const Side& side) {
           return (surface.points[i].head<2>() - side.place).dot(side.inwards) < near * surface.rho;
         });
-  // An edge ends before the rim of a hole, where the relief goes down to the ground.
+  // An edge ends at a hole, where the relief goes down to the ground.
   std::vector<std::uint8_t> is_edge = is_on_side;
   for (const auto& [a, b] : relief_edges(surface))
     if (!is_on_side[a] || !is_on_side[b]) is_edge[a] = is_edge[b] = 0;
@@ -105,7 +105,7 @@ Result<Relief> relief_of_values(const Surface& surface, const ReliefOptions& opt
 }
 
 void raise_walls(HeightFieldMesh& front, const Surface& surface) {
-  constexpr double inset_mm = .01;  // a distance that single precision keeps on plates of up to 10 m
+  constexpr double inset_mm = .01;  // single precision represents this distance on plates of up to 10 m
   const std::vector<std::uint8_t> is_edge = tile_edges(surface);
   const Box box = Box::of(front.points);
   const Vec2 centre = box.centre().head<2>(), size = box.size().head<2>();

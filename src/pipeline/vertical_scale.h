@@ -1,4 +1,4 @@
-// Reliefs with one vertical scale, such as tiles of a map, which must fit edge to edge. Tested by
+// Reliefs with a given vertical scale, such as tiles of a map, which must match at their edges. Tested by
 // tests/pipeline/vertical_scale_test.cpp.
 #pragma once
 
@@ -12,20 +12,19 @@
 
 namespace relievo {
 
-// Returns, per point, whether it lies on an edge of a tile, where the relief does not go down to the ground:
-// on a straight side of the surface's hull, and not beside a hole.
+// Returns, per point, whether it is on an edge of a tile, where the relief does not go down to the ground: on
+// a straight side of the surface's hull, and not at a hole.
 std::vector<std::uint8_t> tile_edges(const Surface& surface);
 
-// Returns the relief whose heights are `mm_per_value` of the options times the values of the surface above
-// the value of the ground. Lower values are level with the ground. Points on the edges of a tile keep their
-// heights. Errors: kind option if the surface's depths are not proportional
-// to the values of its file, or if the relief would be higher than 1e5 mm; kind geometry if nothing lies above
-// the ground.
+// Returns the relief whose heights are `options.mm_per_value` times the surface's values above the ground.
+// Lower values get the height of the ground. Points on the edges of a tile keep their heights. Errors: kind
+// option if the surface's depths are not proportional to the values of its file, or if the relief would be
+// higher than 1e5 mm; kind geometry if nothing is above the ground.
 Result<Relief> relief_of_values(const Surface& surface, const ReliefOptions& options, double mm_per_unit);
 
-// Puts nearly vertical walls under the edges of a tile, because the hull of a front must lie on the ground.
-// Each point of an edge gets a copy at its height, about a hundredth of a millimetre further inside. The walls
-// are appended to the front's triangles.
+// Adds nearly vertical walls under the edges of a tile, because the hull of a front must be on the ground.
+// Each point of an edge gets a copy at its height, about a hundredth of a millimetre further inside. The
+// walls are appended to the front's triangles.
 void raise_walls(HeightFieldMesh& front, const Surface& surface);
 
 }  // namespace relievo

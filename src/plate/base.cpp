@@ -15,19 +15,19 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// Returns the cubic B-spline's weights of four values in a row, at the fraction `t` of the way from the
-// second to the third.
+// Returns the cubic B-spline's weights of four consecutive values, for a position between the second (t = 0)
+// and the third (t = 1).
 Weights weights_at(double t) {
   const double s = 1 - t;
   return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
           t * t * t / 6};
 }
 
-constexpr double steepest = 5.671;  // tan 80 degrees: the relief on a steeper base would face sideways
+constexpr double steepest = 5.671;  // tan 80 degrees; a relief on a steeper base would face sideways
 constexpr double least_mm = 1e-3, most_mm = 1e6;
 constexpr double default_angle_deg = 15;
 
-// Checks the range of each number, and that no two contradict each other.
+// Checks the range of each number, and that no two numbers contradict each other.
 Result<void> check_numbers(const BaseOptions& options) {
   for (const auto& [name, mm] : {std::pair{"height", options.height_mm},
                                  {"diameter", options.diameter_mm},
@@ -45,7 +45,7 @@ Result<void> check_numbers(const BaseOptions& options) {
   return {};
 }
 
-// Returns the unit vector perpendicular to straight lines of that direction; exact at 90 and 180 degrees.
+// Returns the unit vector perpendicular to the base's straight lines; exact for 90 and 180 degrees.
 Vec2 across(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();
@@ -74,13 +74,13 @@ std::vector<ShapeNumber> numbers_of(BaseOptions& base, std::optional<double>& di
 
 }  // namespace
 
-// The cubic B-spline whose control points are the map's values: it is smooth and stays between the
-// neighbouring values, so that it evens out steps from rounding. Beyond the border the outermost values are
-// repeated.
+// A cubic B-spline surface whose control points are the map's values. It is smooth and stays within the range
+// of neighbouring values, so it smooths the steps of rounded values. Beyond the border the outermost values
+// are repeated.
 class Base::ImageSurface {
  public:
-  // Centres the map on a plate of that size, scales it until it covers the plate, and makes it `height_mm`
-  // high from the lowest to the highest value.
+  // Centres the map on a plate of the given size and scales it until it covers the plate. Scales the values
+  // so that the difference between the lowest and the highest is `height_mm`.
   ImageSurface(std::shared_ptr<const Image<float>> grid, const Vec2& plate_mm, double height_mm)
       : grid_(std::move(grid)) {
     pixel_mm_ = std::max(plate_mm.x() / grid_->width, plate_mm.y() / grid_->height);
@@ -94,7 +94,7 @@ class Base::ImageSurface {
   double height(const Vec2& from_middle) const { return mm_per_value_ * (value(from_middle) - middle_); }
 
  private:
-  // Returns the spline at a place, in the map's unit.
+  // Returns the spline at a position, in the map's unit.
   double value(const Vec2& from_middle) const {
     const double x = from_middle.x() / pixel_mm_ + (grid_->width - 1) / 2.0,
                  y = (grid_->height - 1) / 2.0 - from_middle.y() / pixel_mm_;
@@ -117,7 +117,7 @@ class Base::ImageSurface {
 
   std::shared_ptr<const Image<float>> grid_;
   double pixel_mm_ = 1, mm_per_value_ = 0;
-  double middle_ = 0;  // the value in the plate's middle
+  double middle_ = 0;  // the value at the plate's middle
 };
 
 Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outline) {
@@ -130,7 +130,7 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double half_extent = 0;  // half of the plate's extent across the straight lines; for a dome its radius
+  double half_extent = 0;  // half of the plate's extent perpendicular to the straight lines; a dome's radius
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
     half_extent =
@@ -224,7 +224,7 @@ Vec2 Base::from_middle(const Vec2& place) const {
 
 double Base::profile(const Vec2& p) const {
   const double t = across_.dot(p);
-  // The square root's argument is negative only beyond the plate.
+  // The argument is negative only outside the plate.
   const auto cap = [&](double square) { return std::sqrt(std::max(0.0, size_ * size_ - square)) - size_; };
   switch (kind_) {
     case BaseKind::plane:

@@ -34,13 +34,12 @@ std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid) {
 }
 
 void separate_coincident(Solid& solid, double middle_z) {
-  const int most_passes =
-      32;  // a moved point may coincide with a third one: then the next pass separates the two
+  const int most_passes = 32;  // a moved point may coincide with a third point; the next pass separates those
   for (int pass = 0; pass < most_passes; ++pass) {
     const auto pairs = find_coincident_points(solid);
     if (pairs.empty()) return;
     Index previous = no_index;
-    int steps = 0;  // the n-th of several points at one place moves by n steps
+    int steps = 0;  // the n-th of several coincident points moves by n steps
     for (const auto& [first, second] : pairs) {
       steps = first == previous ? steps + 1 : 1;
       auto z = static_cast<float>(solid.points[second].z());

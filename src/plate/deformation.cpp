@@ -12,17 +12,17 @@
 namespace relievo {
 namespace {
 
-constexpr double shortest_mm = 4e-3;  // a few steps of single precision at 10 m, and finer than any tool
-constexpr int most_refinements = 60;  // each one halves edges, so plates need about 30 at most
+constexpr double shortest_mm = 4e-3;  // several units in the last place at 10 m, and finer than any tool
+constexpr int most_refinements = 60;  // each refinement halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
 
-// The way in which a triangle will be split.
+// How a triangle will be split.
 struct Split {
-  // The position of the split on each edge, as a share of the way from the end with the lower index to the
-  // other end; 0 if the edge is not split.
+  // Per edge: the position of the split as a share of the edge, counted from the end with the lower index; 0
+  // if the edge is not split.
   std::array<double, 3> shares = {};
-  std::optional<Vec3> place;  // a point inside, if no edge is split
-  double left_mm = 0;         // largest deviation sampled, if nothing is split
+  std::optional<Vec3> place;  // a new point inside the triangle, if no edge is split
+  double left_mm = 0;         // largest sampled deviation, if nothing is split
 };
 
 // A new point on the edge between two others.
@@ -40,9 +40,9 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// Works in rounds: new triangles are sampled, all points that they need are added at once, and then the
-// triangles are split. The two triangles of an edge sample the edge at the same points and so split it at the
-// same point. That avoids T-junctions, although each triangle is examined separately.
+// Works in rounds. Each round samples the new triangles, adds all points that they need, and splits the
+// triangles. Triangles are examined separately, but both triangles of an edge sample it at the same points,
+// so they split it at the same point. That avoids T-junctions.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
@@ -99,9 +99,9 @@ class Refiner {
   }
 
   // Returns the share of an edge at which to split it, the same for both its triangles; 0 if the edge is
-  // within the tolerance. An edge that crosses a crease is measured and split there: the deviation is largest
-  // at the crease, and splits in the middle would approach the crease only slowly. Other edges are sampled
-  // twice per feature, so that a wave that is 0 in the middle of an edge is not overlooked.
+  // within the tolerance. If the edge crosses a crease, only the crossing is measured: the deviation is
+  // largest there, and splits at midpoints would approach the crease slowly. Other edges are sampled twice
+  // per feature, so that a wave with a zero at the midpoint is noticed.
   double share_of(const std::array<Index, 2>& ends, double& left_mm) const {
     const auto& [a, b] = ends;
     const Vec3 &p = flat_.points[a], &q = flat_.points[b];
@@ -120,9 +120,9 @@ class Refiner {
     return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // Returns the first sample inside the triangle that deviates too much. Samples lie in rows parallel to the
-  // longest edge. A point inside is added only if all three edges are within the tolerance, for example on
-  // the top of a hill.
+  // Returns the first sample inside the triangle that deviates too much. Samples lie on lines parallel to the
+  // longest edge. This is needed only if all three edges are within the tolerance, for example on top of a
+  // hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();
@@ -179,7 +179,7 @@ class Refiner {
     flat_.colours.push_back(colour);
   }
 
-  // Returns the new point on the edge between two points; no_index if the edge was not split.
+  // Returns the new point on the edge between two points; no_index if the edge is not split.
   Index between(const std::array<Index, 2>& ends) const {
     const auto found = std::ranges::lower_bound(between_, Between{ends, 0}, is_before);
     if (found == between_.end() || found->ends != ends) return no_index;
@@ -208,8 +208,8 @@ class Refiner {
     for (std::size_t e = 0; e < 3; ++e) parts_.push_back({t[e], t[(e + 1) % 3], within});
   }
 
-  // Splits a triangle into two to four. `middle` contains the new point on each edge, or no_index. A
-  // quadrilateral is divided by its shorter diagonal, which keeps needles from becoming thinner.
+  // Splits a triangle into two to four triangles. `middle` contains the new point on each edge, or no_index.
+  // A quadrilateral is divided by its shorter diagonal, because the longer one would make needles thinner.
   void split(const Triangle& t, const std::array<Index, 3>& middle) {
     const auto count = std::ranges::count_if(middle, [](Index i) { return i != no_index; });
     if (count == 0) return;
@@ -218,7 +218,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // Edge e is split; if two edges are split, the other is the edge after e.
+    // Let e be the split edge; of two split edges, the one before the other.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];
@@ -235,7 +235,7 @@ class Refiner {
       parts_.insert(parts_.end(), {{a, m, c}, {m, n, c}});
   }
 
-  // Replaces triangle t by its parts: the first takes its place, the others are appended.
+  // Replaces triangle t by its parts: the first part gets index t, the others are appended.
   void replace(Index t) {
     flat_.triangles[t] = parts_[0];
     active_.push_back(t);
@@ -260,7 +260,7 @@ class Refiner {
     outline_ = std::move(longer);
   }
 
-  // Sorts the triangles by their original triangles, so that the front's come first again.
+  // Sorts the triangles by their original triangles, so that the front's triangles come first again.
   void restore_order() {
     std::vector<Index> order(origin_.size());
     for (Index t = 0; t < order.size(); ++t) order[t] = t;
@@ -285,7 +285,7 @@ class Refiner {
   std::vector<Vec3> deformed_;    // deformed points
   std::vector<Index> origin_;     // the original triangle of each triangle
   std::vector<Index> active_;     // the triangles that are new in this round
-  std::vector<Between> between_;  // this round's points on edges, sorted by their ends
+  std::vector<Between> between_;  // this round's new points on edges, sorted by the edges' ends
   Index first_between_ = 0, first_within_ = 0;
   std::vector<Triangle> parts_;
 };

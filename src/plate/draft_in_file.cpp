@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The front of a solid with coordinates rounded as in a file.
+// The front of a solid, with coordinates rounded as in a file.
 struct StoredFront {
   std::vector<Vec2> plane;
   std::vector<double> heights;
@@ -32,8 +32,8 @@ struct StoredFront {
 
   PlaneMesh field() const { return {plane, triangles, is_fixed}; }
 
-  // Frees all front points except extrema, the outline (top of the walls) and points at the outline's height,
-  // i.e. flat ground.
+  // Frees all front points except extrema, points of the outline (top of the walls) and points at the
+  // outline's height (flat ground).
   void free_inner_points(const Solid& solid) {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const Triangle& t : triangles)

@@ -17,14 +17,14 @@
 namespace relievo {
 namespace {
 
-// The plate is thinnest for the brightest 2 % of the points, because otherwise a few highlights would leave
-// the rest dark. It is thickest where points are a tenth as bright as the highlights, or for the darkest
-// tenth of the points if these are darker still.
+// The plate is thinnest for the brightest 2 % of the points; otherwise a few highlights would leave
+// everything else dark. It is thickest for the darkest tenth of the points, or for all points below a tenth
+// of the highlights' brightness if those are fewer.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 
-// Returns the brightness of a white surface under a large lamp at the upper left. The lamp's light goes
-// around edges, so that surfaces that face away still show their form.
+// Returns the brightness of a white surface under a large lamp at the upper left. Light reaches surfaces that
+// face away from the lamp, so that their shape stays visible.
 double shade(const Vec3f& normal) {
   const Vec3f lamp = Vec3f(-1, 1, 1.6F).normalized();
   const double facing = .5 + .5 * static_cast<double>(normal.dot(lamp));
@@ -35,8 +35,7 @@ struct Range {
   double darkest, brightest;
 };
 
-// Returns the brightness of points where the plate is thickest and where it is thinnest. Points on the
-// outline are ignored.
+// Returns the brightness at which the plate is thickest and thinnest. Points on the outline are ignored.
 Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_boundary) {
   std::vector<double> inside;
   for (std::size_t i = 0; i < bright.size(); ++i)
@@ -46,7 +45,7 @@ Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_
   return {std::clamp(dark, least_dark_of_bright * brightest, dark_of_bright * brightest), brightest};
 }
 
-// Returns the darkness: 0 for the brightest points, 1 for the darkest, and between them linear in the
+// Returns the darkness: 0 for the brightest points, 1 for the darkest; in between it is linear in the
 // logarithm of the brightness.
 double darkness(double bright, const Range& range) {
   if (!(range.brightest > 0)) return 1;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double most_points = 2e5;  // points of the ground; a relief has about as many
 
-// Returns true if three edges from this point, `step` long, deviate by no more than refine() allows for
-// edges. Edges across a crease do not count, because refine() splits them at the crease.
+// Returns whether three edges of length `step` from this point deviate by no more than refine() allows. Edges
+// across a crease are ignored, because refine() splits them there.
 bool is_fine(const Deformation& deformation, const Vec3& from, double step, double tolerance_mm) {
   for (const Vec3& way : {Vec3(step, 0, 0), Vec3(0, step, 0), Vec3(.7 * step, .7 * step, 0)}) {
     const Vec3 to = from + way;
@@ -39,7 +39,7 @@ bool is_fine_within(const Deformation& deformation, std::span<const Vec2> polygo
   return true;
 }
 
-// A lattice of points in staggered rows: neighbours form equilateral triangles.
+// A lattice of points in staggered rows, in which neighbours form equilateral triangles.
 class StaggeredLattice {
  public:
   StaggeredLattice(std::span<const Vec2> polygon, double spacing)
@@ -50,7 +50,7 @@ class StaggeredLattice {
                             1 + static_cast<int>(box.size().y() / row_), std::uint8_t{1});
   }
 
-  // Removes the points within a circle, or less than a third of the spacing outside it.
+  // Removes the points within a circle, and those less than a third of the spacing outside it.
   void clear(const Vec2& centre, double radius) {
     const double wide = radius + spacing_ / 3;
     const int first = row_of(centre.y() - wide), last = row_of(centre.y() + wide) + 1;
@@ -64,7 +64,7 @@ class StaggeredLattice {
     }
   }
 
-  // Returns the remaining points that lie inside the polygon, at least half the spacing from its sides.
+  // Returns the remaining points inside the polygon that are at least half the spacing from its sides.
   std::vector<Vec2> points_within(std::span<const Vec2> polygon) const {
     std::vector<Vec2> points;
     for (int row = 0; row < is_free_.height; ++row)
@@ -93,7 +93,7 @@ std::vector<Triangle> relief_of(const Solid& front) {
 }
 
 // Returns the Delaunay triangulation of the front's used points and the ground's points. Its indices count
-// first all points of the front, used or not, and then the points of the ground.
+// all points of the front first, including unused ones, and then the points of the ground.
 std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vector<Vec2>& ground) {
   const std::vector<std::uint8_t> is_used = used_points(front.points.size(), front.triangles);
   std::vector<Vec2> points;
@@ -113,14 +113,14 @@ std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vect
   return triangles;
 }
 
-// Triangles that cover everything inside the rim; the relief's triangles come first.
+// Triangles that cover the polygon inside the rim; the relief's triangles come first.
 struct Cover {
   std::vector<Triangle> triangles;
   std::size_t relief = 0;  // the number of the relief's triangles
 };
 
-// Returns true if the triangles are a Delaunay triangulation. Points on one circle may be triangulated in any
-// way.
+// Returns whether the triangles are a Delaunay triangulation. Points on a common circle may be triangulated
+// in any way.
 bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   const auto at = [&](Index i) { return Vec2(points[i].head<2>()); };
   bool is_delaunay = true;
@@ -140,10 +140,10 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
   return cover;
 }
 
-// Returns nothing if a triangle connects a new point with one that is not at the height of the ground.
-// Otherwise returns the given relief together with the ground of the triangulation, if the two fit together.
-// If they do not, but the relief is Delaunay, only points on one circle can be triangulated differently: then
-// returns the whole triangulation. If they do not and the relief is not Delaunay, returns nothing, too.
+// Combines the given relief with the ground triangles of the triangulation, if their edges match. If they do
+// not match and the relief is Delaunay, points on a common circle were triangulated differently; then the
+// whole triangulation is returned. Returns nothing if the relief is not Delaunay and does not match, or if a
+// triangle connects a new point with a point above the ground.
 std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
                              const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();

@@ -12,8 +12,8 @@
 namespace relievo {
 namespace {
 
-// Returns the front's triangles in pixels. Heights are measured from the lowest point, so that single
-// precision keeps their digits.
+// Returns the front's triangles in pixel coordinates. Heights are measured from the lowest point to use the
+// digits of single precision well.
 RasterInput front_input(const Solid& solid, const HeightField& field) {
   RasterInput input;
   input.triangles = std::span(solid.triangles).first(solid.front_triangles);
@@ -21,7 +21,7 @@ RasterInput front_input(const Solid& solid, const HeightField& field) {
   input.height = field.z.height;
   input.points.resize(solid.points.size());
   parallel_for(solid.points.size(), [&](std::size_t i) {
-    // Points that the front does not use may lie anywhere.
+    // Points that the front does not use may lie outside the box.
     const Vec3 p = solid.points[i].cwiseMax(field.box.min).cwiseMin(field.box.max);
     const Vec2 place = field.to_pixels(p);
     input.points[i] = {place.x(), place.y(), p.z() - field.box.min.z()};
@@ -29,8 +29,8 @@ RasterInput front_input(const Solid& solid, const HeightField& field) {
   return input;
 }
 
-// Returns the front's corners as files store them. The floats are stored first, because g++ 12 drops the
-// rounding of double(float(x)) when it vectorises.
+// Returns the points as files store them. The floats are stored first, because g++ 12 removes the rounding in
+// double(float(x)) when it vectorises.
 std::vector<Vec3f> stored_points(const Solid& solid) {
   std::vector<Vec3f> stored;
   stored.reserve(solid.points.size());
@@ -38,12 +38,12 @@ std::vector<Vec3f> stored_points(const Solid& solid) {
   return stored;
 }
 
-// The two ends of the part of a line of constant y that lies in a triangle.
+// The ends of the segment in which a line of constant y intersects a triangle.
 struct Chord {
   Vec2 left, right;  // x and z
 };
 
-// Returns the part of the line at that y inside a triangle, which must intersect the line.
+// Returns the segment of the line at `y` inside a triangle; the line must intersect the triangle.
 Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   Chord chord{Vec2::Constant(std::numeric_limits<double>::infinity()), {}};
   chord.right.x() = -chord.left.x();
@@ -61,12 +61,12 @@ Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   return chord;
 }
 
-// Some rows of a field into which triangles are drawn.
+// Some rows of a field, into which triangles are drawn.
 class FieldRows {
  public:
   FieldRows(HeightField& field, int first, int end) : field_(field), first_(first), end_(end) {}
 
-  // Raises the pixels whose centres lie in the triangle, or on its edge, to the triangle's height there.
+  // Raises the pixels whose centre is in the triangle or on its edge to the triangle's height there.
   void enter(const std::array<Vec3, 3>& corners) {
     const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
     const int begin = std::max(first_, first_from(centre_at({0, high, 0}).y())),
@@ -76,7 +76,7 @@ class FieldRows {
   }
 
  private:
-  // The tolerance, in pixels, that makes a centre on an edge belong to both triangles in spite of rounding.
+  // Tolerance in pixels. With it, a centre on an edge belongs to both triangles in spite of rounding.
   static constexpr double rounding = 1e-9;
   static int first_from(double centre) { return static_cast<int>(std::ceil(centre - rounding)); }
   static int end_after(double centre) { return static_cast<int>(std::floor(centre + rounding)) + 1; }
@@ -110,7 +110,7 @@ HeightField flat_height_field(const Box& box, const FieldSampling& sampling) {
   const bool has_pitch = sampling.mm_per_pixel > 0;
   if (!(longer_mm > 0) || (!has_pitch && sampling.longer_side_px < 1)) return field;
   field.mm_per_pixel = has_pitch ? sampling.mm_per_pixel : longer_mm / sampling.longer_side_px;
-  // A size that is a whole number of pixels may be stored slightly larger, which must not add a pixel.
+  // Rounding may store a size of a whole number of pixels slightly too large, which must not add a pixel.
   constexpr double rounding_px = 1e-3;
   const auto pixels = [&](double mm) {
     const double count = mm / field.mm_per_pixel;
@@ -152,7 +152,7 @@ HeightField measure_height_field(const Solid& solid, const FieldSampling& sampli
     if (is_shown(t))
       for (const Vec3& p : corners_of(t)) box.extend(p);
   HeightField field = flat_height_field(box, sampling);
-  constexpr float beside = -1;  // lower than every height, so that the relief's heights replace it
+  constexpr float beside = -1;  // below all heights, so that the relief's heights replace it
   if (sampling.is_relief_alone) std::ranges::fill(field.z.pixels, beside);
   const int least_rows = 32, most_bands = 64;
   const int rows = std::max(least_rows, (field.z.height + most_bands - 1) / most_bands);

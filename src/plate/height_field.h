@@ -1,4 +1,4 @@
-// The front of a solid as heights under the centres of a picture's pixels. Tested by
+// The front of a solid as an image: heights at the centres of the pixels. Tested by
 // tests/plate/height_field_test.cpp.
 #pragma once
 
@@ -16,18 +16,17 @@ namespace relievo {
 // The resolution of a field, and the part of the front that it shows.
 struct FieldSampling {
   int longer_side_px = 0;
-  double mm_per_pixel = 0;       // exact size of a pixel, in place of longer_side_px; 0 if it is not given
-  bool is_relief_alone = false;  // true to leave out the flat ground around the relief, and the rim
+  double mm_per_pixel = 0;       // exact size of a pixel; if 0, longer_side_px decides
+  bool is_relief_alone = false;  // true to leave out the rim and the flat ground around the relief
 };
 
-// The box lies in the picture's middle. Its longer side fills the picture, except that a given size of the
-// pixels can leave a part of a pixel on either side.
+// The box is centred in the image. Its longer side fills the image; but if the size of a pixel is given, a
+// fraction of a pixel can remain on either side.
 struct HeightField {
   double mm_per_pixel = 0;
-  Box box;         // box of the part that is shown
-  Image<float> z;  // millimetres above the box's lowest point; 0 beside the front
-  Image<std::uint8_t> is_beside =
-      {};  // 1 for a pixel beside the front; empty if no pixel is, or if they are not marked
+  Box box;                             // box of the part that is shown
+  Image<float> z;                      // millimetres above the box's lowest point; 0 where there is no front
+  Image<std::uint8_t> is_beside = {};  // 1 where there is no front; may be empty
 
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - box.centre()) / mm_per_pixel;
@@ -38,23 +37,23 @@ struct HeightField {
   }
 };
 
-// Returns a field of zeros for a front with that box. The field has no pixels if a side would have a number of
-// pixels not in [1, RasterInput::most_pixels], or if the box is empty.
+// Returns a field of zeros for a front with that box. The field has no pixels if the box is empty, or if the
+// number of pixels along a side is not in [1, RasterInput::most_pixels].
 HeightField flat_height_field(const Box& box, const FieldSampling& sampling);
 
-// Returns the heights of a solid's front, quickly. The field has no pixels in the same cases as
-// flat_height_field().
+// Returns the heights of a solid's front by fast rasterisation. The field has no pixels in the same cases as
+// that of flat_height_field().
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
-// Returns the heights of a solid's front, with its corners as files store them. Each pixel has the height of
-// the triangle that contains its centre, edges included; of several triangles, the highest.
-// draw_height_field() rounds corners to 1/256 pixel, which can change a height at a wall by as much as the
-// wall is high. Beside a relief that is shown alone, the field has the height of the ground. The field has no
-// pixels in the same cases as flat_height_field(); `is_beside` is empty.
+// Returns the exact heights of a solid's front, with corners rounded as in files. A pixel has the height of
+// the highest triangle that contains its centre, edges included. (draw_height_field() rounds corners to 1/256
+// pixel, which at a wall can change a height by the height of the wall.) Around a relief that is shown alone,
+// the field has the height of the ground. The field has no pixels in the same cases as that of
+// flat_height_field(). `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, const FieldSampling& sampling);
 
-// Returns the number of samples along the longer side, in [2048, 4096]. The samples are a twelfth of the
-// tool's radius apart if that range allows it.
+// Returns the number of samples along the longer side. The distance between samples is a twelfth of the
+// tool's radius, unless this needs fewer than 2048 or more than 4096 samples.
 inline int samples_for(const Tool& tool, double longer_mm) {
   constexpr int least_samples = 2048, most_samples = 4096;
   constexpr double samples_per_radius = 12;
@@ -64,8 +63,8 @@ inline int samples_for(const Tool& tool, double longer_mm) {
   return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
 }
 
-// Returns the heights of a solid's front, whose box is given; NaN beside the front, where nothing hinders the
-// tool.
+// Returns the heights of a solid's front with the given box; NaN where there is no front, because nothing
+// obstructs the tool there.
 inline HeightField front_samples(const Solid& solid, const Box& box, const Tool& tool) {
   HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
   for (std::size_t i = 0; i < field.z.pixels.size(); ++i)

@@ -15,10 +15,10 @@
 namespace relievo {
 namespace {
 
-constexpr double rounding = 1.002;  // of slopes, as corners are rounded
-constexpr double clear_mm = .02;    // shapes keep this distance from the relief, the rim and each other
+constexpr double rounding = 1.002;  // factor of slopes, because corners are rounded
+constexpr double clear_mm = .02;    // least distance of shapes from the relief, the rim and each other
 
-// The level ground of a surface, in the plane.
+// The level ground of a surface.
 struct LevelGround {
   std::vector<std::uint8_t> is_ground;  // per triangle
   std::vector<BoundaryEdge> boundary;
@@ -50,7 +50,7 @@ std::unexpected<Error> touching(const RaisedShape& shape, std::string_view what)
                           "another place gives room"));
 }
 
-// Finds what is under and beside shapes.
+// Checks that shapes lie on level ground.
 class Surroundings {
  public:
   Surroundings(const Solid& surface, const LevelGround& ground, std::span<const Vec2> inner)
@@ -86,12 +86,12 @@ class Surroundings {
   std::vector<Vec2> corners_;
 };
 
-// The points and edges of new ground. The surface's points come first, in the order of `old`.
+// The points and edges of new ground. Points of the surface come first, in the order of `old`.
 struct NewGround {
-  std::vector<Index> old;  // numbers in the surface of the points that stay
+  std::vector<Index> old;  // indices of the surface's points that are kept
   std::vector<Vec2> plane;
-  std::vector<double> heights;  // of the points that are added
-  std::vector<EdgeEnds> edges;  // those of the ground's boundary come first
+  std::vector<double> heights;  // heights of the added points
+  std::vector<EdgeEnds> edges;  // edges of the ground's boundary come first
   std::size_t border_edges = 0;
 };
 
@@ -136,13 +136,13 @@ class GroundMaker {
     return {};
   }
 
-  // Returns the slope of a shape's wall below a level.
+  // Returns the slope of the wall of a shape between the previous level and this one.
   static double rise(const RaisedShape& shape, std::size_t level) {
     const WallLevel &low = shape.levels[level - 1], &high = shape.levels[level];
     return std::abs(high.height_mm - low.height_mm) / (high.distance_mm - low.distance_mm);
   }
 
-  // Keeps the points within the ground that are beside all shapes.
+  // Keeps the ground's inner points that no shape covers.
   void keep_points(std::span<const RaisedShape> shapes) {
     for (const Index i : ground_.inner_points) {
       const Vec2 p = surface_.points[i].head<2>();
@@ -179,7 +179,8 @@ class GroundMaker {
     }
   }
 
-  // Returns which triangles lie to the left of the ground's border; nothing if an edge of it is missing.
+  // Returns which triangles are inside the ground's border; nothing if the triangulation lacks an edge of the
+  // border.
   static std::vector<std::uint8_t> within_border(const HeldTriangulation& made, const NewGround& wanted) {
     std::vector<EdgeEnds> border(wanted.edges.begin(),
                                  wanted.edges.begin() + static_cast<std::ptrdiff_t>(wanted.border_edges));
@@ -207,9 +208,9 @@ class GroundMaker {
     return is_within;
   }
 
-  // Moves points where walls meet in triangles that are steeper than the walls, which happens where an edge between
-  // points of two walls lies beside the one in which these meet. The range of heights stays: both limits are kept by
-  // turns.
+  // Limits the slopes of triangles where walls meet. There an edge between points of two walls can make a
+  // triangle steeper than the walls. The range of heights must not change, so the two limits are applied
+  // alternately.
   void limit(std::span<const Triangle> triangles) {
     const std::size_t kept = new_.old.size();
     std::vector<double> heights(kept, 0);
@@ -243,7 +244,7 @@ class GroundMaker {
     return {};
   }
 
-  // Puts the new triangles, whose corners have the numbers of the new ground, in the place of the old ones.
+  // Replaces the old ground triangles by the new ones, whose corners are indices of the new ground.
   void replace_ground(std::span<const Triangle> ground) {
     std::vector<Triangle> triangles;
     std::vector<Region> regions;
@@ -275,7 +276,7 @@ class GroundMaker {
   std::vector<ShapePoints> points_;
   std::vector<Segment> added_feet_;
   SegmentGrid feet_{{}, 1};
-  double steepest_ = 0;  // slope of all walls
+  double steepest_ = 0;  // largest slope of all walls
   NewGround new_;
 };
 

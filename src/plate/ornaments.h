@@ -1,4 +1,5 @@
-// Puts letters, borders and drawings on the level ground of a plate. Tested by tests/plate/ornaments_test.cpp.
+// Adds letters, borders and drawings to the level ground of a plate. Tested by
+// tests/plate/ornaments_test.cpp.
 #pragma once
 
 #include <span>
@@ -9,9 +10,10 @@
 
 namespace relievo {
 
-// Replaces the level ground of a surface by ground with the shapes on it, which are in the surface's coordinates.
-// `inner` is the polygon inside the rim. All other triangles stay. Fills in `surface.ornaments`. Errors: kind
-// option if a shape touches the relief, the rim or another shape, or if the surface has no level ground.
+// Replaces the level ground of a surface by ground with the shapes on it. The shapes are in the surface's
+// coordinates. `inner` is the polygon inside the rim. All other triangles are kept. Sets `surface.ornaments`.
+// Errors: kind option if a shape touches the relief, the rim or another shape, or if the surface has no level
+// ground.
 Result<void> add_shapes(Solid& surface, std::span<const RaisedShape> shapes, std::span<const Vec2> inner);
 
 }  // namespace relievo

@@ -14,26 +14,26 @@ namespace {
 
 using Points = std::span<const Vec2>;
 
-// The largest distance of a curve from its inscribed polygon is finest_mm, or finest_share of the radius if
-// that is more. Machining and polishing leave larger errors than finest_mm. For curves of more than 10 m,
-// finest_share is what files can store.
+// The largest distance of a curve from its inscribed polygon is finest_mm or finest_share of the radius,
+// whichever is more. Errors of machining and polishing are larger than finest_mm. For radii above 9 m the
+// limit is finest_share, the precision of files.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
-// The distance of a line from the centre, as a function of the outline's size.
+// The distance of a line from the centre as a function of the outline's size: offset + growth * size.
 struct Distance {
   double offset = 0, growth = 1;
 
   double at(double size) const { return offset + size * growth; }
 };
 
-// One side of a convex outline that is scaled by `size`: a line, and the curve's tangent parallel to it. Both
-// are the same where the outline is straight.
+// One side of a convex outline that is scaled by `size`: the line of the side, and the parallel tangent of
+// the curve. They coincide where the outline is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
 };
 
-// The box around points, given by its centre and half its size.
+// The bounding box of points, given by its centre and half its size.
 struct Frame {
   Vec2 centre = Vec2::Zero(), half = Vec2::Zero();
 };
@@ -44,15 +44,15 @@ Frame frame_around(Points points) {
   return {(min + max) / 2, (max - min) / 2};
 }
 
-// A regular polygon whose corners lie on the unit circle, four of them on the axes. Its sides are
-// counter-clockwise.
+// A regular polygon in the unit circle. Four of its corners lie on the axes. Its sides are in
+// counter-clockwise order.
 struct CircleSides {
   std::vector<Vec2> normals;  // unit length
   double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns the sides of an inscribed polygon that stays within finest_mm of a circle of that radius. The
-// middles of the sides are at the distance radius * cos(half a side's angle) from the centre.
+// Returns the sides of an inscribed polygon that deviates by at most finest_mm from a circle of that radius.
+// The distance of a side from the centre is radius * cos(half the side's angle).
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
@@ -65,9 +65,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Returns the centre of the smallest circle, in a plane stretched by 1 / scale, that encloses the points and
-// has its centre midway between left and right. With its centre anywhere, the smallest circle would put the
-// relief visibly off the middle.
+// Returns the centre of the smallest enclosing circle of the points, in coordinates divided by `scale`, among
+// circles centred midway between left and right. The smallest of all circles could be visibly off that
+// middle.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -77,7 +77,7 @@ Vec2 round_centre(Points points, const Vec2& scale) {
     return distance_sq;
   };
   double low = frame.centre.y() - frame.half.y(), high = frame.centre.y() + frame.half.y();
-  const int steps = 100;  // each step leaves two thirds of the interval
+  const int steps = 100;  // each step reduces the interval to two thirds
   for (int i = 0; i < steps; ++i) {
     const double third = (high - low) / 3;
     if (farthest(low + third) > farthest(high - third))
@@ -125,7 +125,7 @@ std::vector<Side> sides_of_hexagon(bool is_pointed) {
   return sides;
 }
 
-// Returns the smallest size at which the curve is at least the margin from every point.
+// Returns the smallest size at which the curve is at least the margin away from every point.
 double size_around(Points points, const Vec2& centre, const std::vector<Side>& sides, double margin_mm) {
   double size = 0;
   for (const Side& side : sides) {
@@ -137,7 +137,8 @@ double size_around(Points points, const Vec2& centre, const std::vector<Side>& s
 }
 
 std::vector<Vec2> to_polygon(const std::vector<Side>& sides, const Vec2& centre, double size) {
-  constexpr double least_side_mm = 1e-4;  // two arcs may meet where a side between them has no length
+  // Two arcs may meet where the straight side between them has no length.
+  constexpr double least_side_mm = 1e-4;
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side &a = sides[i], &b = sides[(i + 1) % sides.size()];
@@ -155,7 +156,7 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-// Returns the box around points. If a size is given, it has the same centre and this size less the margin.
+// Returns the bounding box of points, or a box with the same centre and the given size less the margin.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);
@@ -182,7 +183,7 @@ std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, const Outli
   const Vec2 centre = round_centre(points, shape), wanted = options.size_mm / 2;
   if (wanted.x() > 0) return to_polygon(sides_of_ellipse(wanted, wanted.maxCoeff()), centre, 1);
   const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
-  // The box's diagonal is longer than any radius of a circle or ellipse that fits the points.
+  // The diagonal of the box exceeds every radius of a circle or ellipse around the points.
   const auto size_with = [&](double longest) {
     return size_around(points, centre, sides_of_ellipse(shape, longest), options.margin_mm);
   };
@@ -210,7 +211,7 @@ std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
   return around(points, centre, is_pointed ? pointed : flat, margin);
 }
 
-// One row per outline: the function that makes it, and its properties. `none` has no row.
+// A table entry per outline: the function that makes it, and its properties. Outline::none has no entry.
 struct OutlineShape {
   Outline outline;
   std::vector<Vec2> (*around)(Points points, const OutlineOptions& options);
@@ -228,8 +229,8 @@ const OutlineShape* shape_of(Outline outline) {
   return found == shapes.end() ? nullptr : &*found;
 }
 
-// Returns the lengths on both sides of a separator. If only the second length has a unit, as in "8x6in", the
-// unit applies to both.
+// Returns the lengths on both sides of a separator. In "8x6in" only the second length has a unit, which then
+// applies to both.
 std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit bare) {
   const std::size_t middle = text.find(separator);
   if (middle == std::string_view::npos) return std::nullopt;
@@ -245,7 +246,7 @@ std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit
 }  // namespace
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
-  constexpr std::string_view cross_sign = "\u00d7";  // used as well as x
+  constexpr std::string_view cross_sign = "\u00d7";  // accepted like x
   if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)
     return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Moves the surface so that its lowest point lies exactly at the thickness, and x and y are at least 0.
+// Moves the surface so that its lowest point is exactly at the thickness, and no x or y is negative.
 void raise(Solid& surface, double thickness_mm) {
   const Vec3 begin = used_box(surface.points, surface.triangles).min;
   const Vec3 move(-std::min(0.0, begin.x()), -std::min(0.0, begin.y()), thickness_mm - begin.z());
@@ -22,7 +22,7 @@ void raise(Solid& surface, double thickness_mm) {
   surface.ground_mm += move.z();
 }
 
-// Adds, on the bottom, a point below each point of a polygon, and returns the new points.
+// Adds a point on the bottom below each corner of a polygon. Returns the new points.
 IndexPolygon add_below(Solid& solid, const IndexPolygon& top) {
   IndexPolygon bottom;
   for (const Index i : top) {
@@ -41,7 +41,7 @@ void add_walls(Solid& solid, const IndexPolygon& top, const IndexPolygon& bottom
   }
 }
 
-// Adds the walls under the outline, and the bottom: a fan, or the lattice that is needed for bending.
+// Adds the walls under the outline, and the bottom: a fan of triangles or, for bending, a lattice.
 void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
   const IndexPolygon bottom = add_below(solid, outline);
   add_walls(solid, outline, bottom);
@@ -50,7 +50,7 @@ void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
     solid.triangles.push_back({bottom[0], bottom[i + 1], bottom[i]});
 }
 
-// Adds the front's triangles once more as the bottom, and walls between the two along their boundary.
+// Adds the bottom, a copy of the front's triangles, and the walls between the boundaries of both.
 void close_body(Solid& solid) {
   const std::vector<Triangle> front = solid.triangles;
   const auto n = static_cast<Index>(solid.points.size());
@@ -78,8 +78,8 @@ Solid closed(PlateSurface surface, const PlateOptions& options) {
   return std::move(surface.solid);
 }
 
-// Returns the front that the plate shows: all of it or, for a plate without ground, only the relief, which is
-// stored in `alone`.
+// Returns the part of the front that the plate shows: all of it or, for a plate without ground, only the
+// relief. The relief is stored in `alone`.
 Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const PlateOptions& options,
                                            HeightFieldMesh& alone) {
   RELIEVO_CHECK(check_plate(front, options));
@@ -89,9 +89,9 @@ Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const P
   return geometry_error("front", "expected triangles of the relief, found ground only");
 }
 
-// Below a micrometre, rounding to single precision would make rim or walls degenerate.
+// Sizes below a micrometre could make rim or walls degenerate when files round them to single precision.
 constexpr double least_size_mm = 1e-3;
-constexpr double least_tolerance_mm = 1e-4;  // finer tolerances would follow the rounding of files
+constexpr double least_tolerance_mm = 1e-4;  // smaller tolerances would reproduce the rounding of files
 
 bool is_good(double mm) {
   return std::isfinite(mm) && mm >= least_size_mm;

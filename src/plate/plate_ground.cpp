@@ -14,8 +14,8 @@ Vec2 edge(const Solid& solid, const IndexPolygon& polygon, std::size_t i) {
   return (solid.points[polygon[(i + 1) % polygon.size()]] - solid.points[polygon[i]]).head<2>();
 }
 
-// Rotates the order of the polygon's vertices until its lowest one (of several, the leftmost) is first, so
-// that its edges' angles rise from 0 to 2 pi.
+// Rotates the polygon's order until its lowest vertex (of several, the leftmost) is first, so that the angles
+// of its edges increase from 0 to 2 pi.
 void begin_at_lowest(const Solid& solid, IndexPolygon& polygon) {
   const auto is_lower = [&](Index a, Index b) {
     const Vec3 &p = solid.points[a], &q = solid.points[b];
@@ -24,7 +24,7 @@ void begin_at_lowest(const Solid& solid, IndexPolygon& polygon) {
   std::ranges::rotate(polygon, std::ranges::min_element(polygon, is_lower));
 }
 
-// Returns true if the angle of `a`, in [0, 2 pi), is smaller than that of `b`.
+// Returns whether the angle of `a`, in [0, 2 pi), is smaller than the angle of `b`.
 bool has_smaller_angle(const Vec2& a, const Vec2& b) {
   const auto is_lower_half = [](const Vec2& v) { return v.y() < 0 || (v.y() == 0 && v.x() < 0); };
   if (is_lower_half(a) != is_lower_half(b)) return is_lower_half(b);
@@ -37,7 +37,7 @@ struct RimProfilePoint {
   double height_mm = 0;  // above the ground
 };
 
-// Returns the cross-section from the outline inwards; without a rim only the outline.
+// Returns the rim's cross-section from the outline inwards; only the outline if there is no rim.
 std::vector<RimProfilePoint> rim_profile(const RimOptions& rim) {
   if (rim.width_mm == 0) return {{}};
   std::vector<RimProfilePoint> profile;
@@ -61,10 +61,10 @@ IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double 
   return polygon;
 }
 
-// Visits the edges of both polygons in the order of their outward normals' angles, and connects each edge to
-// the other polygon's vertex that is farthest along its normal. The segments between such pairs sweep the
-// ring once, so no triangles overlap, and every triangle has an area, even where points are collinear or
-// edges are parallel.
+// Merges the edges of both polygons by the angle of their outward normals. Each edge is connected to the
+// vertex of the other polygon that is farthest along the edge's normal. These connections sweep the ring
+// once. So no triangles overlap, and every triangle has an area, even where points are collinear or edges are
+// parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer) {
   begin_at_lowest(solid, inner);
   begin_at_lowest(solid, outer);

@@ -1,5 +1,5 @@
-// Makes the ground around a relief: rings between convex polygons, and flat ground of even triangles that are
-// fine enough to follow a deformation. Tested by solid_test and plate_base_test.
+// Makes the ground around a relief: rings between convex polygons, and flat ground of regular triangles that
+// are small enough to follow a deformation. Tested by solid_test and plate_base_test.
 #pragma once
 
 #include <limits>
@@ -11,38 +11,39 @@
 
 namespace relievo {
 
-// Returns a spacing in mm for points at height z within the convex polygon. With this spacing, the points'
-// deformed triangles are about within the tolerance. The spacing gives at most about 200,000 points, and is
-// at most a quarter of the diagonal of the polygon's box.
+// Returns the spacing in mm at which triangles between points at height z, deformed, are approximately within
+// the tolerance. `polygon` is convex. The spacing is at most a quarter of the diagonal of the polygon's box,
+// and never so small that more than about 200,000 points are needed.
 double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
                       double tolerance_mm);
 
-// Returns the convex polygon with points between its corners, at most `spacing` apart. The new points are
-// moved outwards by up to 0.00001 mm, see convexity_offset(), so that they are corners, too.
+// Returns the convex polygon with additional points on its sides, at most `spacing` apart. The additional
+// points are moved outwards by up to 0.00001 mm (convexity_offset()), so that they are corners, too.
 std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing);
 
-// Fills the convex polygon with flat triangles that face down, between points `spacing` apart.
+// Fills the convex polygon with flat triangles that face down. Their points are `spacing` apart.
 void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing);
 
 // Adds points to the placed front at the height of the ground: the corners of the convex polygon `rim_inner`,
-// and points between the polygon and the relief, `spacing` apart. Then triangulates everything within the
-// polygon. The relief's triangles stay, except that triangles with points on one circle may have to change to
-// fit the ground; all other triangles are ground. `front` is the same front before it was placed. Returns the
-// polygon's points. If the relief's triangles are not a Delaunay triangulation, returns no points and changes
-// nothing.
+// and points between the polygon and the relief, `spacing` apart. Triangulates everything within the polygon.
+// Triangles that are not part of the relief are ground. The relief's triangles are kept, except that points
+// on a common circle may be triangulated differently to match the ground. `front` is the same front before it
+// was placed. Returns the polygon's points. If the relief's triangles are not a Delaunay triangulation,
+// returns no points and changes nothing.
 IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_inner,
                          double spacing);
 
-// Adds the polygon's corners to the solid's points at height z; returns them.
+// Adds the polygon's corners to the solid's points at height z. Returns the new points.
 IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double z);
 
-// Fills the ring between two convex polygons, the inner one strictly inside the outer, with triangles that
-// cover it once. Every triangle has an area, even where corners are collinear or edges are parallel.
+// Fills the ring between two convex polygons; the inner one is strictly inside the outer one. Every triangle
+// has an area, even where corners are collinear or edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer);
 
-// Returns the outward offset by which a point at the fraction `share` of a polygon's side becomes a corner.
-// With these offsets the points of a side lie on an arc, whose middle is 0.00001 mm outside a side of 100 mm.
-// Collinear corners would give triangles without area, and an ambiguous hull of the Delaunay triangulation.
+// Returns the outward offset that turns a point on a polygon's side into a corner; the point is at `share` of
+// the side. With these offsets the points of a side lie on an arc whose middle is 0.00001 mm outside a side
+// of 100 mm. Collinear corners would give triangles without area, and an ambiguous hull of the Delaunay
+// triangulation.
 inline Vec2 convexity_offset(const Vec2& side, double share) {
   const double curvature = 8e-9;  // per mm
   return share * (1 - share) / 2 * curvature * side.norm() * Vec2(side.y(), -side.x());
@@ -62,7 +63,7 @@ struct RimEdge {
   double height_mm = 0;  // above the ground
 };
 
-// Returns the rim's edges from the inner one to the outline; only the outline if there is no rim.
+// Returns the rim's edges, from the innermost one to the outline; only the outline if there is no rim.
 std::vector<RimEdge> rim_edges(const PlateOutline& outline, const RimOptions& rim);
 
 // Returns the polygon inside the rim; the outline itself if there is no rim.
@@ -70,12 +71,13 @@ std::vector<Vec2> rim_inner_polygon(const PlateOutline& outline, const RimOption
 
 struct GroundOptions {
   RimOptions rim;
-  double spacing = std::numeric_limits<double>::infinity();  // spacing of the points on outline and ground
+  // Distance between points on outline and ground; infinity for no additional points.
+  double spacing = std::numeric_limits<double>::infinity();
 };
 
-// Adds the ground to the placed front, with its regions, and returns the outline's points. With a finite
-// spacing there are points at that distance along the outline, and on the ground if the front's triangles
-// allow it, see fill_ground().
+// Adds the ground, with its regions, to the placed front. Returns the outline's points. With a finite
+// spacing, points at that distance are added along the outline and, if the front's triangles allow it
+// (fill_ground()), on the ground.
 IndexPolygon add_ground(Solid& solid, const HeightFieldMesh& front, const PlateOutline& outline,
                         const GroundOptions& options);
 

@@ -24,7 +24,7 @@ Region region_of(const HeightFieldMesh& front, const Triangle& t) {
   return is_level ? Region::ground : Region::relief;
 }
 
-// Returns a solid that consists only of the front, with the lower corner of its box at `corner`.
+// Returns a solid that has only the front, with the lower corner of its box at `corner`.
 Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& corner) {
   Solid solid;
   solid.points.reserve(front.points.size() + 8);
@@ -38,8 +38,8 @@ Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& cor
   return solid;
 }
 
-// Sets the regions of new triangles: bevel outside the rim's inner polygon, ground where all corners
-// lie at the height of the ground, else relief.
+// Sets the regions of new triangles: bevel outside the rim's inner polygon, ground where all corners are at
+// the height of the ground, relief elsewhere.
 void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground_z, double tolerance_mm) {
   surface.regions.resize(surface.triangles.size());
   parallel_for(surface.triangles.size(), [&](std::size_t i) {
@@ -53,7 +53,7 @@ void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground
   });
 }
 
-// Adds the ornaments to the ground within the outline.
+// Adds the ornaments to the ground inside the outline.
 Result<void> add_ornaments(Solid& surface, const PlateOutline& outline, const PlateOptions& options) {
   if (options.ornaments.empty()) return {};
   const bool has_rim = options.rim.width_mm > 0;
@@ -88,7 +88,7 @@ Result<PlateSurface> flat_plate_surface(const HeightFieldMesh& front, const Plat
   return surface;
 }
 
-// Returns the polygon inside the rim; it is empty for a plate without ground.
+// Returns the polygon inside the rim; no points for a plate without ground.
 std::vector<Vec2> rim_inner_of(const HeightFieldMesh& front, const PlateOptions& options) {
   if (options.outline == Outline::none) return {};
   return rim_inner_polygon(outline_of_plate(front, used_box(front.points, front.triangles), options),
@@ -113,8 +113,8 @@ std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& op
 // The curved surface that a plate's surface must follow, in the front's coordinates.
 struct TargetSurface {
   Deformation deformation;
-  // The height of the curved surface over the plane. For a wrap it is a height field of about the same
-  // curvature, because triangles that approximate this height field also approximate the wrap.
+  // The height of the curved surface above the plane. For a wrap it is a height field of similar curvature,
+  // because triangles that approximate this height field also approximate the wrap.
   std::function<double(const Vec2&)> height;
   bool is_lifted = false;  // true if the surface gets this height now; a wrap bends the plate later
 };
@@ -159,7 +159,7 @@ void lift(std::vector<Vec3>& points, const TargetSurface& target, double sign) {
                [&](std::size_t i) { points[i].z() += sign * target.height(points[i].head<2>()); });
 }
 
-// Returns the used points and the triangles of a surface as a height field within its outline.
+// Returns a surface as a height field inside its outline, without unused points.
 HeightFieldMesh as_front(const PlateSurface& surface) {
   HeightFieldMesh front{surface.solid.points, surface.solid.triangles, surface.outline};
   front.colours = surface.solid.colours;
@@ -168,7 +168,7 @@ HeightFieldMesh as_front(const PlateSurface& surface) {
   return front;
 }
 
-// Simplifies a surface that has been lifted.
+// Simplifies a surface that already follows its target.
 Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& options) {
   RELIEVO_TRY(SimplifiedMesh simpler, simplify(as_front(surface), options));
   surface.solid.points = std::move(simpler.front.points);
@@ -179,7 +179,7 @@ Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& opti
   return {};
 }
 
-// Simplifies a plane surface, if that is asked for.
+// Simplifies a flat surface, if the options ask for that.
 Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
                            std::span<const Vec2> rim_inner) {
   if (options.simplify_mm == 0 || surface.outline.empty()) return {};
@@ -189,12 +189,12 @@ Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
   return {};
 }
 
-// Makes the flat surface follow the target, given in the surface's coordinates. The surface is simplified in
-// the lifted state, in which the error counts. Its regions are found in the flat state, in which the ground
-// is level.
+// Makes the flat surface follow the target, which is given in the surface's coordinates. The surface is
+// simplified in its curved state, because the tolerance applies to that. Regions are found in the flat state,
+// in which the ground is level.
 Result<void> follow(PlateSurface& surface, const TargetSurface& target, const PlateOptions& options,
                     std::span<const Vec2> rim_inner) {
-  // A plate with a wrap is refined as a whole, by wrap_plate().
+  // For a wrap, wrap_plate() later refines the whole plate.
   if (target.is_lifted)
     surface.solid.error_mm = refine(surface.solid, surface.outline, target.deformation, options.tolerance_mm);
   const bool is_simplified = options.simplify_mm > 0 && !surface.outline.empty();

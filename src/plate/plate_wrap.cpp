@@ -13,10 +13,10 @@
 namespace relievo {
 namespace {
 
-// The part of the distance to the axis that the body must leave free, so that no point reaches the axis.
+// The share of the distance to the axis that the body must leave free, so that no point reaches the axis.
 constexpr double least_free = .01;
 
-// Returns the points of the flat back, which extend as far as the plate does.
+// Returns the points of the flat back, which has the extent of the plate.
 std::vector<Vec2> back_of(const Solid& plate) {
   std::vector<Vec2> places;
   for (std::size_t t = plate.front_triangles; t < plate.triangles.size(); ++t)
@@ -25,7 +25,7 @@ std::vector<Vec2> back_of(const Solid& plate) {
   return places;
 }
 
-// Checks that neither relief nor back reaches the axis.
+// Checks that neither the relief nor the back reaches the axis.
 Result<void> check_room(const Solid& plate, const Wrap& wrap) {
   const double highest = used_box(plate.points, plate.triangles).max.z();
   const double towards_axis = wrap.is_inside() ? highest - plate.ground_mm : plate.ground_mm;
@@ -37,22 +37,22 @@ Result<void> check_room(const Solid& plate, const Wrap& wrap) {
                   " mm, as ", towards_axis, " mm reach towards the axis, found ", wrap.diameter_mm()));
 }
 
-// Checks that the two sides that meet after a full turn are straight and equal.
+// Checks that the two sides that meet in a full turn are straight and equal.
 Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
-  // The computed cosine may be 6e-17 instead of 0.
+  // The computed cosine may be 6e-17 where it should be 0.
   const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
   if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
   return option_error("wrap",
                       "expected outline rectangle, no rim and an upright or level axis for a full turn");
 }
 
-// A point on one of the plate's two sides that will be joined.
+// A point on one of the two sides that will be joined.
 struct SidePoint {
   double along, z;
   Index point;
 };
 
-// Returns the points of the plate's side in this direction, sorted along the side and by height.
+// Returns the points on the side of the plate in the given direction, sorted along the side and by height.
 std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
   const Vec2 along(std::abs(direction.y()), std::abs(direction.x()));
   double farthest = 0, nearest = 0;
@@ -62,7 +62,7 @@ std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
     for (const Index i : t)
       farthest = std::max(farthest, distance[i]), nearest = std::min(nearest, distance[i]);
   const double near_side =
-      std::max(1e-4, 1e-6 * (farthest - nearest));  // more than convexity_offset() moves points
+      std::max(1e-4, 1e-6 * (farthest - nearest));  // more than convexity_offset() can move points
   const std::vector<std::uint8_t> is_used = used_points(plate.points.size(), plate.triangles);
   std::vector<SidePoint> side;
   for (Index i = 0; i < distance.size(); ++i)
@@ -92,7 +92,8 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     for (Index& i : t) i = other[i];
     triangles.push_back(t);
   }
-  plate.triangles = std::move(triangles);  // front_triangles stays: no front triangle lies entirely on a side
+  // front_triangles stays valid, because no front triangle lies entirely on a side.
+  plate.triangles = std::move(triangles);
   drop_unused(plate);
   return {};
 }
@@ -113,8 +114,8 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
   IndexPolygon no_outline;
-  // A simplified front deviates by its own tolerance. Refining must not reduce this deviation, because that
-  // would undo the simplification.
+  // A simplified front deviates by its own tolerance. The tolerance here is larger, because refining this
+  // deviation away would undo the simplification.
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
   body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;

@@ -14,14 +14,15 @@
 namespace relievo {
 namespace {
 
-// Distance in samples between new points of the surface, where it is gentle and where it is steep. With the
-// usual samples_for() this is a quarter or a twelfth of the tool's radius.
+// Distance, in samples, between new points where the surface is gentle and where it is steep. With
+// samples_for() these are usually a quarter and a twelfth of the tool's radius.
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
-constexpr double least_left_mm = 1e-3;  // a smaller residual counts as reached
-constexpr double most_lift_mm = .01;    // limit for lifting a point that stays
+constexpr double least_left_mm = 1e-3;  // smaller residuals count as reached
+// Largest distance by which a point is lifted; beyond that it is removed.
+constexpr double most_lift_mm = .01;
 
-// The heights that the tool leaves above a surface, and the heights of the surface itself.
+// The heights of a surface, and the heights that the tool leaves.
 class ToolHeights {
  public:
   ToolHeights(Solid& surface, const Tool& tool) {
@@ -37,7 +38,7 @@ class ToolHeights {
   float left(int x, int y) const { return is_front(x, y) ? closed_.at(x, y) - field_.z.at(x, y) : 0; }
   Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
 
-  // Returns the position of a sample, with the height that the tool leaves.
+  // Returns a sample's position at the height that the tool leaves.
   Vec3 place(int x, int y) const {
     const Vec2 place = field_.to_mm(x + .5, y + .5);
     return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(closed_.at(x, y))};
@@ -60,7 +61,7 @@ class ToolHeights {
     return weights > 0 ? field_.box.min.z() + sum / weights : point.z();
   }
 
-  // Returns the steepest rise from a sample to one beside it.
+  // Returns the largest rise from a sample to a neighbouring one.
   float slope(int x, int y) const {
     float most = 0;
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
@@ -87,7 +88,7 @@ class ToolHeights {
   Image<float> closed_;
 };
 
-// The points of the new surface, and marks for the samples near them.
+// The points of the new surface. Marks the samples close to them.
 class PointSet {
  public:
   PointSet(const ToolHeights& heights, const Solid& old)
@@ -108,7 +109,7 @@ class PointSet {
         if (is_taken_.contains(x, y)) is_taken_.at(x, y) = 1;
   }
 
-  // Adds the point if the tool comes close to it; a point that the tool misses by a little is lifted.
+  // Adds the point if the tool reaches it or misses it by little; in the second case the point is lifted.
   void add_if_reached(const Vec3& point, const Colour& colour) {
     const double left = heights_.at(point) - point.z();
     if (left <= least_left_mm)
@@ -146,8 +147,8 @@ std::vector<std::uint8_t> used_points(const Solid& solid) {
   return is_used;
 }
 
-// Returns the distance between points along the rim's edges. It is less than the width of the bevel, so that
-// no triangle crosses the bevel.
+// Returns the distance between points along the rim's edges. It is less than the width of the bevel, so no
+// triangle crosses the bevel.
 double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < edges.size(); ++i)
@@ -155,12 +156,12 @@ double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) 
   return std::max(narrowest / 3, 2 * heights.mm_per_sample());
 }
 
-// Returns the points of a surface as the tool leaves it.
+// Returns the points of the surface that the tool leaves.
 PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
                         std::span<const RimEdge> edges) {
   const Solid& solid = surface.solid;
   PointSet set(heights, solid);
-  // The outline comes first, because the plate's walls are built on it.
+  // The outline comes first, because the walls are built on it.
   std::vector<std::uint8_t> is_free = used_points(solid);
   for (const Index i : surface.outline) {
     set.add(solid.points[i], colour_of(solid, i));
@@ -197,8 +198,8 @@ void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const Rim
     });
     return;
   }
-  // A second pass raises the surface where the triangles of the first pass are below the tool's surface:
-  // docs/decisions/tool.md.
+  // The triangles of the first pass can lie below the surface that the tool leaves. A second pass raises them
+  // (docs/decisions/tool.md).
   for (int pass = 0; pass < 2; ++pass) close_once(surface, tool, edges);
 }
 

@@ -32,8 +32,8 @@ std::string wrong_corners(const Solid& solid) {
   return {};
 }
 
-// Directed edges, grouped by their lower vertex. An entry is twice the other vertex, plus 1 if the edge leads
-// to the lower one.
+// Directed edges, grouped by their lower vertex. An entry is twice the other vertex, plus 1 if the edge
+// points to the lower vertex.
 using EdgeTable = Groups<std::uint64_t, std::size_t>;
 
 EdgeTable edge_table(const Solid& solid) {
@@ -51,8 +51,8 @@ std::string wrong_edges(const Solid& solid) {
     const std::span edges(table.items.begin() + static_cast<std::ptrdiff_t>(table.begin[p]),
                           table.begin[p + 1] - table.begin[p]);
     std::ranges::sort(edges);
-    // Sorted, the edges of a closed surface form pairs with the same other end, first leading up, then down.
-    // An edge that is used a third time breaks the pairs.
+    // In a closed surface, the sorted entries are pairs: an edge from the lower vertex, then the opposite
+    // edge. A third use of an edge breaks the pairs.
     for (std::size_t i = 0; i < edges.size(); i += 2) {
       const bool is_pair = i + 1 < edges.size() && edges[i] % 2 == 0 && edges[i + 1] == edges[i] + 1;
       if (!is_pair)
@@ -84,8 +84,8 @@ std::string check_solid(const Solid& solid) {
 
 double volume_mm3(const Solid& solid) {
   if (solid.triangles.empty()) return 0;
-  // Sums signed tetrahedra with an apex on the solid. With the origin as apex, digits of a solid far from the
-  // origin would be lost by cancellation.
+  // Sums signed tetrahedra with a common apex. The apex is a point of the solid, because with the origin
+  // digits would cancel for solids far from the origin.
   const Vec3 apex = solid.points[solid.triangles[0][0]];
   return parallel_reduce(
       solid.triangles.size(), 0.0,
@@ -103,7 +103,7 @@ double volume_mm3(const Solid& solid) {
 
 Solid in_unit(Solid solid, LengthUnit unit) {
   if (unit == std::exchange(solid.unit, unit)) return solid;
-  const bool is_height_field = find_folds(solid).empty();  // a wrapped solid may not be one
+  const bool is_height_field = find_folds(solid).empty();  // false for some wrapped solids
   const double scale = unit == LengthUnit::mm ? mm_per_inch : 1 / mm_per_inch;
   Box box;
   for (Vec3& p : solid.points) {

@@ -47,7 +47,7 @@ double half_angle(const Tool& tool) {
   return to_radians(tool.angle_deg / 2);
 }
 
-// Returns the tool's radius where it cuts a surface of that height.
+// Returns the largest radius of the tool within this height above its tip.
 double radius_of(const Tool& tool, double height_mm) {
   if (tool.kind != Tool::Kind::v) return tool.diameter_mm / 2;
   return tool.tip_mm / 2 + height_mm * std::tan(half_angle(tool));
@@ -131,7 +131,7 @@ double tool_profile(const Tool& tool, double distance_mm) {
   const double r = std::abs(distance_mm);
   const auto ball = [&](double radius) { return radius - std::sqrt(std::max(0.0, radius * radius - r * r)); };
   if (tool.kind == Tool::Kind::v) {
-    // The flank begins where it is tangent to the tip's ball.
+    // The cone begins where it is tangent to the ball at the tip.
     const double tip = tool.tip_mm / 2, angle = half_angle(tool), touching = tip * std::cos(angle);
     if (r <= touching) return ball(tip);
     return tip * (1 - std::sin(angle)) + (r - touching) / std::tan(angle);
@@ -151,9 +151,9 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
     return distance > radius ? std::numeric_limits<float>::infinity()
                              : static_cast<float>(tool_profile(tool, distance));
   });
-  // Tool positions extend beyond the picture on all sides.
+  // Positions of the tool extend beyond the image on all sides.
   Image<float> hanging = dilate(heights, profile, reach);
-  // Positions without any height near them stay without a tool.
+  // The tool visits no position without heights near it.
   for (float& z : hanging.pixels) z = z > nowhere ? -z : nowhere;
   const Image<float> left = dilate(hanging, profile, -reach);
   Image<float> closed = heights;

@@ -43,14 +43,15 @@ double correlation(const Image<float>& a, const Image<float>& b, const PixelMask
 
 namespace {
 
-// Returns the share of pairs that keep their order. next() returns the next pair of pixels, or none.
+// Returns the share of pairs that keep their order. next() returns the next pair of pixels, possibly with
+// no_index.
 template <typename Next>
 double order_of_pairs(const Image<float>& z, const Image<float>& depth, const PixelMask& where, Next next) {
   const std::vector<Index>& at = where.pixels;
   if (at.empty()) return 0;
   const auto [low, high] = std::ranges::minmax_element(at, {}, [&](Index i) { return depth[i]; });
   const float least = .01F * (depth[*high] - depth[*low]);
-  SplitMix64 random(1);  // the same pairs of pixels everywhere
+  SplitMix64 random(1);  // fixed seed, so that the pairs of pixels are always the same
   std::size_t counted = 0, kept = 0;
   for (std::size_t pair = 0; pair < order_pairs; ++pair) {
     const auto [a, b] = next(random);

@@ -1,4 +1,4 @@
-// Measures, on images, how much of its model a relief keeps.
+// Measures on images how much of its model a relief preserves.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace relievo {
 
-// A Gaussian with the standard deviation `sigma`, cut at `radius`, both in pixels. Outside the image the
-// pixels of its border continue.
+// A Gaussian filter with the standard deviation `sigma`, cut off at `radius`, both in pixels. Outside the
+// image the border's pixels are repeated.
 class GaussianFilter {
  public:
   GaussianFilter(double sigma, int radius);
   void apply(Image<float>& image) const;
 
  private:
-  std::vector<float> weights_;  // of the centre and of each distance from it
+  std::vector<float> weights_;  // weights at the centre and at each distance from it
 };
 
 // Returns 1 where any pixel in the surrounding square of 2 `radius` + 1 pixels is not 0, else 0.
@@ -26,48 +26,50 @@ Image8 dilated(const Image8& mask, int radius);
 // The pixels of an image that are measured.
 struct PixelMask {
   Image8 mask;                // never set in the first and last row and column
-  std::vector<Index> pixels;  // indices of these pixels
+  std::vector<Index> pixels;  // indices of the mask's pixels
 
   PixelMask() = default;
   explicit PixelMask(Image8 image);
 };
 
-// Returns the divergence of the vectors (x, y) at measured pixels, also where neighbouring pixels are not
-// measured; 0 elsewhere. y points up, rows run down.
+// Returns the divergence of the vectors (x, y) at measured pixels, even if neighbouring pixels are not
+// measured; 0 elsewhere. y points up, rows go down.
 Image<float> divergence(const Image<float>& x, const Image<float>& y, const PixelMask& where);
 
 // Gaussian blur that uses only measured pixels (normalised convolution).
 class MaskedGaussian {
  public:
   MaskedGaussian(double sigma, int radius, const PixelMask& where);
-  // Values at other pixels must be 0 before, and are undefined afterwards.
+  // Other pixels must be 0 before, and are undefined afterwards.
   void apply(Image<float>& image, const PixelMask& where) const;
 
  private:
   GaussianFilter filter_;
-  Image<float> weight_;  // the part of the kernel that lies on measured pixels
+  Image<float> weight_;  // the part of the kernel on measured pixels
 };
 
-// Parameters of ReliefMetrics: the standard deviations of the detail, in pixels, and the number of random
-// pairs of the order.
+// Parameters of ReliefMetrics: standard deviations of the detail scales in pixels, and number of random pairs
+// for the order.
 inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
 inline constexpr std::size_t order_pairs = 200000;
 
-// Returns the blur that smooths the curvature for the detail at a scale.
+// Returns the blur of the curvature for the detail at a scale.
 inline MaskedGaussian detail_gaussian(int scale_px, const PixelMask& where) {
   return {static_cast<double>(scale_px), 3 * scale_px, where};
 }
 
-// Returns the correlation of values at measured pixels; 0 if all values of an image are equal.
+// Returns the correlation coefficient of the values at measured pixels; 0 if the values of one image are all
+// equal.
 double correlation(const Image<float>& a, const Image<float>& b, const PixelMask& where);
 
-// Compares the order of random pairs of measured pixels that differ in depth by more than 1 % of the depth
-// range; the pairs are the same every time. Returns the share of them whose order the heights z keep; 0 if
-// there are no such pairs.
+// Compares random pairs of measured pixels whose depths differ by more than 1 % of the depth range; the pairs
+// are always the same. Returns the share of pairs that have the same order in the heights z; 0 if there are
+// no such pairs.
 double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 
-// The same for pairs that are between these shares of the picture's longer side apart. People compare depths
-// along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief: pictorial and otherwise).
+// The same as order_kept() for pairs whose distance is between these shares of the picture's longer side.
+// People compare depths along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief:
+// pictorial and otherwise).
 inline constexpr double nearest_near_pair = .03, farthest_near_pair = .1;
 double near_order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr int lights = 16;
 
-// Returns one of 16 directions: eight azimuths at 30 degrees above the plane, then the same at 55 degrees.
+// Returns one of 16 directions: eight azimuths at an elevation of 30 degrees, then the same azimuths at 55
+// degrees.
 Vec3f light_direction(int i) {
   const double azimuth = i % 8 * std::numbers::pi / 4;
   const double elevation = to_radians(i < 8 ? 30 : 55);
@@ -42,7 +43,7 @@ Image<float> product(const Image<float>& a, const Image<float>& b) {
 }  // namespace
 
 struct ReliefMetrics::Reference : ModelPicture {
-  // The shading under a light, with its local mean and variance, which SSIM needs.
+  // The shading under a light, with its local mean and variance, for SSIM.
   struct Shading {
     Image<float> mean, variance, light;
   };
@@ -51,14 +52,14 @@ struct ReliefMetrics::Reference : ModelPicture {
   };
   // Edges of inside triangles where the relief may have a step.
   struct Steps {
-    std::vector<Edge> jumps;  // within the model
-    std::vector<Index> rim;   // points next to the boundary, maybe several times
+    std::vector<Edge> jumps;  // inside the model
+    std::vector<Index> rim;   // points next to the boundary, possibly repeated
   };
 
   SurfaceMeasures surface_measures;
   std::vector<Shading> shadings;
-  std::vector<MaskedGaussian> smoothing;  // per scale of the detail
-  std::array<Image<float>, 3> curvature;  // smoothed curvature, per scale
+  std::vector<MaskedGaussian> smoothing;  // per detail scale
+  std::array<Image<float>, 3> curvature;  // per detail scale: smoothed curvature
   Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 
@@ -96,8 +97,8 @@ struct ReliefMetrics::Reference : ModelPicture {
     return s;
   }
 
-  // Returns the structural similarity of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and
-  // window.
+  // Returns the structural similarity (SSIM) of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants
+  // and window.
   double similarity(const Shading& a, const Shading& b) const {
     constexpr double c1 = .01 * .01, c2 = .03 * .03;
     Image<float> ab = product(a.light, b.light);
@@ -140,8 +141,8 @@ struct ReliefMetrics::Reference : ModelPicture {
     return smoothed;
   }
 
-  // Sets halo, steep_share, height_used and the steps, which also use the pixels that the other measures
-  // leave out.
+  // Sets halo, steep_share, height_used and the steps. They also use the pixels that the other measures leave
+  // out.
   void guard(const Image<float>& z, const NormalMap& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
     const float steep = static_cast<float>(std::cos(to_radians(80)));

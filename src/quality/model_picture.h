@@ -1,4 +1,4 @@
-// Images of a model against which reliefs are measured: its normals and depths, and the pixels to measure.
+// Images of a model, with which reliefs are compared: its normals and depths, and the pixels to measure.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace relievo {
 // The triangle that covers each pixel's centre, and the weights of its corners there. It depends only on the
-// positions of the points in the plane, so that the pictures of many reliefs of one surface are drawn with
-// it.
+// positions of points in the view plane, so it serves for the pictures of all reliefs of a surface.
 class BarycentricMap {
  public:
-  // The longer side of the points' box gets `longer_side_px` pixels, with `margin_px` more on each side.
+  // The longer side of the points' box gets `longer_side_px` pixels, plus a margin of `margin_px` on each
+  // side.
   BarycentricMap(std::span<const Vec3> points, const Triangulation& triangulation, int longer_side_px,
                  int margin_px);
 
@@ -22,7 +22,7 @@ class BarycentricMap {
   std::size_t pixels() const { return places_.size(); }
   double units_per_pixel() const { return units_per_pixel_; }
 
-  // Returns where a point lies in the picture: x to the right, y down, the first pixel's centre at (0.5,
+  // Returns the position of a point in the picture: x to the right, y down, the first pixel's centre at (0.5,
   // 0.5).
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - centre_) / units_per_pixel_;
@@ -57,16 +57,17 @@ struct NormalMap {
   Image<float> x, y, z;
 };
 
-// Returns the normals of heights in pixels by central differences, level at the picture's rim.
+// Returns the normals of heights in pixels, by central differences; at the picture's border they are level.
 NormalMap normals_of(const Image<float>& z);
 
 // Images of the scan's own normals and depths, level outside the relief.
 struct ModelPicture {
-  static constexpr int safe_distance_px = 5;  // from silhouette and jumps; also the radius of SSIM's window
+  // Distance from silhouette and jumps; also the radius of SSIM's window.
+  static constexpr int safe_distance_px = 5;
 
   BarycentricMap grid;
-  std::vector<std::uint8_t> is_inside;  // per pixel: on the relief
-  PixelMask measured;                   // at the safe distance
+  std::vector<std::uint8_t> is_inside;  // per pixel: whether it is on the relief
+  PixelMask measured;                   // the pixels at least safe_distance_px inside
   NormalMap normals;
   Image<float> depth;
 
@@ -74,7 +75,7 @@ struct ModelPicture {
 
   int width() const { return grid.width(); }
 
-  // Returns the picture of heights, given one per point. Heights in the picture are in pixels.
+  // Returns the picture of heights, given one per point, in pixels.
   Image<float> heights_in_pixels(std::span<const double> heights) const;
 
  private:

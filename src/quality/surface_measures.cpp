@@ -12,7 +12,8 @@ namespace relievo {
 namespace {
 
 constexpr std::size_t half_window = 12;  // half the width of the moving mean, in triangles
-constexpr double smooth_turn_deg = 10;   // largest angle between the model's normals at both ends of an edge
+// Largest angle between the model's normals at the two ends of an edge.
+constexpr double smooth_turn_deg = 10;
 constexpr double quantile_of_facets = .99;
 
 Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) {
@@ -23,7 +24,7 @@ Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) 
   return Vec2(p * v.y() - q * u.y(), q * u.x() - p * v.x()) / twice_area;
 }
 
-// Adds up the squared differences between the angles along a chain and the moving means of these angles.
+// Sums the squared differences between the angles along a chain and their moving means.
 struct Residuals {
   double sum = 0;
   std::size_t count = 0;
@@ -41,7 +42,7 @@ struct Residuals {
   double deviation() const { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0; }
 };
 
-// Joins sides of triangles into chains.
+// Connects triangle sides into chains.
 template <typename Rim>
 std::vector<std::vector<Rim>> chains_of(const std::vector<Rim>& rims, std::size_t points) {
   std::vector<Index> next(points, no_index);
@@ -66,8 +67,8 @@ SurfaceMeasures::SurfaceMeasures(const Surface& surface) : surface_(surface) {
   find_pairs();
 }
 
-// A side lies on the silhouette if both its ends do. It lies at a jump if both ends are on the same edge of
-// the jump's wall. The triangle's third corner must be off the outline.
+// A side is on the silhouette if both ends are. It is at a jump if both ends are on the same edge of the
+// jump's wall. The triangle's third corner must not be on the outline.
 void SurfaceMeasures::find_outlines() {
   const Boundary& boundary = surface_.boundary;
   std::vector<Rim> silhouette, front, back;
@@ -118,7 +119,8 @@ SurfaceMeasures::Fray SurfaceMeasures::fray(std::span<const double> heights) con
       residuals.add(across);
       residuals.add(along);
     }
-    // Both components belong to one angle, so the sum of their squares counts once, not twice.
+    // The two components belong to one angle, so the sum of their squares is divided by half the number of
+    // values.
     return std::sqrt(2.) * residuals.deviation();
   };
   return {deviation(silhouettes_), deviation(jumps_)};

@@ -1,5 +1,5 @@
-// Measures of the surface itself, silhouettes and depth jumps included: a milling cutter follows it there,
-// too.
+// Measures of the relief's surface, including silhouettes and depth jumps, because a milling cutter follows
+// the whole surface.
 #pragma once
 
 #include <span>
@@ -9,35 +9,35 @@
 
 namespace relievo {
 
-// Measures how even the triangles of a relief are. Const calls may run concurrently.
+// Measures how regular the triangles of a relief are. Const calls may run concurrently.
 class SurfaceMeasures {
  public:
-  // Keeps a view of the surface, which must outlive it.
+  // Keeps a reference to the surface, which must outlive the object.
   explicit SurfaceMeasures(const Surface& surface);
 
   struct Fray {
-    double silhouette_deg = 0, jump_deg = 0;  // 0 without such an outline
+    double silhouette_deg = 0, jump_deg = 0;  // 0 if there is no such outline
   };
 
-  // Returns how much the tilt of the triangles beside an outline scatters along it. This is the standard
-  // deviation of their angles across and along the outline from the means of 25 neighbours. Heights are one
-  // per point.
+  // Returns how much the tilt of the triangles beside an outline varies along it: the standard deviation of
+  // their angles, across and along the outline, from the moving means of 25 triangles. `heights` has one
+  // height per point.
   Fray fray(std::span<const double> heights) const;
 
-  // Returns the 99th percentile of the angles between neighbouring triangles, in degrees. Only pairs count
-  // where the model's normals turn by less than 10 degrees from one end of the shared edge to the other.
+  // Returns the 99th percentile of the angles between neighbouring triangles, in degrees. Only edges count at
+  // whose two ends the model's normals differ by less than 10 degrees.
   double facet_angle_deg(std::span<const double> heights) const;
 
-  // Returns the longest side of the relief's triangles in the view plane, in sampling distances.
+  // Returns the longest triangle side of the relief in the view plane, in sampling distances.
   double longest_side() const;
 
  private:
-  // A triangle beside an outline, and the end points of its side on the outline. The triangle lies on the
-  // left.
+  // A triangle beside an outline, and the ends of its side on the outline; the triangle is on the left of
+  // that side.
   struct Rim {
     Index from, to, triangle;
   };
-  using Chain = std::vector<Rim>;  // each rim begins where the one before ends
+  using Chain = std::vector<Rim>;  // each rim begins at the end of the previous one
 
   struct Pair {
     Index left, right;  // triangles

@@ -33,7 +33,7 @@ Vec3 direction_of(const LightDirection& light) {
 }
 
 std::vector<float> local_contrast(const Surface& surface, const LightDirection& light) {
-  constexpr double width = .03;  // of the longer side
+  constexpr double width = .03;  // standard deviation, as a share of the longer side
   const Vec3f l = direction_of(light).cast<float>();
   std::vector<Vec2f> shading(surface.normals.size());
   parallel_for(shading.size(),

@@ -1,4 +1,5 @@
-// Slopes of a relief that is made for one light. Tested by tests/relief/aimed_slopes_test.cpp.
+// Changes target slopes for a relief that is made for one light. Tested by
+// tests/relief/aimed_slopes_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -18,19 +19,20 @@ struct Surface;
 // Returns the unit vector towards the light.
 Vec3 direction_of(const LightDirection& light);
 
-// Returns, per point, the Lambert shading of the surface under the light minus its Gaussian mean over 3 % of the longer
-// side along the surface: the contrast that people see.
+// Returns the local contrast per point: the Lambert shading of the surface under the light minus a Gaussian
+// mean of the shading along the surface. The standard deviation is 3 % of the longer side.
 std::vector<float> local_contrast(const Surface& surface, const LightDirection& light);
 
-// Returns the slope whose shading under the light l is `shading`, with the part across the light of slope s. Along the
-// light there are up to two such slopes, of which the one nearer to that of s is taken; if there is none, s stays.
-// Shadings are cosines, those of slopes in attached shadow 0.
+// Returns the slope whose shading under the light l is `shading`. Its component across the light's direction
+// in the view plane is the same as that of s. If two such slopes exist, the one nearer to s is returned; if
+// none exists, s. A shading is the cosine of the angle between normal and light, or 0 where that is negative.
 template <typename Real>
 Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vector3<Real>& l, Real shading) {
   const Real h = l.template head<2>().norm();
   const Eigen::Vector2<Real> along = l.template head<2>() / h, across(-along.y(), along.x());
   const Real p = s.dot(along), o = s.dot(across);
-  // (l_z - h p) / sqrt(1 + p^2 + o^2) = shading, squared.
+  // The equation (l_z - h p) / sqrt(1 + p^2 + o^2) = shading, squared, is quadratic in the slope p along the
+  // light.
   const Real a = h * h - shading * shading, b = -l.z() * h,
              c = l.z() * l.z() - shading * shading * (1 + o * o);
   const Real root_sq = b * b - a * c;
@@ -45,8 +47,9 @@ Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vec
   return nearest * along + o * across;
 }
 
-// Changes the target slopes of a layered shape that has a light. `contrast` is local_contrast() of that light. The
-// contrast asked of the relief shrinks with the fine layer, so that low reliefs can be reached.
+// Changes the target slopes of a layered shape that has a light, so that their shading gets the given
+// contrast. `contrast` is local_contrast() of that light. It is multiplied by the weight of the fine layer,
+// so that the slopes of low reliefs stay small enough for the height.
 template <typename Real>
 void aim_slopes(const Shape& shape, std::span<const float> contrast, Real fine_weight,
                 std::span<Eigen::Vector2<Real>> slopes) {

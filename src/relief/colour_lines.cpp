@@ -12,10 +12,11 @@
 namespace relievo {
 namespace {
 
-// Standard deviations of the Gaussians as shares of the longer side. The narrow one removes the noise of colours, and
-// is at least one and a half sampling distances wide.
+// Standard deviations of the Gaussians as shares of the longer side. The narrow one removes colour noise. It
+// is at least `least_narrow_rho` sampling distances.
 constexpr double narrow = .0025, wide = .025, least_narrow_rho = 1.5;
-// By how much lines are darker than what is around them, as a share of the range of lightness.
+// Difference of lightness between a line and its surroundings, as a share of the range of lightness. Lines
+// get none of the depth below `least_darker`, all of it above `most_darker`.
 constexpr float least_darker = .04F, most_darker = .12F;
 
 std::vector<Vec2f> blurred(const Surface& surface, std::vector<Vec2f> values, double sigma) {
@@ -23,7 +24,8 @@ std::vector<Vec2f> blurred(const Surface& surface, std::vector<Vec2f> values, do
   return values;
 }
 
-// Lowers z times `factor`. Returns the highest height and the number of its point.
+// Writes factor * z minus the depth of the lines, at least the base. Returns the highest result and its
+// point.
 template <typename Real>
 std::pair<double, std::size_t> lowered(std::span<const float> lines, double depth, double factor,
                                        std::span<const Real> z, std::span<Real> to) {
@@ -59,7 +61,8 @@ void sink_lines(std::span<const float> lines, double depth, std::span<Real> z) {
   if (lines.empty() || !(depth > 0)) return;
   const std::vector<Real> before(z.begin(), z.end());
   const double wanted = static_cast<double>(span_of(std::span<const Real>(before)).highest);
-  // The top is a convex, piecewise linear function of the factor: Newton's method ends after a few steps.
+  // The highest height is a convex, piecewise linear function of the factor, so Newton's method converges in
+  // a few steps.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

@@ -1,4 +1,5 @@
-// Sinks what is dark in a coloured scan: pupils, inlays, painted letters. Tested by tests/relief/colour_lines_test.cpp.
+// Lowers the dark parts of a coloured scan, such as pupils, inlays or painted letters. Tested by
+// tests/relief/colour_lines_test.cpp.
 #pragma once
 
 #include <span>
@@ -8,19 +9,20 @@
 
 namespace relievo {
 
-// Returns, per point, how much of the depth of lines it gets, in [0, 1]: 1 where the scan's colours are at least 12 %
-// of lightness darker than around them, 0 where they are less than 4 % darker. Around means a Gaussian of 2.5 % of the
-// longer side along the surface, so that wide dark areas are lines at their edges alone. Lines fade towards the base as
-// w_b of (7) does. Empty if the surface has no colours. After Winnemoeller, Kyprianidis and Olsen, XDoG, 2012, with a
-// wider second Gaussian, so that pupils are filled.
+// Returns the share of the line depth per point, in [0, 1]. The share is 1 where the scan's colours are at
+// least 12 % of the range of lightness darker than their surroundings, and 0 where they are less than 4 %
+// darker. The lightness of the surroundings is a Gaussian mean along the surface with a standard deviation of
+// 2.5 % of the longer side, so only the edges of wide dark areas count as lines. Near the boundary the share
+// fades like w_b of (7). The result is empty if the surface has no colours. Source: Winnemoeller, Kyprianidis
+// and Olsen, XDoG, 2012; the second Gaussian is wider here, so that pupils are filled.
 std::vector<float> dark_lines(const Surface& surface);
 
-// Lowers the heights z by the depth of the lines, but not below the base, 0. The relief keeps its height: if its
-// highest point is on a line, all heights are scaled before.
+// Lowers the heights z by the depth of the lines, but not below the base, 0. If the highest point is on a
+// line, all heights are first scaled, so that the height of the relief does not change.
 template <typename Real>
 void sink_lines(std::span<const float> lines, double depth, std::span<Real> z);
 
-// Sinks the lines of the relief's shape.
+// Lowers the relief's heights by the line depth of its shape.
 void sink_lines(const Surface& surface, Relief& relief);
 
 }  // namespace relievo

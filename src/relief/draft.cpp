@@ -18,8 +18,8 @@
 namespace relievo {
 namespace {
 
-// The share of the limit at which the least squares aim, because they end with a few triangles up to 0.4 %
-// above their target.
+// The least-squares fit aims at this share of the limit, because it leaves a few triangles up to 0.4 % above
+// its target.
 constexpr double solved_share = .9945;
 
 double draft_deg_of(double slope) {
@@ -36,7 +36,7 @@ class Limiter {
       if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }
 
-  // Returns whether relief and base together stay below kept_slope of the limit.
+  // Returns whether the slopes of relief and base together stay below kept_slope of the limit.
   bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_slope * options_.max_slope;
   }
@@ -65,11 +65,11 @@ class Limiter {
   }
 
  private:
-  // The nearest slopes of a wall that is one row of points wide are those of a low wall. Models of a scene with
-  // heights of their own get walls that are wide enough instead.
+  // For a wall that is one row of points wide, the least-squares fit finds a low wall. Models of a scene that
+  // have a height of their own must keep it, so their walls are made wide enough instead.
   void keep_own_heights(Relief& relief) {
     if (model_->paper() || model_->own_heights().empty()) return;
-    constexpr double share = .9;  // of the limit, as what is behind the model leans, too
+    constexpr double share = .9;  // share of the limit; the surface behind the model has a slope, too
     OwnHeights::Workspace<double> workspace;
     model_->own_heights().apply<double>(relief.height, relief.heights, workspace, share * options_.max_slope);
   }
@@ -84,7 +84,7 @@ class Limiter {
     return whole;
   }
 
-  // Creates the least-squares solver at the first call, of the model's system if that has all points.
+  // Creates the least-squares solver at the first call. Uses the model's system if that contains all points.
   Result<void> build_nearest() {
     if (nearest_) return {};
     const Surface& surface = model_->surface();
@@ -96,8 +96,9 @@ class Limiter {
     return {};
   }
 
-  // The least squares can end far above the limit, for example if walls are a hundred times too steep. Then
-  // all heights are lowered before limit_slopes() tries again. `most_tries` is the largest number of tries.
+  // The least-squares result can be far above the limit, for example if walls are a hundred times too steep.
+  // Then limit_slopes() fails, and all heights are lowered before the next try. `most_tries` limits these
+  // tries.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;
@@ -108,14 +109,14 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches the relief of a given height among reliefs that grow with x. For methods with a shape x is ln u,
-// for baselines it is the logarithm of a scale.
+// Searches for the relief of a given height. Its reliefs grow with x: the logarithm of u if the method has a
+// shape, else (for baselines) the logarithm of a scale.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
       : model_(model), order_(order), limiter_(limiter), progress_(progress) {}
 
-  // `start` is the relief of the wanted height without the limit; null if there is no such relief.
+  // `start` is the relief of the wanted height before the limit is applied; null if no such relief exists.
   Result<Relief> run(const Relief* start) {
     if (!start) return at_most();
     start_ = start;
@@ -129,16 +130,16 @@ class DraftSearch {
   // Beyond u = e^4.5 the weights of (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief is highest if it consists of walls only. So its scale may grow until it is 64 times
-  // as high as a relief of the largest slope over half the longer side. This limit does not depend on the
-  // requested height, so the largest height is the same for all requests.
+  // A baseline's relief grows with the scale until it consists of walls only. The scale is limited to 64
+  // times the height of a relief with the largest slope over half the longer side. The limit does not depend
+  // on the requested height, so the largest height is the same for all requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);
   }
 
-  // Tolerance of the search. A relief that is too high by up to twice this share is scaled down, which does
-  // not make it steeper.
+  // Relative tolerance of the search. A relief may be too high by up to twice this share. It is then scaled
+  // down, which cannot make it steeper.
   static constexpr double tolerance = .003;
 
   Result<void> make(double x) {
@@ -163,7 +164,8 @@ class DraftSearch {
     return is_found ? scaled() : at_most();
   }
 
-  // Makes the highest relief and returns it scaled to the height asked for, or an error if it is too low.
+  // Makes the highest possible relief and scales it down to the requested height. Returns an error if it is
+  // too low.
   Result<Relief> at_most() {
     const double end =
         has_shape(order_.method) ? std::numeric_limits<double>::infinity() : largest_log_scale();

@@ -32,7 +32,7 @@ SolverWorkspace make_workspace(const ReliefModel& model) {
   return model.subspace()->make_workspace();
 }
 
-// Frames of a model of any method but the paper's.
+// Makes the frames of a model of any method except the paper's.
 struct OwnFrames {
   const ReliefModel& model;
   const Surface& surface = model.surface();
@@ -41,10 +41,10 @@ struct OwnFrames {
                            model.system() ? &model.system()->divergence_matrix() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
   OwnHeights::Workspace<float> own_workspace = {};
-  std::optional<LightDirection> light = {};  // that of `contrast`
+  std::optional<LightDirection> light = {};  // the light for which `contrast` was computed
   std::vector<float> contrast = {};
   StrokeFields<float> strokes{surface};
-  std::optional<std::vector<float>> lines = {};  // dark_lines(), once they are wanted
+  std::optional<std::vector<float>> lines = {};  // dark_lines(), computed when a frame first needs them
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
@@ -111,8 +111,7 @@ struct OwnFrames {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of that shape without the last step of its style. That step does not change
-  // frame.height.
+  // Makes the relief of that shape without the last step of its style, which does not change frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = shape;
     if (const HeightSystem* system = model.system())
@@ -129,8 +128,8 @@ struct OwnFrames {
     });
   }
 
-  // Searches for u, starting from the u of the last frame. One or two solves are usually enough. See
-  // ReliefModel::make_at_height().
+  // Searches for u, starting from the u of the last frame, see ReliefModel::make_at_height(). One or two
+  // solves are usually enough.
   void raise_to(double height, Shape shape, Frame& frame) {
     const HeightSearch search(height, frame.options.height_tolerance);
     const auto height_at = [&](double log_u) {
@@ -157,7 +156,7 @@ struct OwnFrames {
     heights.span = heights.change_all([&](std::size_t, float& z) { z *= static_cast<float>(factor); });
   }
 
-  // Scales the relief down if the search ended above the requested height, see HeightSearch::bracket().
+  // Scales the relief down if the search ended above the requested height (HeightSearch::bracket()).
   static void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))
@@ -201,7 +200,7 @@ struct OwnFrames {
     });
   }
 
-  // Makes the relief; `frame` has its options, and room for its points.
+  // Makes the relief. `frame` already has its options and memory for its points.
   void make(Frame& frame) {
     set_boundary_width(frame.options.shape.boundary_width);
     if (frame.options.height)
@@ -269,7 +268,7 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
 
 void FrameMaker::write_gains(std::vector<float>& gains) const {
   if (const auto* own = std::get_if<OwnFrames>(&state_->frames)) return own->write_gains(gains);
-  gains.assign(state_->model.surface().points.size(), 0);  // models of this method have no finer normals
+  gains.assign(state_->model.surface().points.size(), 0);  // the paper's models have no finer normals
 }
 
 std::size_t FrameMaker::memory() const {

@@ -1,5 +1,5 @@
-// Finds the u at which a relief has the height asked for. The height grows with u, so all searches look for
-// the root of ln(height(u) / height) over ln u.
+// Finds the u at which a relief has the requested height. The height grows with u, so every search looks for
+// the root of ln(height(u) / height) as a function of ln u.
 #pragma once
 
 #include <algorithm>
@@ -23,15 +23,15 @@ inline std::unexpected<Error> out_of_reach(double most_mm, double wanted_mm) {
                       : ": this view shows a level face alone; choose another"));
 }
 
-// Every search calls height_at(ln u), which makes a relief and returns its height. The relief of the last
-// call is the result. To end a search early, for example after an error, height_at() returns the height asked
-// for.
+// Every search calls height_at(ln u), which makes a relief and returns its height. The result of a search is
+// the relief of the last call. To end a search early, for example after an error, height_at() returns the
+// requested height.
 class HeightSearch {
  public:
   // `tolerance` is the largest accepted error of ln(height).
   HeightSearch(double height, double tolerance) : height_(height), tolerance_(tolerance) {}
 
-  // A secant step in ln u, limited to [least, most]. The elasticity is the change of ln height with ln u.
+  // The length of a secant step in ln u, limited to [least, most]. `elasticity` is d ln(height) / d ln(u).
   struct SecantStep {
     double gain = 1, least = -2, most = 2;
 
@@ -46,10 +46,10 @@ class HeightSearch {
     std::optional<double> log_height = {};  // ln height at that u; empty until a height was met
   };
 
-  // Searches the height of a single relief without a first guess. Tries u = infinity, to see whether the
-  // height can be reached, then brackets u. Returns whether the height is reached; if not, the last relief is
-  // the highest one. If the height jumps past the wanted height as u grows, or is above it for every u, the
-  // last relief is too high, and the caller has to scale it down.
+  // Searches without a first guess. Tries u = infinity first, to find out whether the height can be reached,
+  // then brackets u. Returns whether the height is reached; if not, the last relief is the highest one. The
+  // last relief is too high if the height as a function of u jumps past the requested height, or exceeds it
+  // for every u. Then the caller has to scale it down.
   template <typename F>
   bool bracket(F&& height_at) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -60,14 +60,13 @@ class HeightSearch {
     return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
-  // Searches the height of one relief after the other in a series that changes little. Starts at the u that
-  // the last height and elasticity predict, and takes secant steps; one or two calls are usually enough.
-  // Brackets u if six secant steps are not enough: after large changes, and for heights at or above the
-  // largest.
+  // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and
+  // elasticity predict, and takes secant steps; one or two calls are usually enough. After six secant steps
+  // it brackets u instead: after large changes, and for heights at or above the largest.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
-    // Lower elasticities come from the noise of single precision, or occur near the largest height.
+    // Lower elasticities are rounding errors of single precision, or occur near the largest height.
     constexpr double least_elasticity = .02;
     constexpr SecantStep step;
     double x = last.log_u;
@@ -93,19 +92,20 @@ class HeightSearch {
     return is_met;
   }
 
-  // Searches with few calls, for reliefs that take long to make. Secant steps lead upwards from `low`, which
-  // must give a height that is too low or just right. Then the bracket is narrowed by false position and,
-  // every third time, by bisection. The relief found is not lower than asked for and at most twice the
-  // tolerance higher. Returns false if the relief at `last` is too low.
+  // Searches with few calls, for reliefs that take long to make. The first secant steps go upwards from
+  // `low`, which must give a height that is not too high. Then false position narrows the bracket, and every
+  // third step is a bisection. The height of the result is between the requested one and twice the tolerance
+  // above. Returns false if the relief at `last` is too low.
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // Steps are a tenth longer than the secant's: a bracket that ends a little too high saves a relief.
+    // Steps are a tenth longer than the secant's. A bracket whose upper end is slightly too high saves a
+    // relief.
     constexpr SecantStep step{1.1, .01, 1.5};
-    // Heights always grow with u, but more slowly than u if the steepest walls are limited.
+    // Heights grow with u, but more slowly where the slopes of the steepest walls are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;
-    // If the next step comes within this distance of `last`, the relief at `last` is made instead. If it is
-    // too low, the search is over.
+    // If the next step would end within this distance of `last`, or beyond, the relief at `last` is made
+    // instead. If that is too low, the search fails.
     constexpr double near_last = .3;
     const auto excess_at = [&](double x) { return excess_of(height_at(x)) - tolerance_; };
     double excess = excess_at(low), low_excess = excess, high = last, high_excess = 0, elasticity = 1;

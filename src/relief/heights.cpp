@@ -28,8 +28,8 @@ Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& tr
   });
 }
 
-// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in
-// ascending order, and add(entries) appends the entries of that row.
+// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i in [first, end), in
+// ascending order; add(entries) appends the entries of row i.
 template <typename Entry, typename Make>
 Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
   Groups<Entry> all{std::vector<Index>(rows + 1), {}};
@@ -52,7 +52,7 @@ Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
   return all;
 }
 
-// Equation (9) written out for fixed points: the matrix, and the coefficients of the right-hand side.
+// Equation (9) for fixed points: the matrix, and the coefficients of the right-hand side.
 struct HeightEquations {
   std::vector<Index> free_points;  // point of each unknown; points on the boundary have none
   Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
@@ -71,8 +71,8 @@ struct WeightedEdge {
 // The edges of each point, in ascending order of the other points.
 using Adjacency = Groups<WeightedEdge>;
 
-// Computes the weighted edges of points in equation (9), one point after the other. Corner i of triangle t
-// has the number 3 t + i.
+// Computes the weighted edges of points in equation (9), point by point. Corner i of triangle t has the
+// number 3 t + i.
 class EdgeRows {
  public:
   EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
@@ -204,16 +204,15 @@ double twice_area(std::span<const Vec2> points, const Triangle& t) {
   return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
-// Makes the rows of vertex_normal_matrix() one after the other. Corner i of triangle t has the number 3 t +
-// i.
+// Computes the rows of vertex_normal_matrix(), point by point. Corner i of triangle t has the number 3 t + i.
 class NormalRows {
  public:
   NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
   // Adds the row of a point to `entries`. The normal is N / N_z, where N is the sum of the cross products of
-  // the point's triangles. N_z does not depend on heights, and N depends on them linearly: the row has the
-  // derivatives of N by the heights, divided by N_z.
+  // the point's triangles. N_z does not depend on heights, and N is linear in them. So the row consists of
+  // the derivatives of N by the heights, divided by N_z.
   void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
     terms_.clear();
     double z = 0;
@@ -278,8 +277,8 @@ std::size_t HeightSystem::memory() const {
   return factor_.memory() + edges_->memory();
 }
 
-// The coefficients of boundary points are 0, so their right-hand side is 0. Solving leaves it unchanged, so
-// their heights are 0, too.
+// The coefficients of boundary points are 0. So their right-hand side is 0, and solve() leaves it as their
+// height.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   edges_->divergence(slopes, heights);
   factor_.solve(heights, heights);

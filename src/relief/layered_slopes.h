@@ -1,4 +1,4 @@
-// Computes the slopes of the layered style, of one point or of eight at a time. Tested by
+// Computes the slopes of the layered style, for one point or for eight points at once. Tested by
 // tests/relief/layers_test.cpp and tests/relief/layered_slopes_test.cpp.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Returns the weighted sum of a point's layers. Computes with all eight numbers of the layers at once.
+// Returns the weighted sum of a point's layers. Multiplies all eight numbers of the layers at once.
 RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
   typedef std::int16_t Short8 __attribute__((vector_size(16)));
   static_assert(sizeof(Short8) == sizeof(PointLayers));
@@ -23,8 +23,8 @@ RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights&
          Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
 }
 
-// make_slopes() computes with one number or with eight. Float8 itself is not used as a template argument,
-// because GCC would then forget that it needs no alignment.
+// make_slopes() computes with single numbers or with vectors of eight. These types select between them; as a
+// template argument Float8 would lose its attribute in GCC that it needs no alignment.
 template <typename Real>
 struct OneNumber {
   using Values = Real;
@@ -39,15 +39,16 @@ struct EightFloats {
 };
 
 // Turns the weighted layers (x, y) of points into target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where t
-// is the height share. The root anticipates the tilt that the height correction leaves. At t = 1 the result
-// is the slope of the normal with this x and y. Near t = 0, where surfaces end up almost level, it is (x, y)
-// itself. Slopes are shortened to at most `max_slope`.
+// is the height share. The root compensates for the tilt that the height correction leaves. At t = 1 the
+// result is the slope of the normal with this x and y; near t = 0, where surfaces end up almost level, it is
+// (x, y). Slopes are shortened to at most `max_slope`.
 template <typename Numbers, typename Real>
 RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::Values& y,
                                 Real height_share_sq, Real max_slope) {
   const typename Numbers::Values sine_sq = x * x + y * y, left_sq = sine_sq * height_share_sq;
   const Real most_sq = max_slope * max_slope;
-  // The tangent is sine / cosine. Beyond the steepest slope, the slope's length is set to max_slope instead.
+  // The first case is sine / cosine. It would exceed max_slope in the second case, which sets the length to
+  // max_slope.
   const typename Numbers::Values scale = sine_sq <= most_sq * (1 - left_sq)
                                              ? 1 / Numbers::root(1 - left_sq)
                                              : max_slope / Numbers::root(sine_sq);

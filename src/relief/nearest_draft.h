@@ -1,4 +1,4 @@
-// Changes the slopes of a relief as little as possible, so that they keep a limit.
+// Changes the slopes of a relief as little as possible, so that they stay within a limit.
 #pragma once
 
 #include <span>
@@ -48,21 +48,20 @@ class TriangleSlopes {
   std::vector<Share> shares_;
 };
 
-// Minimises the weighted sum over triangles of |slope - given slope|^2 under |slope + slope of the base| <=
-// limit. The method is splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
-// Eckstein, 2011). Slopes are projected onto the limit triangle by triangle. Heights are fitted to the
-// projected slopes by a system that is factored once. A dual variable carries over the part that each
-// projection removed. This is repeated until slopes and heights agree. Each call starts from the result of
-// the last one. Not for concurrent use.
+// Minimises the weighted sum over triangles of |slope - target slope|^2 under |slope + slope of the base| <=
+// limit. The method is ADMM (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
+// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit, fits heights to the
+// projected slopes by a system that is factored once, and adds the remaining difference to a dual variable,
+// until slopes and heights agree. Each call starts from the result of the last one. Not for concurrent use.
 class NearestDraft {
  public:
-  // `system` is the surface's system; surface and system must outlive this object.
-  // `base` has a height per point, or is empty.
+  // `system` is the system of `surface`; both must outlive this object. `base` has a height per point, or is
+  // empty.
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 
-  // Changes the heights to those of the nearest relief. A few triangles stay steeper than the limit, usually
-  // by at most 0.4 %. Ends early when is_cancelled() returns true; the heights are then meaningless.
+  // Changes the heights to those of the nearest relief within the limit. A few triangles stay steeper,
+  // usually by at most 0.4 %. Ends early when is_cancelled() returns true; the heights are then meaningless.
   template <typename F>
   void apply(std::span<double> heights, F&& is_cancelled) {
     begin(heights);
@@ -87,10 +86,10 @@ class NearestDraft {
   TriangleSlopes triangles_;
   float max_slope_;
   HeightSystem::Workspace workspace_;
-  // Slopes per triangle: of the base, or empty; given; given and shortened; projected; the dual variable; and
-  // the change that heights are fitted to.
+  // Slopes per triangle: the base's (or empty); the target's; the target's, shortened; projected; the dual
+  // variable; and the slopes that heights are fitted to.
   std::vector<Vec2f> base_, given_, counted_, projected_, dual_, field_;
-  std::vector<float> first_, heights_, change_;  // per point: given, current, and their difference
+  std::vector<float> first_, heights_, change_;  // per point: target, current, and change
   bool is_started_ = false;
 };
 

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Returns the Laplacian of the points, whose neighbours outside of the model are fixed.
+// Returns the Laplacian of the model's points. Points outside of the model have fixed heights.
 template <typename Link>
 Eigen::SparseMatrix<double> laplacian_of(std::span<const Link> links, const std::vector<Index>& unknown,
                                          std::size_t unknowns) {
@@ -30,8 +30,8 @@ Eigen::SparseMatrix<double> laplacian_of(std::span<const Link> links, const std:
   return matrix;
 }
 
-// Returns the largest extent in depth of the connected sets of points. The letters of a legend lie at several
-// depths, but each of them is level.
+// Returns the largest extent in depth of a connected component of the points. A component is measured by
+// itself, because the letters of a legend may lie at several depths although each of them is level.
 template <typename Link>
 double depth_of(const Surface& surface, std::span<const Index> points, std::span<const Link> links,
                 const std::vector<Index>& unknown) {
@@ -111,7 +111,7 @@ template <typename Real>
 OwnHeights::Top OwnHeights::raise(std::size_t number, const Limits& limits, std::span<Real> z,
                                   Workspace<Real>& workspace) const {
   const Model& model = models_[number];
-  // The heights over the harmonic surface have the Laplacian of the heights, and are 0 around the model.
+  // The height over the harmonic surface has the Laplacian of the height, and is 0 around the model.
   std::vector<Real>& over = workspace.over;
   over.assign(z.size(), 0);
   for (const auto& [a, b, weight] : model.links) {
@@ -144,8 +144,9 @@ void OwnHeights::apply(double height, std::span<Real> z, Workspace<Real>& worksp
     workspace.solvers.push_back(models_[m].laplacian.make_workspace());
   workspace.before.assign(z.begin(), z.end());
   const double wanted = static_cast<double>(*std::ranges::max_element(z));
-  // The top is a convex, piecewise linear function of the factor of the other heights, whose root Newton's
-  // method finds in a few steps; one is enough if the other models have the highest point.
+  // The highest height is a convex, piecewise linear function of the factor of the other heights. Newton's
+  // method finds its root in a few steps, and in one step if the highest point belongs to none of these
+  // models.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

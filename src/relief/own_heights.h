@@ -1,5 +1,5 @@
-// Gives models of a scene the heights that they were asked to have over what is behind them.
-// Tested by tests/relief/own_heights_test.cpp.
+// Sets the height of single models of a scene above the surface behind them. Tested by
+// tests/relief/own_heights_test.cpp.
 #pragma once
 
 #include <limits>
@@ -14,15 +14,16 @@ namespace relievo {
 
 struct Surface;
 
-// The models of a scene with heights of their own, see Pose::height. Models of the same height count as one.
+// The models of a scene that have a requested height of their own (Pose::height). Models with the same height
+// are treated as one.
 //
-// The heights around a model, and the base where the model meets it, are continued behind the model by the
-// surface without curvature (harmonic). The model's heights over that surface are scaled until the highest of
-// them is the one asked for, but not beyond the depth of the model itself. What is still missing is a wall
-// along the model's edge, as high everywhere: letters, which are level, consist of that alone.
+// A harmonic surface continues the heights around a model behind it. The model's heights above that surface
+// are scaled until their maximum is the requested height, but at most the depth of the model itself. A wall
+// of constant height along the model's edge adds the rest. A level model, such as a letter, consists of that
+// wall alone.
 //
-// All other heights keep their values, unless the highest point of the relief changes: then they are scaled, so
-// that the relief keeps its height.
+// If the highest point of the relief changes, all other heights are scaled, so that the height of the relief
+// does not change. Otherwise they keep their values.
 class OwnHeights {
  public:
   // Scratch memory, so that frames allocate nothing.
@@ -32,14 +33,14 @@ class OwnHeights {
     std::vector<solver::Cholesky::Workspace> solvers;
   };
 
-  // Errors: those of solver::Cholesky::factor(), which the triangulation of a surface does not cause.
+  // Fails only as solver::Cholesky::factor() fails, which does not happen for the triangulation of a surface.
   static Result<OwnHeights> find(const Surface& surface);
 
   bool empty() const { return models_.empty(); }
   std::size_t memory() const;
 
-  // Changes the heights z of a relief of that height, in the surface's units. Walls along the edges of models
-  // rise by at most `wall_slope`.
+  // Changes the heights z of a relief of the given height, in the surface's units. Walls along the edges of
+  // models have slopes of at most `wall_slope`.
   template <typename Real>
   void apply(double height, std::span<Real> z, Workspace<Real>& workspace,
              double wall_slope = std::numeric_limits<double>::infinity()) const;
@@ -50,14 +51,14 @@ class OwnHeights {
     float weight;
   };
   struct Model {
-    double share = 0;              // height, as a share of the relief's
-    double depth = 0;              // extent in depth of its connected parts, in the surface's units
-    std::vector<Index> points;     // those that are not on the base
-    std::vector<float> distances;  // of the points from the model's edge in the view plane
+    double share = 0;              // requested height, as a share of the relief's height
+    double depth = 0;              // largest extent in depth of a connected part, in the surface's units
+    std::vector<Index> points;     // the model's points except boundary points
+    std::vector<float> distances;  // distance of each point from the model's edge in the view plane
     std::vector<Link> links;       // edges with at least one end in `points`
     solver::Cholesky laplacian;
   };
-  // The highest point of a relief, and the height there of what is scaled together with the other models.
+  // The highest height of a relief, and the part of it that scales with the factor of the other heights.
   struct Top {
     double z = 0, scaled = 0;
   };
@@ -69,12 +70,12 @@ class OwnHeights {
 
   static Result<Model> model_of(const Surface& surface, float share);
 
-  // Raises one model over what is behind it. Returns its highest point.
+  // Sets the height of one model above the surface behind it. Returns its highest point.
   template <typename Real>
   Top raise(std::size_t model, const Limits& limits, std::span<Real> z, Workspace<Real>& workspace) const;
 
-  std::vector<Model> models_;         // the farthest first
-  std::vector<std::uint8_t> is_own_;  // per point, whether it belongs to one of `models_`
+  std::vector<Model> models_;         // farthest first
+  std::vector<std::uint8_t> is_own_;  // per point: whether it belongs to one of `models_`
 };
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Frames of a model of Method::paper, see FrameMaker.
+// Frames of a model of Method::paper, used by FrameMaker.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// Gives a frame its options, and room for its points.
+// Stores the options in a frame, and allocates its points.
 inline void begin_frame(const FrameOptions& options, std::size_t points, Frame& frame) {
   frame.options = options;
   frame.heights.resize(points);
@@ -28,9 +28,9 @@ class PaperFrames {
         normal_matrix_(vertex_normal_matrix(in_plane(model.surface().points), model.surface().triangulation,
                                             model.surface().boundary)) {}
 
-  // Makes the relief; `frame` has its options, and room for its points.
+  // Makes the relief. `frame` already has its options and memory for its points.
   void make(Frame& frame) {
-    frames_begun_ = 0;  // those of make_ahead() are given up
+    frames_begun_ = 0;  // discards the frames that make_ahead() has begun
     const bool is_known = last_ && last_->wanted == frame.options;
     if (is_known) frame.options.shape = last_->found;
     if (!frame.options.height || is_known)
@@ -41,7 +41,8 @@ class PaperFrames {
     find_normals(frame);
   }
 
-  // One step ahead (section 3.5), see FrameMaker::make_ahead(). The stages of three frames run at once.
+  // Advances the pipeline of section 3.5 by one step, see FrameMaker::make_ahead(). Three frames are in
+  // different stages at the same time.
   bool make_ahead(const FrameOptions& options, Frame& frame) {
     std::swap(ahead_[1], ahead_[2]);
     std::swap(ahead_[0], ahead_[1]);
@@ -106,7 +107,7 @@ class PaperFrames {
     if (frame.is_height_met) last_ = Found{wanted, frame.options.shape};
   }
 
-  // Scales the heights to the height asked for, and adds the base.
+  // Scales the heights to the requested height, and adds the base.
   static void finish(Frame& frame) {
     if (!frame.options.height && !frame.options.base) return;
     const bool is_met = frame.options.height && frame.is_height_met;
@@ -124,7 +125,7 @@ class PaperFrames {
   PaperRelief relief_;
   SlicedEllMatrix normal_matrix_;
   std::optional<Found> last_;   // the shape of the last locked height
-  std::array<Frame, 3> ahead_;  // the frames that are solved, mapped and given their normals
+  std::array<Frame, 3> ahead_;  // the frames in the stages: solve, map, normals
   std::size_t frames_begun_ = 0;
 };
 

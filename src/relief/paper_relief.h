@@ -1,5 +1,5 @@
-// Reliefs of a model of Method::paper. src/paper/ has its equations.
-// Tested by tests/paper/paper_model_test.cpp.
+// Makes reliefs of a model of Method::paper. src/paper/ has its equations. Tested by
+// tests/paper/paper_model_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -24,21 +24,21 @@ class PaperRelief {
         solved_(model.control_points()),
         mapped_(model.control_points()) {}
 
-  // Solves (9) for the shape. What a shape has besides the paper's coefficients does not count.
+  // Solves (9) for the shape. Parameters of the shape that the paper does not have are ignored.
   void solve(const Shape& shape) {
     const Compression& c = shape.compression;
     model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, solved_);
   }
 
-  // Hands the result of the last solve() over to map(). A solve() and a map() may then run at the same time.
+  // Passes the result of the last solve() to map(). Then the next solve() may run at the same time as map().
   void hand_over() { std::swap(solved_, mapped_); }
 
-  // Writes the heights of all visible points for what was handed over, with detail.
+  // Writes the heights of all visible points, with detail, for the result that hand_over() passed.
   void map(const Shape& shape, std::span<float> heights) {
     model_.map(mapped_, shape.gamma, map_workspace_, heights);
   }
 
-  // Does all three, and returns the height of the relief.
+  // Calls solve(), hand_over() and map(). Returns the height of the relief.
   double raise(const Shape& shape, std::span<float> heights) {
     solve(shape);
     hand_over();
@@ -56,10 +56,10 @@ class PaperRelief {
   std::vector<float> solved_, mapped_;  // heights of the control points
 };
 
-// Finds the shape with the height asked for, by Algorithm 1 if its beta is free. Otherwise, and if Algorithm 1
-// finds no alpha, the beta of the shape stays and u is searched. `raise` makes the relief of `shape` and returns
-// its height. Returns whether the height is met, to 1 % or to `tolerance`; if not, the last relief is the
-// highest one.
+// Finds the shape with the requested height. If beta is free, Algorithm 1 searches alpha and beta. If beta is
+// fixed or Algorithm 1 fails, beta stays as requested and u is searched. `raise` makes the relief of `shape`
+// and returns its height. Returns whether the height is met, to 1 % or to `tolerance`; if not, the last
+// relief is the highest one.
 template <typename Raise>
 bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& raise) {
   if (shape.is_beta_free) {
@@ -84,7 +84,8 @@ inline Relief make_paper_relief(const PaperModel& model, const Shape& shape) {
   return {{heights.begin(), heights.end()}, height, shape};
 }
 
-// Returns the relief of that height, see ReliefModel::make_at_height(). What the search leaves is scaled away.
+// Returns the relief of that height, see ReliefModel::make_at_height(). Scaling removes the remaining error
+// of the search.
 template <typename IsCancelled>
 Result<Relief> make_paper_relief_at(const PaperModel& model, double height, Shape shape, double unit_mm,
                                     const IsCancelled& is_cancelled) {

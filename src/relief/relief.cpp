@@ -100,7 +100,8 @@ Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const P
   RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
   const SubspaceOptions options{.control = {.count = control_points}};
   const auto reference = [&] {
-    const HeightSystem all = std::move(system);  // freed at once, because it takes most of the memory
+    // Freed at once, because this system takes most of the memory.
+    const HeightSystem all = std::move(system);
     return reference_heights(surface, all, options.max_slope);
   }();
   return SubspaceModel::prepare(surface, options, {reference, layers}, progress);
@@ -189,7 +190,8 @@ void give_own_heights(const ReliefModel& model, Relief& relief) {
   relief.height = height_span(relief.heights);
 }
 
-// Makes reliefs of one boundary width in two steps, because a search for a height needs only the first.
+// Makes reliefs of one boundary width in two steps, raise() and finish(). A search for a height needs only
+// the first.
 class ReliefModel::Maker {
  public:
   Maker(const ReliefModel& model, const Shape& shape)
@@ -202,8 +204,8 @@ class ReliefModel::Maker {
   }
 
   // Returns the relief of that shape without the last step of its style; Relief::height is already final.
-  // Steps at depth jumps take their share of `height` or, if none is given, of the height of slopes and steps
-  // together.
+  // Steps at depth jumps get their share of `height`. If no height is given, they get their share of the
+  // height that slopes and steps reach together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, asked};
     relief.heights = model_.state_->solve(relief.shape, input_);
@@ -275,7 +277,8 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
     });
   }
   if (is_cancelled) return cancelled_error();
-  // A relief that ended above the height is only scaled down, so that heights below the named one never fail.
+  // A relief above the requested height is scaled down. So every height below the one in this error can be
+  // made.
   if (!is_met && relief.height < height) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
   // The search ends within a part in 10^5 of the height; scaling makes it exact.

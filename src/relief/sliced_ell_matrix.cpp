@@ -16,7 +16,7 @@ constexpr std::size_t lanes = SlicedEllMatrix::lanes;
 constexpr std::size_t window = SlicedEllMatrix::window;
 constexpr std::size_t grain = default_grain / lanes;
 
-// x and y of eight points, one after the other.
+// x and y of eight points: x0 y0 x1 y1 and so on.
 struct Pairs {
   Float8 low, high;
 };
@@ -107,7 +107,7 @@ RELIEVO_INLINE void normals_of(const Slices& slices, const float* heights, Vec3f
   for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
 }
 
-// The entries of each row, as the constructors get them.
+// The entries of each row.
 using Rows = Groups<MatrixEntry>;
 
 SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
@@ -141,7 +141,7 @@ SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
   return pattern;
 }
 
-// Writes the coefficients of one row into its lane. Returns whether there is a slot for each.
+// Writes the coefficients of one row into its lane. Returns whether the pattern has a slot for each entry.
 bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix::Others> others,
            std::size_t lane, SlicedEllMatrix::Coefficients* coefficients) {
   std::size_t l = 0;
@@ -155,7 +155,8 @@ bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix
   return true;
 }
 
-// Returns the coefficients in the order of the pattern's slots; an empty list if the pattern lacks an entry.
+// Returns the coefficients in the order of the pattern's slots, or an empty list if the pattern lacks an
+// entry.
 std::vector<SlicedEllMatrix::Coefficients> coefficients_in(const SlicedEllMatrix::Pattern& pattern,
                                                            const Rows& rows) {
   std::vector<SlicedEllMatrix::Coefficients> coefficients(pattern.others.size());

@@ -1,4 +1,4 @@
-// A sparse matrix of 2-vectors over points and their neighbours, and its two products that a frame needs: the
+// A sparse matrix of 2-vectors over points and their neighbours. A frame needs two products with it: the
 // right-hand side of equation (9), and vertex normals (stage 13).
 #pragma once
 
@@ -14,16 +14,16 @@
 
 namespace relievo {
 
-// An entry of the row of one point; `other` is the column.
+// An entry in the row of a point; `other` is the column.
 struct MatrixEntry {
   Index other = 0;
   Vec2f coefficient = Vec2f::Zero();
 };
 
-// The matrix is stored in slices of eight rows, as vector instructions read them: the first entry of all
-// eight, then the second. Rows of similar length share a slice, within windows of 256 points, so that there
-// is little padding (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums run in the order
-// of the entries given.
+// The matrix is stored in slices of eight rows, so that vector instructions can read them: the first entry of
+// all eight rows, then the second, and so on. Rows of similar length, within windows of 256 points, share a
+// slice, which reduces padding (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums are
+// computed in the order in which the entries are given.
 class SlicedEllMatrix {
  public:
   // Copies the entries of each point.
@@ -51,12 +51,13 @@ class SlicedEllMatrix {
   static constexpr std::size_t window = 256;  // number of points
 
   using Others = std::array<Index, lanes>;
-  using Coefficients = std::array<float, 2 * lanes>;  // x and y of one lane after the other
+  using Coefficients = std::array<float, 2 * lanes>;  // x and y of lane 0, then of lane 1 and so on
 
   struct Pattern {
     std::size_t size = 0;
-    std::vector<std::uint8_t> points;  // by lane, numbered in the window; surplus lanes repeat the last point
-    std::vector<Index> begin;          // slots of slice s: others[begin[s]] up to others[begin[s + 1]]
+    // By lane: number of the point within its window; surplus lanes repeat the last point.
+    std::vector<std::uint8_t> points;
+    std::vector<Index> begin;  // slots of slice s: others[begin[s]] up to others[begin[s + 1]]
     std::vector<Others> others;
 
     Index point(std::size_t place) const {
@@ -73,11 +74,12 @@ class SlicedEllMatrix {
   bool owns_pattern_ = true;
 };
 
-// Returns the matrix for SlicedEllMatrix::normals(). The normal of a point is along the sum of the cross
-// products of the triangles around it; at points in no triangle it is (0, 0, 1). The sum is linear in the
-// heights if x and y are fixed. Only triangles inside the relief count.
+// Returns the matrix for SlicedEllMatrix::normals(). The normal of a point is the normalised sum of the cross
+// products of its triangles inside the relief; without such triangles it is (0, 0, 1). With fixed x and y the
+// sum is linear in the heights.
 //
-// If `like` is given, its pattern is reused. The entries of `like` must be for neighbours in ascending order.
+// If `like` is given, its pattern is reused. The entries of `like` must be in ascending order of the
+// neighbours.
 SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,
                                      const Boundary& boundary, const SlicedEllMatrix* like = nullptr);
 

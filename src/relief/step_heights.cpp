@@ -12,8 +12,8 @@
 namespace relievo {
 namespace {
 
-// The limit for slopes that explain a part of a depth jump. Near a silhouette normals say little about the
-// depth.
+// The limit of the slopes that explain a part of a depth difference. Near a silhouette, steeper normals are
+// too inaccurate to predict depth.
 constexpr double steepest_slope = 4;
 
 struct JumpEdge {
@@ -34,7 +34,7 @@ std::vector<JumpEdge> jump_edges(const Surface& surface) {
   return edges;
 }
 
-// Returns by how much the depth of b exceeds that of a beyond the difference that their slopes explain.
+// Returns the depth of b minus the depth of a, minus the difference that the slopes at both points explain.
 double step_between(const Surface& surface, Index a, Index b) {
   const Vec3 step = surface.points[b] - surface.points[a];
   const auto rise = [&](Index i) {
@@ -48,8 +48,8 @@ double step_between(const Surface& surface, Index a, Index b) {
   return jump * step.z() > 0 ? jump : 0;
 }
 
-// Returns the least-squares solution of (9) for a difference across each jump edge: difference(a, b) is by how
-// much the height of b should exceed that of a.
+// Returns the least-squares solution of (9) for given height differences across the jump edges. difference(a,
+// b) is the wanted height of b minus that of a.
 template <typename Difference>
 StepHeights solve_steps(const Boundary& boundary, std::span<const JumpEdge> edges, const HeightSystem& system,
                         Difference difference) {
@@ -69,13 +69,13 @@ StepHeights solve_steps(const Boundary& boundary, std::span<const JumpEdge> edge
 }  // namespace
 
 StepFields StepFields::find(const Surface& surface, const HeightSystem& system) {
-  constexpr double deep = .05;  // depth, as a share of the longer side, of which a jump counts as a deep one
+  constexpr double deep = .05;  // depth of a deep jump, as a share of the longer side
   const double scale = deep * surface.longer_side();
   const Boundary& boundary = surface.boundary;
   const std::vector<JumpEdge> edges = jump_edges(surface);
   const auto step = [&](Index a, Index b) { return step_between(surface, a, b); };
   const auto plane = [&](Index a, Index b) {
-    // Single precision hides the last bits, in which the standard libraries differ.
+    // Standard libraries differ in the last bits of tanh. Rounding to single precision hides that.
     const auto saturated = [&] {
       return static_cast<double>(static_cast<float>(std::tanh(step(a, b) / scale)));
     };

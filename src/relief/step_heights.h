@@ -1,5 +1,5 @@
-// The heights of steps at depth jumps. Equation (9) uses only slopes, so that depth jumps vanish. See
-// docs/decisions/steps.md and docs/decisions/near-order.md.
+// The heights of steps at depth jumps. Equation (9) uses only slopes, so without these steps depth jumps
+// vanish. See docs/decisions/steps.md and docs/decisions/near-order.md.
 #pragma once
 
 #include <cmath>
@@ -17,10 +17,10 @@ namespace relievo {
 class HeightSystem;
 struct Surface;
 
-// Heights whose steps stand at the depth jumps of a surface.
+// Heights that have steps at the depth jumps of a surface.
 struct StepHeights {
   std::vector<float> z;  // per point, 0 at the boundary; empty if the surface has no depth jump
-  double span = 0;       // highest minus lowest; 0 counts as a height
+  double span = 0;       // highest minus lowest height, where the base, 0, counts, too
 
   bool empty() const { return z.empty(); }
 };
@@ -28,20 +28,20 @@ struct StepHeights {
 // The least-squares solutions of (9) for given height differences along the edges.
 struct StepFields {
   // Across a depth jump the difference is the part of the depth difference that the slopes do not explain;
-  // along all other edges it is 0. A form that consists of steps, such as letters on a plate, would vanish
-  // without these heights.
+  // along all other edges it is 0. These heights keep forms that consist of steps, such as letters on a
+  // plate.
   StepHeights steps;
-  // Across the wall at a jump the difference is tanh(that part / (0.05 side)), along all other edges 0. The
-  // steps are 1 high where the jump is deep, and run out where it ends. They set each part off what is behind
-  // it.
+  // Across the wall at a jump the height difference is tanh(d / (0.05 side)), where d is the difference of
+  // `steps`; along all other edges it is 0. So these steps are 1 high at deep jumps, and fade out at the ends
+  // of a jump. They raise each part above the surface behind it.
   StepHeights planes;
 
-  // `system` is that of all points of the surface.
+  // `system` is the system of all points of the surface.
   static StepFields find(const Surface& surface, const HeightSystem& system);
 };
 
 // Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of
-// the relief's height. Changes nothing if the height correction is off, so that level parts stay level.
+// the relief's height. Does nothing without height correction, because level parts then must stay level.
 template <typename Real>
 void add_planes(const StepHeights& planes, const Shape& shape, std::span<Real> z) {
   if (planes.empty() || shape.style != Style::layered || !shape.is_corrected || shape.planes == 0) return;
@@ -51,8 +51,8 @@ void add_planes(const StepHeights& planes, const Shape& shape, std::span<Real> z
 }
 
 // Adds the step heights to the heights z that slopes give, so that the steps take `share` of the height.
-// `height` is the height of the relief before its style compresses it. If it is not given, the slopes
-// determine the height, and the share must be below 1.
+// `height` is the relief's height before its style compresses it. Without it the slopes determine the height,
+// and the share must be below 1.
 template <typename Real>
 void add_steps(const StepHeights& steps, double share, std::optional<double> height, std::span<Real> z) {
   if (steps.empty() || share == 0) return;
@@ -61,9 +61,8 @@ void add_steps(const StepHeights& steps, double share, std::optional<double> hei
   parallel_for(z.size(), [&](std::size_t i) { z[i] += factor * static_cast<Real>(steps.z[i]); });
 }
 
-// Prepares a shape for a search of step_share(), if slopes alone do not reach the height. The slopes stay
-// uncompressed. Then nothing has to be compressed, so the height correction is turned off, and level parts
-// stay level.
+// Prepares a shape for a search with step_share(), for a height that slopes alone do not reach. Uncompressed
+// slopes need no height correction, so it is turned off; otherwise level parts would not stay level.
 inline void keep_slopes(Shape& shape) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   shape.compression.u = infinity;
@@ -71,9 +70,9 @@ inline void keep_slopes(Shape& shape) {
   shape.is_corrected = false;
 }
 
-// Returns the share of the height for the depth jumps, as a function of x. HeightSearch varies x like ln u
-// until slopes and jumps together reach the height. At x = -infinity the share is 0; at x = infinity the
-// jumps are as deep as in the model.
+// Returns the share of the height that depth jumps get, as a function of x. HeightSearch varies x in the
+// place of ln u, until slopes and jumps together reach the height. At x = -infinity the share is 0. At x =
+// infinity the jumps are as deep as in the model.
 inline double step_share(const StepHeights& steps, double height, double x) {
   return steps.span / height / (1 + std::exp(-x));
 }

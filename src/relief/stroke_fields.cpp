@@ -51,7 +51,8 @@ Near points_near(const Surface& surface, std::span<const Vec3> line, double radi
   return near;
 }
 
-// Returns the sets of the given points that are connected inside the relief without a depth jump.
+// Returns connected components of the given points. Edges inside the relief connect them, except across a
+// depth jump.
 DisjointSets connected(const Surface& surface, std::span<const Index> points) {
   std::vector<Index> number(surface.points.size(), no_index);
   for (Index i = 0; i < points.size(); ++i) number[points[i]] = i;
@@ -86,7 +87,7 @@ std::vector<float> point_areas(const Surface& surface) {
   return areas;
 }
 
-// Returns the factors with which z - blur of z is added, one per point.
+// Returns the amount per point by which z minus the blur of z is added.
 std::vector<float> blur_amounts(std::size_t points, const Strokes& strokes, std::span<const StrokeMask> masks,
                                 bool is_wide) {
   std::vector<float> amounts;
@@ -100,7 +101,7 @@ std::vector<float> blur_amounts(std::size_t points, const Strokes& strokes, std:
     for (std::size_t k = 0; k < masks[s].points.size(); ++k)
       amounts[masks[s].points[k]] += amount * masks[s].weights[k];
   }
-  // Several strokes together may not subtract more than there is.
+  // Several strokes together must not subtract more than the whole difference.
   for (float& amount : amounts) amount = std::max(amount, -1.F);
   return amounts;
 }
@@ -162,7 +163,7 @@ typename StrokeFields<Real>::Blur StrokeFields<Real>::blur_of(double sigma,
     return surface.boundary.is_inside[side.triangle] && !is_jump(surface, side.from, side.to) &&
            (number[side.from] != no_index || number[side.to] != no_index);
   };
-  // Two solves, each with half of the variance, are nearer to a Gaussian than one.
+  // Two solves, each with half of the variance, approximate a Gaussian better than one solve.
   const double variance = sigma * sigma / 4;
   std::vector<Eigen::Triplet<double>> entries;
   each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
@@ -182,7 +183,7 @@ typename StrokeFields<Real>::Blur StrokeFields<Real>::blur_of(double sigma,
   const auto size = static_cast<int>(blur.points.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  // The matrix is diagonally dominant, so it can be factored.
+  // The matrix is diagonally dominant, so factoring succeeds.
   if (Result<solver::Cholesky> system = solver::Cholesky::factor(matrix, places)) {
     blur.system.emplace(std::move(*system));
     blur.system->renumber(blur.points);
@@ -237,8 +238,8 @@ void StrokeFields<Real>::take(const Strokes& strokes) {
   }
 }
 
-// With g = z + e for the blurred heights, areas (g - z) = -variance L g becomes a system for e, which is 0 around
-// the points: (areas + variance L) e = -variance L z. The second solve blurs g instead of z.
+// Let g = z + e be the blurred heights; e is 0 around the points. Then areas (g - z) = -variance L g becomes
+// a system for e: (areas + variance L) e = -variance L z. The second solve blurs g instead of z.
 template <typename Real>
 void StrokeFields<Real>::add_removed(Blur& blur, std::span<const Real> z) {
   if (!blur.system) return;

@@ -1,4 +1,4 @@
-// The two styles of reliefs. All their differences are in this file.
+// The two styles of reliefs. All differences between the styles are in this file.
 #pragma once
 
 #include <cmath>
@@ -13,14 +13,14 @@
 
 namespace relievo {
 
-// Returns the slope input of a surface. It keeps views of all arguments, which must outlive it.
+// Returns the inputs of the slope functions. They refer to the arguments, which must outlive them.
 inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayers> layers,
                               std::span<const float> boundary_weight) {
   return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
 }
 
-// Returns the rho to use in equation (7), so that the boundary is `width` times the surface's rho wide. (7)
-// makes a boundary 2 rho wide.
+// Returns the rho to use in equation (7), so that the soft rim is `width` times the surface's rho wide. With
+// its own rho (7) makes a rim of 2 rho.
 inline double boundary_rho(const Surface& surface, double width) {
   return surface.rho * width / 2;
 }
@@ -47,27 +47,26 @@ struct RaisedHeights {
     return all;
   }
 
-  // Returns the span of the heights as they are.
+  // Returns the span of the current heights.
   HeightSpan<Real> measured() const {
     return change_all([](std::size_t, Real&) {});
   }
 };
 
-// The least divisor of gains. With smaller divisors, a small change of normals would change slopes many times
-// as much near the steepest slopes.
+// The least divisor of gains. A smaller divisor would turn small changes of normals near the steepest slopes
+// into very large changes of slopes.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of
-// (9) for the heights; then raise(), which determines the relief's height; and finish(), once this is the
-// wanted height.
+// A style is used in this order: slope() for every point, with the w_k of weighted(); the solution of (9) for
+// the heights; raise(), which determines the relief's height; and, if this is the requested height, finish().
 
-// The paper's weights on our surface: equations (5) to (7), and the paper's second equation (9), which adds
-// detail in proportion to the curvature.
+// Equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which adds detail in
+// proportion to the curvature.
 class PaperWeightsStyle {
  public:
   explicit PaperWeightsStyle(const Shape& shape) : shape_(shape) {}
 
-  // Returns the compression that gives the weights w_k of slope().
+  // Returns the compression for the weights w_k of slope().
   Compression weighted() const { return shape_.compression; }
 
   template <typename Real>
@@ -76,7 +75,7 @@ class PaperWeightsStyle {
                             static_cast<Real>(shape_.max_slope));
   }
 
-  // Returns the change of the slope per change of -(n_x, n_y).
+  // Returns the derivative of the slope by -(n_x, n_y).
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
     const float w = w_k * w_b;
     return w / std::max(w * input.normals[i].z() + 1 - w, least_gain_divisor);
@@ -93,7 +92,7 @@ class PaperWeightsStyle {
     heights.height = static_cast<double>(heights.span.size());
   }
 
-  // Returns the relief's height as a share of the span of its heights before finish().
+  // Returns the relief's height divided by the span of its heights before finish().
   double height_share() const { return 1; }
 
   template <typename Real, typename Workspace>
@@ -103,8 +102,8 @@ class PaperWeightsStyle {
   const Shape& shape_;
 };
 
-// The layered style: layers of the normals in place of (5). HeightCorrection compresses the heights
-// afterwards.
+// The layered style uses layers of the normals instead of (5). Afterwards HeightCorrection compresses the
+// heights.
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)
@@ -123,7 +122,7 @@ class LayeredStyle {
     return layered_slope(input.layers[i], weights_, saturation * w_b, static_cast<Real>(shape_.max_slope));
   }
 
-  // Returns the change of the slope per change of the fine layer.
+  // Returns the derivative of the slope by the fine layer.
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
     const float weight = static_cast<float>(scale_) * w_k * w_b, t = weights_.height_share;
     const float sine_sq = weight * weight * weighted_sum(input.layers[i], weights_).squaredNorm();
@@ -138,7 +137,7 @@ class LayeredStyle {
     heights.height = height_share() * static_cast<double>(heights.span.size());
   }
 
-  // Compresses the heights to the relief's height; workspace() returns the scratch memory for that.
+  // Compresses the heights to the relief's height. workspace() returns the scratch memory.
   template <typename Real, typename Workspace>
   void finish(RaisedHeights<Real>& heights, const HeightCorrection& correction, Workspace&& workspace) const {
     if (!shape_.is_corrected) return;
@@ -154,7 +153,7 @@ class LayeredStyle {
   double scale_;
 };
 
-// Returns f(style) for the style of the shape, which must outlive the call.
+// Returns f(style), where style is that of the shape. The shape must outlive the call.
 template <typename F>
 decltype(auto) with_style(const Shape& shape, F&& f) {
   return shape.style == Style::layered ? f(LayeredStyle(shape)) : f(PaperWeightsStyle(shape));
@@ -172,7 +171,8 @@ void write_slopes(const SlopeInput& input, const Style& style, const Weight& wei
 
 class WeightTable;
 
-// Writes the same bits as write_slopes() for the layered style in single precision, eight points at a time.
+// Writes the slopes of the layered style in single precision, eight points at a time. The bits are those of
+// write_slopes().
 void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
                            std::span<Vec2f> slopes);
 

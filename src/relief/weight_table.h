@@ -1,4 +1,4 @@
-// A table of equation (6): frames look weights up, because the formula costs an exponential and a logarithm.
+// A table of equation (6). Frames look weights up, because the formula needs an exponential and a logarithm.
 #pragma once
 
 #include <bit>
@@ -10,9 +10,9 @@
 
 namespace relievo {
 
-// Interpolates linearly between entries spaced evenly within each octave of |k|, 128 per octave from 2^-24 to
-// 1; the bits of the number are the index. Values are within 3e-5 of the formula for beta up to 2, 1e-3 for
-// beta up to 10.
+// Interpolates linearly between entries that are evenly spaced within each octave of |k|: 128 entries per
+// octave, from 2^-24 to 1. The leading bits of the float are the index. The error is at most 3e-5 for beta up
+// to 2, and 1e-3 for beta up to 10.
 class WeightTable {
  public:
   void fill(double delta, const Compression& compression) {
@@ -27,11 +27,11 @@ class WeightTable {
     }
   }
 
-  // Returns w_k of |k| <= 1.
+  // Returns w_k for |k| <= 1.
   float operator()(float k) const {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::abs(k));
     const std::uint32_t place = bits >> fraction_bits;
-    if (place < first_place)  // hardly ever: smaller than 2^-24
+    if (place < first_place)  // rare: |k| < 2^-24
       return static_cast<float>(curvature_weight(static_cast<double>(k), delta_, compression_));
     const float* const entry = entries_.data() + (place - first_place);
     const float fraction =
@@ -41,7 +41,7 @@ class WeightTable {
 
  private:
   static constexpr std::uint32_t fraction_bits =
-      16;  // of the 23 bits of a float's fraction: 7 are left for the index
+      16;  // number of fraction bits (of 23) that interpolate; the other 7 are part of the index
   static constexpr std::uint32_t first_place = std::bit_cast<std::uint32_t>(0x1p-24F) >> fraction_bits;
   static constexpr std::uint32_t last_place = std::bit_cast<std::uint32_t>(1.F) >> fraction_bits;
 

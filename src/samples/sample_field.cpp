@@ -14,25 +14,25 @@
 namespace relievo::field {
 namespace {
 
-// A stream of random numbers. Each block has its own stream, so that blocks can run in any order.
+// A stream of random numbers. Each block has its own stream, so blocks can run in any order.
 class Random : public SplitMix64 {
  public:
   Random(std::uint64_t seed, std::uint64_t stream) : SplitMix64(first_state(seed, stream)) {}
 
-  // Returns a number of the standard normal distribution (Box and Muller 1958).
+  // Returns a random number with the standard normal distribution (Box and Muller 1958).
   double gaussian() {
     const double u = 1 - uniform(), v = uniform();
     return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
   }
 
  private:
-  // Hashes the two numbers, so that similar numbers give unrelated streams.
+  // Returns a hash of both numbers, so that similar numbers give unrelated streams.
   static std::uint64_t first_state(std::uint64_t seed, std::uint64_t stream) {
     return SplitMix64(seed + step * (stream + 1)).bits();
   }
 };
 
-// Cubes of one size that together contain the surface, and the field at their centres.
+// Cubes of equal size that together contain the surface, and the field at their centres.
 struct Cells {
   std::vector<Vec3> centres;
   std::vector<double> values;
@@ -65,7 +65,8 @@ std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
 }
 
 Cells cover(const Solid& solid) {
-  const int levels = 8;  // 256 cells along the box: finer than the distance of any two sheets of a sample
+  // 256 cells along the box; finer than the distance between any two sheets of a sample
+  const int levels = 8;
   Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
   for (int level = 0; level < levels; ++level) {
     cells = near_surface(solid, split(cells.centres, cells.side), cells.side / 2);
@@ -89,7 +90,7 @@ struct Bracket {
 };
 
 struct Root {
-  double t, f;  // the position on the line and the field there
+  double t, f;  // position on the line, and value of the field there
 };
 
 // Finds a root between two positions by false position with the Illinois rule.
@@ -119,12 +120,12 @@ Vec3 unit_gradient(const Solid& solid, const Vec3& p, double here) {
   return gradient.normalized();
 }
 
-// The part of the cloud that one stream of random numbers generates.
+// A part of the cloud that one stream of random numbers generates.
 struct Block {
   std::span<Vec3> points;
   std::span<Vec3f> normals;
   std::size_t filled = 0;
-  std::uint64_t lines = 0;  // number of lines shot to generate it
+  std::uint64_t lines = 0;  // number of lines used so far
 
   bool is_full() const { return filled == points.size(); }
   void add(const Vec3& p, const Vec3& n) {
@@ -135,17 +136,18 @@ struct Block {
 };
 
 // Random lines parallel to the three axes hit a small part of the surface with a probability proportional to
-// its area times |nx| + |ny| + |nz|. Keeping each hit with the inverse of that factor as its probability
-// makes the density of points exactly uniform over the area.
+// its area times |nx| + |ny| + |nz|. Each hit is kept with a probability inversely proportional to that
+// factor. So the density of points is exactly uniform over the area.
 void keep_hit(const Solid& solid, const Vec3& p, double value, Random& random, Block& block) {
   const Vec3 n = unit_gradient(solid, p, value);
   if (random.uniform() * n.lpNorm<1>() <= 1) block.add(p, n);
 }
 
-// A random line through a random cell, parallel to one of the axes, uniform over the cell's cross-section.
+// A random line through a random cell, parallel to an axis, uniformly distributed over the cell's
+// cross-section.
 struct Shot {
   Line line;
-  double at_least = 0;  // lower bound of the field's magnitude at the line's middle
+  double at_least = 0;  // lower bound of the field's magnitude at the midpoint of the line
 };
 
 Shot aim(const Cells& cells, Random& random) {
@@ -183,16 +185,17 @@ double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& c
     return block.lines;
   };
   const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
-  // The lines are spread over three times the cross-section of all cells. This area, divided by the number of
-  // lines, is the surface's area per point.
+  // The lines are distributed over three times the cross-section of all cells. This area, divided by the
+  // number of lines, is the area of the surface per point.
   const double share =
       3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
   return std::sqrt(share);
 }
 
-// Moves a point along its normal and tilts the normal as much as fitting a plane to such points would.
+// Moves a point along its normal by noise, and tilts the normal as much as noise would tilt a normal
+// estimated from such points.
 void disturb(double noise, double spacing, Random& random, Vec3& p, Vec3f& normal) {
-  const double tilt = 0.2 * noise;  // radians per axis, the error of a plane through about 30 neighbours
+  const double tilt = 0.2 * noise;  // in radians per axis, the error of a plane fitted to about 30 neighbours
   const Vec3 n = normal.cast<double>();
   const Vec3 helper = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
   const Vec3 u = n.cross(helper).normalized(), v = n.cross(u);

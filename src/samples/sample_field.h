@@ -1,4 +1,4 @@
-// Solids as scalar fields, and clouds scattered over their surfaces.
+// Solids as scalar fields, and clouds of points scattered over their surfaces.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace relievo::field {
 
-// A solid as a distance bound: `value` is negative inside, positive outside and zero on the surface, and its
-// magnitude never exceeds the distance to the surface. `box` contains the whole surface.
+// A solid given by a distance bound. `value` is negative inside, positive outside and zero on the surface;
+// its magnitude never exceeds the distance to the surface. `box` contains the whole surface.
 struct Solid {
   double (*value)(const Vec3&) = nullptr;
   Box box;
@@ -22,9 +22,9 @@ struct Scatter {
   std::uint64_t seed = 0;
 };
 
-// Returns exactly `how.points` points, distributed uniformly over the surface's area and then moved along
-// their outward normals by Gaussian noise. The normals are disturbed as much as normals estimated from such
-// points. The same arguments give the same bits. The solid must have a surface.
+// Returns exactly `how.points` points, uniformly distributed over the surface's area and then moved along
+// their outward normals by Gaussian noise. The normals have the errors of normals estimated from such points.
+// The same arguments give the same bits. The solid must have a surface.
 Cloud scatter(const Solid& solid, const Scatter& how);
 
 }  // namespace relievo::field

@@ -5,7 +5,7 @@
 namespace relievo::field {
 namespace {
 
-// The face is symmetric: its functions are called with x >= 0.
+// The face is symmetric, so its functions are called with x >= 0.
 
 double skull(const Vec3& p) {
   double d = ellipsoid(p - Vec3(0, 0.06, 0), Vec3(0.47, 0.60, 0.44));
@@ -76,8 +76,8 @@ double face(const Vec3& p) {
   return d;
 }
 
-// A wreath of leaves around the face. The leaves start on the face's ellipse scaled by `radius`, from its
-// crown (0) down to the chin (1).
+// A wreath of leaves around the face. The leaves start on the ellipse of the face, scaled by `radius`, from
+// the crown of the head (0) down to the chin (1).
 struct Wreath {
   int leaves = 0;
   bool is_staggered = false;
@@ -135,7 +135,8 @@ double value(const Vec3& point) {
   double d = ellipsoid(p - Vec3(0, 0, -0.10), Vec3(0.72, 0.84, 0.16));
   for (const Leaf& leaf : leaves) d = leaf_value(leaf, p, d);
   if (ellipsoid(p, Vec3(0.58, 0.78, 0.74)) < d) {
-    const double softened = std::sqrt(square(p.x()) + square(0.012));  // no crease where the halves meet
+    // Prevents a crease where the two halves meet.
+    const double softened = std::sqrt(square(p.x()) + square(0.012));
     d = std::min(d, face(Vec3(softened, p.y(), p.z())));
   }
   return 0.85 * blend_max(d, -0.14 - p.z(), 0.03);

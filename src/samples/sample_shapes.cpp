@@ -8,14 +8,14 @@ namespace {
 constexpr double drooping = 0.22;         // height of the rim below the mid-rib, in half widths
 constexpr double highest_carving = 0.05;  // height above the blade
 constexpr double gentle =
-    0.68;  // scales the field by the slope of the carving, so that it stays a distance bound
+    0.68;  // scales the field to compensate for the slope of the carving, so that it stays a distance bound
 
-// The position of a point over the blade.
+// The position of a point above the blade.
 struct Place {
   double along;   // 0 at the root, 1 at the tip
-  double vein;    // `along` where a slanted side vein through the point would leave the mid-rib
+  double vein;    // `along` where the slanted side vein through the point leaves the mid-rib
   double lobe;    // 0 in a notch, 1 in the middle of a lobe
-  double beat;    // 0 to 1 through each lobe
+  double beat;    // position within the lobe, from 0 to 1
   double across;  // distance from the mid-rib, in half widths
 };
 
@@ -26,8 +26,8 @@ Place locate(const Leaf& leaf, double x, double v) {
   return {s, t, 4 * beat * (1 - beat), beat, v / leaf.half_width};
 }
 
-// Returns the approximate distance to the outline, an oval with notches: the distance across the leaf,
-// divided by sqrt(1 + slope^2) with the slope of the outline, which is large in the notches.
+// Returns the approximate distance to the outline, an oval with notches. It is the distance across the leaf
+// divided by sqrt(1 + slope^2), where the slope is that of the outline, which is large in the notches.
 double outline(const Leaf& leaf, const Place& at) {
   const double bent = at.vein * (1.25 - 0.25 * at.vein);
   const double oval = std::sqrt(std::max(1e-4, 4 * bent * (1 - bent)));

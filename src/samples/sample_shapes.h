@@ -1,4 +1,4 @@
-// The solids of the samples, and the distance functions they are modelled with. Tested by
+// The solids of the samples, and the distance functions that they consist of. Tested by
 // tests/samples/sample_test.cpp.
 #pragma once
 
@@ -12,13 +12,13 @@ namespace relievo::field {
 
 inline constexpr double pi = std::numbers::pi;
 
-// Return the samples: upright (+Y), the front towards +Z, about two units wide.
+// Return the samples: upright (+Y), with the front towards +Z, and about two units wide.
 Solid shell();
 Solid still_life();
 Solid green_man();
 
-// Returns the field of an ammonite of rim radius 1, coiled in the xy plane, with its aperture on the +x side.
-// The field is up to 1.6 times as steep as a distance.
+// Returns the field of an ammonite with rim radius 1, coiled in the xy plane, with its aperture at +x. The
+// slope of the field is up to 1.6, that of a distance is 1.
 double ammonite(const Vec3& p);
 
 inline double square(double x) {
@@ -31,18 +31,19 @@ inline double clamp01(double x) {
   return std::clamp(x, 0.0, 1.0);
 }
 
-// Returns 0 below `from`, 1 above `to`, and a smooth cubic in between; the opposite if `from` is above `to`.
+// Returns 0 below `from`, 1 above `to`, and a smooth cubic in between. If `from` is above `to`, it falls from
+// 1 to 0 instead.
 inline double ramp(double from, double to, double x) {
   const double t = clamp01((x - from) / (to - from));
   return t * t * (3 - 2 * t);
 }
 
-// Returns about exp(-(x / width)^2), and 0 from two widths on.
+// Returns approximately exp(-(x / width)^2), and exactly 0 beyond two widths.
 inline double bump(double x, double width) {
   return square(square(std::max(0.0, 1 - square(x / width) / 4)));
 }
 
-// Return a minimum and a maximum with a fillet of about `radius`.
+// Return the minimum and the maximum of both values, with a fillet of about `radius`.
 inline double blend_min(double a, double b, double radius) {
   const double t = std::max(radius - std::abs(a - b), 0.0);
   return std::min(a, b) - t * t / (4 * radius);
@@ -60,7 +61,7 @@ inline double ellipsoid(const Vec3& p, const Vec3& radii) {
   return std::max(deepest, k * (k - 1) / q.cwiseQuotient(radii).norm());
 }
 
-// Returns the distance to a capsule whose radius goes from `ra` at `a` to `rb` at `b`.
+// Returns the distance to a capsule whose radius changes from `ra` at `a` to `rb` at `b`.
 inline double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
   const Vec3 ab = b - a;
   const double t = clamp01((p - a).dot(ab) / ab.squaredNorm());
@@ -73,7 +74,7 @@ inline double rounded_box(const Vec3& p, const Vec3& half, double radius) {
   return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0) - radius;
 }
 
-// Returns a point turned about one axis by `radians`, counter-clockwise as seen from the axis's positive end.
+// Returns a point rotated about an axis by `radians`, counter-clockwise seen from the axis's positive end.
 inline Vec3 turned(const Vec3& p, int axis, double radians) {
   const double c = std::cos(radians), s = std::sin(radians);
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -86,21 +87,21 @@ inline Vec3 turned(const Vec3& p, int axis, double radians) {
 // A carved leaf: a lobed blade with mid-rib and veins.
 struct Leaf {
   double length = 0, half_width = 0;
-  double rise = 0, curl = 0;  // height of the mid-rib, in lengths: rise s + curl s^2 at s in [0, 1]
-  double lobes = 4;           // on each side
+  double rise = 0, curl = 0;  // the height of the mid-rib is (rise s + curl s^2) lengths at s in [0, 1]
+  double lobes = 4;           // per side
   double thickness = 0.10;
   Vec3 root = Vec3::Zero();
   Mat3 frame = Mat3::Identity();  // rows: along, across, up
-  // Computed by placed(): bounds of the leaf, with which distant points are skipped.
+  // Computed by placed(): bounds of the leaf, used to skip distant points.
   double lowest = 0, highest = 0;  // heights along `up`, from the root
   Vec3 middle = Vec3::Zero();
-  double reach = 0;  // radius of a ball about `middle` that contains the leaf
+  double reach = 0;  // radius of a ball around `middle` that contains the leaf
 };
 
 struct LeafPose {
   Vec3 root;
   Vec3 towards;  // of any length
-  Vec3 facing;   // rough direction of the upper side's normal; not parallel to `towards`
+  Vec3 facing;   // approximate normal of the upper side; not parallel to `towards`
 };
 
 Leaf placed(Leaf shape, const LeafPose& pose);

@@ -3,25 +3,27 @@
 namespace relievo::field {
 namespace {
 
-// Raup's model: a tube whose cross-section grows by a constant factor each turn, measured in rim radii.
+// Raup's model: a tube whose cross-section grows by a constant factor with each turn. Lengths are in rim
+// radii.
 constexpr double expansion = 1.92;  // growth of the radius per turn
 constexpr double section_centre = 0.735, section_half_width = 0.265, section_half_depth = 0.215;
 constexpr double ribs_per_turn = 30;
 
 struct Whorl {
-  double angle;  // along the coil; 0 at the aperture, negative inside
+  double angle;  // along the coil: 0 at the aperture, negative further inside
   double scale;  // the rim radius there
-  double side;   // around the section: 0 at the rim, 0.5 on the flank, 1 at the seam with the inner whorl
+  // Around the cross-section: 0 at the rim, 0.5 on the flank, 1 at the seam with the inner whorl.
+  double side;
 };
 
-// Returns the bend of the ribs: forward on the flank, back, and forward again to the rim. The aperture's edge
-// follows it.
+// Returns the phase of the ribs, which bend forward on the flank, back, and forward again at the rim. The
+// edge of the aperture has the same shape.
 double rib_phase(const Whorl& w) {
   const double sickle = 1.5 * std::sin(2 * pi * w.side) - 5.0 * square(square(1 - w.side));
   return ribs_per_turn * w.angle + sickle;
 }
 
-// The cosine and sine of a phase. Multiplication gives the cosines and sines of its multiples.
+// The cosine and sine of a phase. Those of its multiples follow by multiplication.
 struct Wave {
   double c, s;
   Wave doubled() const { return {c * c - s * s, 2 * c * s}; }
@@ -30,11 +32,11 @@ struct Wave {
 
 struct Ornament {
   double height;
-  double slope;  // slope of the height, per radian of phase
+  double slope;  // derivative of the height with respect to the phase in radians
 };
 
-// Returns the relief of the shell: ribs that fork between the inner and the outer flank, a knob at each fork,
-// a roped keel, and striae in between.
+// Returns the relief on the shell: ribs that fork between the inner and the outer flank, a knob at each fork,
+// a roped keel, and striae between the ribs.
 Ornament ornament(const Whorl& w, double phase) {
   const Wave rib{std::cos(phase), std::sin(phase)};
   const Wave two = rib.doubled(), four = two.doubled(), nine = four.doubled().plus(rib);

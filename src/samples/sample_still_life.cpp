@@ -21,7 +21,7 @@ struct Turned {
   }
 };
 
-// Returns the height of two strands that cross each other around the belly, with a pearl in each opening.
+// Returns the height of two strands that cross each other around the belly, with a pearl in each gap.
 double guilloche(double about, double y) {
   const double wave = 0.036 * std::sin(12 * about);
   const double strands = std::max(bump(y - wave, 0.016), bump(y + wave, 0.016));
@@ -85,8 +85,8 @@ struct Height {
   double value = 0, slope = 0;
 };
 
-// Returns the height of overlapping scales, one at each pair of whole numbers. Each scale rises towards its
-// free, upper edge.
+// Returns the height of overlapping scales, one at each pair of integers. Each scale rises towards its free,
+// upper edge.
 Height scales(double a, double b) {
   Height highest;
   for (int i = -1; i <= 1; ++i) {
@@ -104,7 +104,8 @@ Height scales(double a, double b) {
   return highest;
 }
 
-// Returns the field of a pine cone along Y: scales on two families of spirals, 5 one way and 8 the other.
+// Returns the field of a pine cone along Y. Its scales form two families of spirals, 5 in one direction and 8
+// in the other.
 double pine_cone(const Vec3& p) {
   const double half = 0.32, scale_size = 0.09;
   const double about = std::atan2(p.x(), p.z()) / (2 * pi);

@@ -13,11 +13,11 @@
 namespace relievo {
 namespace {
 
-// In rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
+// Radius in rho. Larger empty circles are gaps outside the relief; smaller ones are due to sampling.
 constexpr double gap = 3;
 
-// Returns the spacing by which gaps at a triangle are measured: the smallest spacing of its corners if all
-// are sparse, else rho.
+// Returns the unit for the empty circle of a triangle: the smallest spacing of its corners if all three are
+// sparse, else rho.
 double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {
   constexpr double sparse = 2;  // in rho
   if (spacing.empty()) return rho;
@@ -46,8 +46,8 @@ class BoundaryFinder {
   }
 
  private:
-  // Marks narrow holes as inside: connected sets of outside triangles that do not touch the hull and into
-  // which no circle of the radius of the largest hole fits.
+  // Marks narrow holes as inside. A hole is a connected set of outside triangles that does not touch the
+  // hull. It is narrow if the largest empty circle in it is not larger than ScanLimits::largest_hole.
   void close_narrow_holes(std::vector<std::uint8_t>& is_inside) const {
     DisjointSets sets(is_inside.size());
     for (Index t = 0; t < is_inside.size(); ++t)
@@ -66,7 +66,7 @@ class BoundaryFinder {
 
   std::span<const Vec2> points_;
   const Triangulation& mesh_;
-  std::vector<double> radius_;  // radii of the empty circles, in sampling distances
+  std::vector<double> radius_;  // radii of the triangles' empty circles, in sampling distances
 };
 
 }  // namespace

@@ -33,8 +33,8 @@ std::vector<Index> outliers(const Cloud& cloud) {
   const Vec3 middle = median_of(cloud);
   std::vector<double> distances(cloud.size());
   parallel_for(cloud.size(), [&](std::size_t i) { distances[i] = (cloud.points[i] - middle).norm(); });
-  // The radius is generous enough for long and thin models, whose ends are far from the median. Of points
-  // spread evenly over a line, none is farther from the median than 1.2 times this quantile.
+  // The radius leaves the ends of long and thin models, which are far from the median, in place. If points
+  // are evenly distributed on a line, none is farther from the median than 1.2 times this quantile.
   const double radius = 20 * quantile(std::vector(distances), .9);
   std::vector<Index> far;
   for (Index i = 0; i < cloud.size(); ++i)

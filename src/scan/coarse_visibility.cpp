@@ -11,15 +11,16 @@ namespace relievo {
 namespace {
 
 constexpr double cells_along_diagonal = 160;
-// Weights of the marks of an outside. With them all generated one-sided scans of the tests are told from their
-// backs, each mark alone fails on some. See docs/decisions/best-view.md.
+// Weights of the three indications of an outside. With these weights, the front of every generated one-sided
+// scan of the tests is distinguished from its back; each indication alone fails for some. See
+// docs/decisions/best-view.md.
 constexpr double outline_weight = 2, crease_weight = .5, ground_weight = .6;
 
 // The nearest and the farthest point of a cell.
 struct Cell {
   Index front = no_index;
   double front_z = 0, back_z = 0;
-  Vec3f normal = Vec3f::Zero();  // normal of the front point, turned into the view
+  Vec3f normal = Vec3f::Zero();  // normal of the front point, turned to the viewer if signs are unknown
 
   bool is_empty() const { return front == no_index; }
 
@@ -36,8 +37,8 @@ class Grid {
  public:
   Grid(const Cloud& cloud, const Mat3& R, NormalSigns signs) {
     for (const Vec3& p : cloud.points) box_.extend(R * p);
-    // Cells are at least two spacings wide; otherwise the back would show through gaps in the front. The
-    // factor 2 below is there because about half of the points are at the back.
+    // Cells are at least two spacings wide; otherwise the back would be visible through gaps in the front.
+    // The factor 2 below accounts for the points at the back, about half of all.
     const Vec3 size = box_.size();
     const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
     width_ = std::max({box_.diagonal() / cells_along_diagonal, 2 * spacing, 1e-300});
@@ -57,7 +58,7 @@ class Grid {
   }
 
   double facing_share() const {
-    constexpr float edge_on = .1F;  // the sign of normals within 6 degrees of edge on is not reliable
+    constexpr float edge_on = .1F;  // closer than 6 degrees to edge-on, the sign of a normal is unreliable
     std::size_t facing = 0, away = 0;
     for (const Cell& cell : cells_) {
       facing += cell.normal.z() > edge_on;
@@ -67,7 +68,7 @@ class Grid {
   }
 
   double one_layer() const {
-    constexpr double thin = 6;  // in cells: a surface tilted by 80 degrees rises by as much in one cell
+    constexpr double thin = 6;  // in cells; a surface tilted by 80 degrees rises by this much within a cell
     std::size_t cells = 0, thin_cells = 0;
     for (const Cell& cell : cells_) {
       if (cell.is_empty()) continue;
@@ -77,7 +78,8 @@ class Grid {
     return cells ? static_cast<double>(thin_cells) / static_cast<double>(cells) : 0;
   }
 
-  // Adds up three marks of an outside. Seen from behind, each of them has the opposite sign.
+  // Returns the weighted sum of three indications of an outside. Each of them changes its sign if the surface
+  // is seen from behind.
   double outside() const {
     return outline_weight * signed_share(1) - crease_weight * signed_share(3) + ground_weight * ground_mark();
   }
@@ -86,7 +88,7 @@ class Grid {
     double sum = 0;
     each_pair([&](const Cell& a, const Cell& b, int) {
       const bool faces_viewer = a.normal.z() > 0 && b.normal.z() > 0;
-      // A pair counts at most 0.5, so that a sharp edge does not count for more than a rounded one.
+      // A pair counts at most 0.5, so that a sharp edge counts no more than a rounded one.
       if (faces_viewer) sum += std::min(.5, static_cast<double>((a.normal - b.normal).norm()));
     });
     return sum;
@@ -99,8 +101,8 @@ class Grid {
     return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
   }
 
-  // Calls f(a, b, axis) for all pairs of neighbouring cells with points, b beyond a along the axis. Pairs across
-  // depth jumps are left out.
+  // Calls f(a, b, axis) for all pairs of neighbouring cells with points; b follows a along the axis. Pairs
+  // across depth jumps are left out.
   template <typename F>
   void each_pair(F f) const {
     const auto take = [&](const Cell& a, const Cell& b, int axis) {
@@ -114,11 +116,11 @@ class Grid {
       }
   }
 
-  // Returns the sum of the bends between neighbouring cells, each to that odd power, as a share of the sum of
-  // their absolute values; in [-1, 1]. A bend is above 0 where the surface is convex.
-  // - Power 1: the sum is what is left at outlines and jumps. An outside turns away from the viewer there.
-  // - Power 3: sharp bends decide. Parts that touch or overlap meet in sharp concave creases, so that on an
-  //   outside the sharp bends are concave.
+  // Raises the bends between neighbouring cells to an odd power. Returns their sum as a share of the sum of
+  // their absolute values; in [-1, 1]. A bend is positive where the surface is convex.
+  // - Power 1: bends cancel except at outlines and jumps, where an outside turns away from the viewer.
+  // - Power 3: sharp bends dominate. Parts that touch or overlap meet in sharp concave creases, so on an
+  // outside the sharp bends are concave.
   double signed_share(int power) const {
     double sum = 0, total = 0;
     each_pair([&](const Cell& a, const Cell& b, int axis) {
@@ -129,8 +131,8 @@ class Grid {
     return total > 0 ? sum / total : 0;
   }
 
-  // Returns a measure of the skewness of the depths, in (-1, 1). What stands on a ground takes less area than
-  // the ground, so that the mean of an outside is nearer to the viewer than most of it.
+  // Returns a measure of the skewness of the depths, in (-1, 1). Objects on a ground cover less area than the
+  // ground, so on an outside the mean depth is nearer to the viewer than the median.
   double ground_mark() const {
     double count = 0, mean = 0, square = 0, cube = 0;
     for (const Cell& cell : cells_)

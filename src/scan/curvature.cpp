@@ -14,24 +14,24 @@
 namespace relievo {
 namespace {
 
-// The radius, in h, within which neighbours count. At this radius fit_weight() is closest to exp(-d^2 / h^2).
+// The radius of the neighbourhood, in h. With this radius fit_weight() approximates exp(-d^2 / h^2) best.
 constexpr double support = 1.7;
 
 struct Neighbour {
-  Vec3 d;  // from the neighbour to the point
-  Vec3 n;  // its unit normal
+  Vec3 d;  // vector from the neighbour to the point
+  Vec3 n;  // unit normal of the neighbour
 };
 
 // Returns the weight of a neighbour, which falls from 1 at the point to 0 at the radius. For a radius of 1.7
-// h it is close to exp(-d^2 / h^2), but needs no exponential.
+// h it approximates exp(-d^2 / h^2) without an exponential.
 double fit_weight(const Neighbour& s, double radius) {
   const double rest = std::max(0.0, 1 - s.d.squaredNorm() / (radius * radius));
   return rest * rest;
 }
 
-// Returns half the divergence of the normal field n(x) = n0 + J x, fitted to the neighbours by weighted least
-// squares in the tangent plane. This is exact where the normals vary linearly, as on spheres and cylinders,
-// however the points are scattered.
+// Returns half the divergence of a linear normal field n(x) = n0 + J x, fitted to the neighbours in the
+// tangent plane by weighted least squares. This is exact where the normals vary linearly, as on spheres and
+// cylinders, for any distribution of the points.
 double fitted_curvature(std::span<const Neighbour> neighbours, double radius) {
   if (neighbours.size() < 6) return 0;
   Vec3 mean = Vec3::Zero();
@@ -57,8 +57,8 @@ class CurvatureEstimator {
   CurvatureEstimator(const SearchableCloud& searchable, const CurvatureOptions& options)
       : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options) {}
 
-  // The ball whose points count. The spacing is at least rho: near coincident points the local spacing is almost
-  // 0, and the fit would see only noise.
+  // The neighbourhood of a point. Its unit is at least rho, because near coincident points the local spacing
+  // is almost 0, and the fit would contain only noise.
   NearSearch<Vec3>::Ball ball(Index i) const {
     const double unit = std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
     return {cloud_.points[i], support * options_.scale * unit};
@@ -71,7 +71,7 @@ class CurvatureEstimator {
       neighbours.push_back({cloud_.points[i] - cloud_.points[j], cloud_.normals[j].cast<double>()});
     }
     const double k = fitted_curvature(neighbours, ball(i).radius);
-    // Points at a distance of rho cannot resolve a smaller radius of curvature.
+    // Points at a distance of rho cannot represent a smaller radius of curvature.
     return std::clamp(k, -1 / spacing_.rho, 1 / spacing_.rho);
   }
 
@@ -109,10 +109,12 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  constexpr int passes = 3;  // over direct neighbours; each widens the average by about rho, to 2 rho or more
+  // Over direct neighbours; each pass widens the average by about rho, so the result spans at least 2 rho.
+  constexpr int passes = 3;
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
-  std::vector<std::array<double, 3>> areas(triangles.size());  // weight of corner c + 1 in the mean at c
+  // Weight of corner c + 1 in the mean at corner c.
+  std::vector<std::array<double, 3>> areas(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const Index to = triangles[t][c], from = triangles[t][(c + 1) % 3];

@@ -9,10 +9,10 @@
 namespace relievo {
 namespace {
 
-constexpr double least_normal_z = 0.05;  // a slope of 20; steeper discs are drawn as if they were this steep
+constexpr double least_normal_z = 0.05;  // a slope of 20; steeper discs are drawn with this slope
 constexpr long band_rows = 64;           // rows of pixels that one task draws
 
-// Returns half the extent of the disc's projection along y; half_width() does so along x.
+// Returns half the height of the disc's projection; half_width() returns half the width.
 double half_height(const Disc& disc) {
   const double ny = static_cast<double>(disc.normal.y());
   return disc.radius * std::sqrt(std::max(0.0, 1 - ny * ny));
@@ -58,7 +58,7 @@ float DepthBuffer::depth(double x, double y) const {
                    : -std::numeric_limits<float>::infinity();
 }
 
-// Bands of rows are drawn concurrently. Each draws the discs that touch it, in their order.
+// Bands of rows are drawn concurrently. Each band draws the discs that touch it, in their order.
 void DepthBuffer::splat(const std::vector<Disc>& discs) {
   const auto bands = static_cast<std::size_t>((rows_ + band_rows - 1) / band_rows);
   const auto band_of = [&](double y) { return std::clamp(row(y), 0L, rows_ - 1) / band_rows; };

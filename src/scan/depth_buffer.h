@@ -16,14 +16,15 @@ struct Disc {
 
 class DepthBuffer {
  public:
-  // Covers the box's x and y with square pixels of the given side, or larger ones if there would be more than
-  // `most_pixels`. All depths are -infinity.
+  // Covers the box's x and y with square pixels of the given width, or with wider ones if there would be more
+  // than `most_pixels`. All depths are -infinity.
   DepthBuffer(const Box& box, double pixel);
 
-  // Draws discs: raises the depth of each pixel whose centre a disc covers to the disc's depth there.
+  // Draws discs. The depth of each pixel whose centre is covered by a disc is raised to the disc's depth
+  // there.
   void splat(const std::vector<Disc>& discs);
 
-  // Returns the depth of the pixel that contains (x, y); -infinity where there is no disc, or outside the
+  // Returns the depth of the pixel that contains (x, y); -infinity where there is no disc and outside the
   // box.
   float depth(double x, double y) const;
 
@@ -42,8 +43,8 @@ class DepthBuffer {
   std::vector<float> depth_;
 };
 
-// Returns the change of depth from a disc's centre to the point of its plane at the offset (dx, dy) in x and
-// y. Slopes are limited to 20, so that the result is finite even for discs seen edge on.
+// Returns how much higher the disc's plane is at the offset (dx, dy) than at the disc's centre. Slopes are
+// limited to 20, so that the result is finite for discs seen edge-on.
 double depth_along_plane(const Vec3f& normal, double dx, double dy);
 
 }  // namespace relievo

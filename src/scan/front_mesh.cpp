@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns a Surface that has only the members that is_jump() reads.
+// Returns a surface with only the members that is_jump() reads.
 Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   Surface surface;
   surface.rho = spacing.rho;
@@ -25,7 +25,7 @@ Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   return surface;
 }
 
-// Returns whether a triangle is wider than the gaps between points of one surface.
+// Returns whether a triangle is wider than gaps between points of one surface are.
 bool is_wide(const Surface& surface, const Triangle& t) {
   constexpr double widest_gap = 2.5;  // in rho; in random scans hardly any Delaunay edge is longer
   double longest = 0;
@@ -34,8 +34,8 @@ bool is_wide(const Surface& surface, const Triangle& t) {
   return longest > widest_gap * surface.rho;
 }
 
-// Returns whether one surface may continue between all corners of a triangle: whether no two normals differ
-// by more than 60 degrees. Over 2.5 rho normals hardly differ so much except across an edge of the model.
+// Returns whether one surface may connect the corners of a triangle: no two of their normals differ by more
+// than 60 degrees. Within 2.5 rho, normals rarely differ that much except across an edge of the model.
 bool look_alike(const Surface& surface, const Triangle& t) {
   const auto& n = surface.normals;
   constexpr float least_cosine = .5F;  // cosine of 60 degrees
@@ -72,7 +72,7 @@ class Mesher {
     mesh_.corner_normals.push_back(normals);
   }
 
-  // Divides a triangle among its corners by lines from its centre to the middles of its sides.
+  // Divides a triangle among its corners by lines from its centre to the midpoints of its sides.
   void share_out(const Triangle& t) {
     const auto at = [&](std::size_t i) -> Vec2 { return surface_.points[t[i % 3]].head<2>(); };
     const Vec2 centre = (at(0) + at(1) + at(2)) / 3;
@@ -85,7 +85,7 @@ class Mesher {
     }
   }
 
-  // Adds a point of a corner's tangent plane. Returns its number.
+  // Adds a point in the tangent plane of a corner. Returns its index.
   Index add_point(Index corner, const Vec2& place) {
     const Vec3& from = surface_.points[corner];
     const Vec2 step = place - from.head<2>();

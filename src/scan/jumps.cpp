@@ -8,8 +8,8 @@
 namespace relievo {
 namespace {
 
-// Returns how far a tangent plane rises along a step. n_z is limited to 0.1, because near the silhouette the
-// plane is too steep to distinguish a jump from a slope.
+// Returns how much a tangent plane rises along a step. n_z is limited to at least 0.1, because near the
+// silhouette the plane is too steep to distinguish a jump from a slope.
 double rise(const Vec3f& normal, const Vec2& step) {
   const Vec3 n = normal.cast<double>();
   return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1);

@@ -1,5 +1,5 @@
-// Depth jumps inside the silhouette: edges of the triangulation in the view plane across which the surface is
-// not connected.
+// Depth jumps inside the silhouette: edges of the triangulation in the view plane that connect unconnected
+// parts of the surface.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace relievo {
 
-// Returns whether there is a depth jump between two neighbouring points: whether their depths differ by more
-// than 3 rho plus twice the difference that their normals explain.
+// Returns whether there is a depth jump between two neighbouring points: their depths differ by more than 3
+// rho plus twice the difference that their normals explain.
 bool is_jump(const Surface& surface, Index a, Index b);
 
-// Returns for each triangle whether it is inside the relief and one of its edges is a depth jump.
+// Returns for each triangle whether it is inside the relief and has an edge across a depth jump.
 std::vector<std::uint8_t> jump_triangles(const Surface& surface);
 
 }  // namespace relievo

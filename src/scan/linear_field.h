@@ -1,4 +1,4 @@
-// Weighted least squares fits at scattered points in the plane, of values that vary linearly there.
+// Weighted least-squares fits of linear functions to scattered points in the plane.
 #pragma once
 
 #include <Eigen/LU>
@@ -8,16 +8,17 @@
 
 namespace relievo {
 
-// Fits `Values` numbers around a place. The weight of a point falls from 1 at the place to 0 at the radius.
+// Fits linear functions for `Values` numbers around a position. The weight of a point falls from 1 at the
+// position to 0 at the radius.
 template <int Values>
 class LinearField {
  public:
   using Value = Eigen::Matrix<double, Values, 1>;
 
   struct Fit {
-    Value value = Value::Zero();  // the fitted value at the place
+    Value value = Value::Zero();  // the fitted value at the position
     Eigen::Matrix<double, 2, Values> gradient = Eigen::Matrix<double, 2, Values>::Zero();
-    bool is_sloped = false;  // false if the points lie too near a line; the value is then their mean
+    bool is_sloped = false;  // false if the points are nearly collinear; the value is then their mean
     double misfit = 0;       // root mean square of the residuals of a sloped fit
     double count = 0;        // sum of the points' weights
   };

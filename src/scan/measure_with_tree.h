@@ -1,5 +1,5 @@
-// Measures scattered points with a k-d tree that the caller already has. Tested by
-// tests/scan/spacing_test.cpp and tests/scan/curvature_test.cpp.
+// Measurements of scattered points that use an existing k-d tree. Tested by tests/scan/spacing_test.cpp and
+// tests/scan/curvature_test.cpp.
 #pragma once
 
 #include "geometry/neighbours.h"
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// See measure_spacing() in spacing.h. `tree` contains `points`. The result is not usable once the progress is
-// cancelled.
+// Like measure_spacing() in spacing.h. `tree` contains `points`. After cancellation the result is
+// meaningless.
 Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points,
                         const Progress* progress = nullptr);
 
@@ -21,7 +21,7 @@ struct SearchableCloud {
   const KdTree<Vec3>& tree;
 };
 
-// See mean_curvature() in curvature.h.
+// Like mean_curvature() in curvature.h.
 std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,
                                    const CurvatureOptions& options, const Progress* progress);
 

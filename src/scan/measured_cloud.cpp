@@ -27,7 +27,7 @@ Result<void> check_numbers(const Cloud& cloud) {
   return {};
 }
 
-// Returns an error if the points coincide or lie on one line, up to rounding.
+// Returns an error if the points coincide or are collinear, up to rounding.
 Result<void> check_extent(const Cloud& cloud, const Box& box) {
   if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
   const Vec3 centre = box.centre();
@@ -41,8 +41,8 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
-// Returns the step between numbers of single precision at the largest coordinate; 0 if single precision does
-// not represent some coordinate exactly.
+// Returns the step between single-precision numbers at the largest coordinate; 0 if single precision cannot
+// represent all coordinates exactly.
 double step_of_digits(const Cloud& cloud) {
   float largest = 0;
   for (const Vec3& p : cloud.points)
@@ -54,7 +54,7 @@ double step_of_digits(const Cloud& cloud) {
   return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest);
 }
 
-// Returns an error if rounding has moved points about as far as they are apart.
+// Returns an error if rounding has moved points about as far as their spacing.
 Result<void> check_digits(const Cloud& cloud, double rho) {
   constexpr double least_steps = 1.5;
   const double step = step_of_digits(cloud);
@@ -65,9 +65,9 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
           "precision, or nearer to the origin"));
 }
 
-// Leaves at most eight of all points at one place in the order, in which such points follow each other. A
-// search near more of them would read them all, so all searches together would take quadratic time. Which
-// eight remain depends on the file's order.
+// Keeps at most eight of the points at each position; `order` has coincident points next to each other. A
+// search near more of them would read them all, so all searches together would take quadratic time. The order
+// of the file decides which eight are kept.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
   std::size_t same = 0;
@@ -98,8 +98,8 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   measured->diagonal_ = box.diagonal();
   measured->input_points_ = whole.size();
   measured->cloud_ = in_view(cloud, {});
-  // A fixed order makes the result independent of the file's order, and neighbours close in memory make all
-  // searches faster.
+  // A fixed order makes the result independent of the file's order. Searches are faster if neighbours are
+  // close in memory.
   std::vector<Index> order = space_curve_order(measured->cloud_.points);
   thin_out_coincident(measured->cloud_.points, order);
   RELIEVO_CHECK(check_cancelled(progress));
@@ -132,7 +132,8 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
   has_estimated_normals_ = !cloud_.has_normals();
   if (has_estimated_normals_)
-    estimate_normals(cloud_, 16, progress);  // noise is measured once the view has given the normals signs
+    // Noise is measured later, when the view has determined the signs of the normals.
+    estimate_normals(cloud_, 16, progress);
   else
     remove_noise(view, progress);
   RELIEVO_CHECK(check_cancelled(progress));
@@ -140,9 +141,9 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   return {};
 }
 
-// Removes as much noise as View::denoise says or, if that is empty, as was measured. Does not measure the
-// spacing again: where several scans overlap, removing the noise brings their points closer together than the
-// surface is sampled.
+// Removes the noise that View::denoise specifies or, if that is empty, the measured noise. The spacing is not
+// measured again: if several scans overlap, denoising moves their points closer together than the spacing at
+// which the surface was sampled.
 void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
   removed_noise_ = view.noise_to_remove(measured_noise_);
@@ -155,7 +156,7 @@ void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
 }
 
 bool MeasuredCloud::serves(const View& view) const {
-  // With a new field of View this line does not compile: decide here whether the field needs other measures.
+  // A new field of View breaks this line on purpose: decide here whether the field needs other measurements.
   const auto& [R_view_model, crop, has_crumbs, most_pieces, has_plane, gap, denoise, is_paper, is_best] =
       view;
   if (denoise != view_.denoise || crop != view_.crop) return false;

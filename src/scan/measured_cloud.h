@@ -1,5 +1,5 @@
-// Measures of a cloud that do not depend on the view, made once and used for every view: order, spacing,
-// normals without noise, curvature. Tested by tests/scan/measured_cloud_test.cpp.
+// Measurements of a cloud that do not depend on the view, made once for all views: order, spacing, denoised
+// normals, curvature. Tested by tests/scan/measured_cloud_test.cpp.
 #pragma once
 
 #include <memory>
@@ -13,36 +13,37 @@ namespace relievo {
 
 class MeasuredCloud {
  public:
-  // Measures the part of the cloud that the view's crop keeps, after removing the noise that the view asks
-  // for. Errors: those of find_surface() that do not depend on the visible points.
+  // Removes noise as the view specifies, and measures the part of the cloud inside the view's crop. Errors:
+  // those of find_surface() that do not depend on the visible points.
   static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
                                                               Progress* progress = nullptr);
 
-  // Returns whether the view may use these measures, because measuring for it would give the same. A crop and
-  // the exact outlines of a mesh depend on the direction of the view.
+  // Returns whether measuring for `view` would give the same results, so that they can be used for it. A crop
+  // and the exact outlines of a mesh depend on the direction of the view.
   bool serves(const View& view) const;
 
-  // Returns the view that the cloud was measured for.
+  // Returns the view for which the cloud was measured.
   const View& view() const { return view_; }
 
-  // Returns the points relative to the centre of their box, in the axes of the cloud and in the order of a
-  // space-filling curve, which makes all results independent of the file's order. Signs of estimated normals
-  // are arbitrary.
+  // Returns the points relative to the centre of their box, in the axes of the cloud. They are in the order
+  // of a space-filling curve, which makes all results independent of the file's order. Signs of estimated
+  // normals are arbitrary.
   const Cloud& cloud() const { return cloud_; }
   const Spacing& spacing() const { return spacing_; }
 
-  // Values that the surfaces of all views share.
+  // Values that are the same for the surfaces of all views.
   const Vec3& centre() const { return centre_; }
   double diagonal() const { return diagonal_; }
   std::size_t input_points() const { return input_points_; }
-  std::size_t repeated_points() const { return repeated_points_; }  // left out, see without_repeated_points()
+  // Number of points that without_repeated_points() left out.
+  std::size_t repeated_points() const { return repeated_points_; }
   bool has_estimated_normals() const { return has_estimated_normals_; }
   bool do_normals_point_inward() const { return do_normals_point_inward_; }
   double measured_noise() const { return measured_noise_; }
   double removed_noise() const { return removed_noise_; }
 
-  // Returns the mean curvature at points, for normals that point outwards. Values are kept, so that each
-  // point is measured once. May be called concurrently.
+  // Returns the mean curvature at points, for outward normals. Values are cached, so each point is measured
+  // only once. May be called concurrently.
   std::vector<double> curvature(std::span<const Index> points, const Progress* progress) const;
 
  private:
@@ -59,11 +60,11 @@ class MeasuredCloud {
   std::size_t input_points_ = 0, repeated_points_ = 0;
   bool has_estimated_normals_ = false, do_normals_point_inward_ = false;
   double measured_noise_ = 0, removed_noise_ = 0;
-  mutable Guarded<std::vector<double>> curvature_;  // per point; not a number where it is not measured yet
+  mutable Guarded<std::vector<double>> curvature_;  // per point; NaN if not measured yet
 };
 
-// Returns the surface that a view shows; see find_surface() of a cloud. The view must be one that `measured`
-// serves.
+// Returns the surface that a view shows, like find_surface() of a cloud. `measured.serves(view)` must be
+// true.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -14,23 +14,22 @@
 namespace relievo {
 namespace {
 
-constexpr int first_side_px = 512;  // side of the image from which the number of visible pixels is estimated
+constexpr int first_side_px = 512;  // side of the image that serves to estimate the number of visible pixels
 constexpr int rows_per_band = 32;
-// Interpolated normals may face away although the triangle does not. They are turned until they just face the
-// viewer.
+// The least n_z of interpolated normals. They may face away from the viewer although the triangle does not;
+// then they are turned until they just face the viewer.
 constexpr float least_corner_normal_z = .02F;
 
-// The mesh in view coordinates. All triangles are oriented so that they face the viewer.
+// The mesh in view coordinates, with all triangles facing the viewer.
 struct SeenMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
-  std::vector<std::array<Vec3f, 3>> normals;  // normals of the corners, not yet of unit length
+  std::vector<std::array<Vec3f, 3>> normals;  // normals of the corners, not normalised yet
   Box box;
 };
 
-// Returns whether the mesh's normals differ from those of its flat triangles, for more than 1 % of the
-// corners. Some programs write only the normals of the flat triangles, which would show the triangles instead
-// of the smooth shape.
+// Returns whether more than 1 % of the mesh's corner normals differ from the normals of its flat triangles.
+// Some programs write only the latter, which would show facets instead of the smooth shape.
 bool tells_normals(const Mesh& mesh) {
   const float same = .9999F;  // cosine of 0.8 degrees
   const auto count_told = [&](std::size_t begin, std::size_t end) {
@@ -98,29 +97,29 @@ std::size_t covered_pixels(const RasterInput& scene) {
   return covered;
 }
 
-// Returns the side of the pixels: the spacing asked for, or a side at which about the wanted number of pixels
-// show the mesh. Returns nothing if no pixel shows the mesh.
+// Returns the width of the pixels: the requested spacing, or the width at which about the wanted number of
+// pixels show the mesh. Returns nothing if no pixel shows the mesh.
 std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& options) {
   const double longer = seen.box.longer_side();
   const double finest = longer / (RasterInput::most_pixels / 8.0);
   if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
-  const int tries = 4;  // a wire that the first pixels miss shows in finer pixels
+  const int tries = 4;  // finer pixels may show a wire that the first pixels miss
   for (int i = 0; i < tries; ++i) {
     const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
-    const bool is_sure = covered > 1000;  // the area is then known to a few per cent
+    const bool is_sure = covered > 1000;  // then the area is accurate to a few per cent
     if (is_sure) return std::max(finest, pixel * std::sqrt(covered / options.points));
     pixel = std::max(finest, pixel / 4);
   }
   return std::nullopt;
 }
 
-// Samples the mesh at the centres of pixels. Draws the mesh with finer pixels, whose side is 1 / `fine` of a
-// pixel's side, to find where the outline is between the centres.
+// Samples the mesh at the centres of pixels. To find where the outline is between the centres, draws the mesh
+// with fine pixels, `fine` of which form the width of a pixel.
 class Sampler {
  public:
-  static constexpr int fine = 5;  // odd, so that the centre of a pixel is also that of a fine one
+  static constexpr int fine = 5;  // odd, so that the centre of a pixel is also the centre of a fine pixel
 
   Sampler(const Mesh& mesh, const SeenMesh& seen, double pixel)
       : mesh_(mesh),
@@ -149,8 +148,8 @@ class Sampler {
  private:
   static constexpr int middle = fine / 2;
 
-  // Draws the mesh and keeps the visible triangles along the middle lines of the pixels' rows and columns.
-  // The outline is searched for only along these lines.
+  // Draws the mesh. Keeps the visible triangles along the middle lines of the pixels' rows and columns,
+  // because the outline is searched only there.
   void draw() {
     along_rows_ = filled_image(columns_ * fine, rows_, no_index);
     along_columns_ = filled_image(columns_, rows_ * fine, no_index);
@@ -189,8 +188,8 @@ class Sampler {
   }
 
   // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. The
-  // point is at the last fine pixel that shows the mesh, unless that is next to the pixel's own point.
-  // seen_at(i) returns the triangle that is visible i fine pixels from the first pixel.
+  // point is at the last fine pixel that shows the mesh, unless that pixel is next to the pixel's own point.
+  // seen_at(i) returns the triangle that is visible i fine pixels after the first pixel.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {
     const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;
@@ -201,7 +200,7 @@ class Sampler {
     if (steps >= 2) add_at(seen_at(begin + steps * towards), begin + steps * towards);
   }
 
-  // Adds the point of a triangle at the centre of a fine pixel; does nothing for no_index.
+  // Adds the point of triangle t at the centre of a fine pixel, unless t is no_index.
   void add(Index t, int fine_column, int fine_row, Cloud& to) const {
     if (t == no_index) return;
     const Vec2 place(fine_column + .5, fine_row + .5);
@@ -234,7 +233,7 @@ class Sampler {
   Image<Index> along_rows_, along_columns_;
 };
 
-// Transforms a cloud from the view's frame to the model's.
+// Transforms a cloud from view coordinates to the model's axes.
 void turn_back(Cloud& cloud, const View& view, const Vec3& centre) {
   const Mat3 back = view.R_view_model.transpose();
   const Eigen::Matrix3f turn = back.cast<float>();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_neighbours = 64;  // size of arrays on the stack
 
-// Returns the direction of least variance of the members, or (0, 0, 1) if they coincide.
+// Returns the direction of least variance of the points with these indices, or (0, 0, 1) if they coincide.
 Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members) {
   Vec3 mean = Vec3::Zero();
   for (const Index i : members) mean += points[i];
@@ -36,7 +36,7 @@ Vec3f unit_normal(const Vec3& n) {
   const Vec3f rounded = n.cast<float>();
   const double rounding = 1e-6;  // several times the rounding error of the squared length of three floats
   if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
-  // n is scaled first because its squares may overflow.
+  // n is scaled first, because its squares may overflow.
   return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
 }
 
@@ -63,9 +63,9 @@ void turn_to_viewer(Cloud& viewed) {
 }
 
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
-  constexpr float seen_well = .5F;  // n_z of 60 degrees; at steeper points the estimated sign is not reliable
-  // The points whose normals have their final signs, in the order in which they got them; also the queue of a
-  // breadth-first search.
+  constexpr float seen_well = .5F;  // n_z of 60 degrees; for steeper points the estimated sign is unreliable
+  // The points whose normals have their final signs, in the order in which they got them. This is also the
+  // queue of a breadth-first search.
   std::vector<Index> settled;
   std::vector<std::uint8_t> is_settled(viewed.size(), 0);
   const auto settle = [&](Index i) {
@@ -78,7 +78,7 @@ void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const 
     for (const Index i : spacing.nearest[settled[next]]) {
       if (i == no_index || is_settled[i]) continue;
       Vec3f& n = viewed.normals[i];
-      // The neighbours whose signs are final vote on the sign of n, so that one wrong sign does not spread.
+      // The neighbours with final signs vote on the sign of n, so that a single wrong sign does not spread.
       float agreement = n.dot(viewed.normals[settled[next]]);
       for (const Index j : spacing.nearest[i])
         if (j != no_index && is_settled[j]) agreement += n.dot(viewed.normals[j]);

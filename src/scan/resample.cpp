@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// The weights of a triangle's corners at a point; one is negative if it is outside.
+// Returns the barycentric weights of a triangle's corners at p; a weight is negative if p is outside.
 Vec3 barycentric(const std::array<Vec2, 3>& corner, const Vec2& p) {
   const Vec2 a = corner[0] - p, b = corner[1] - p, c = corner[2] - p;
   const Vec3 areas(cross(b, c), cross(c, a), cross(a, b));

@@ -1,4 +1,4 @@
-// The constants were chosen on real and generated scans: docs/decisions/best-view.md.
+// For the choice of these constants see docs/decisions/best-view.md.
 #include "scan/scanned_side.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,10 +13,11 @@
 namespace relievo {
 namespace {
 
-constexpr double one_layer_share = .8;  // least one_layer of one-sided scans; closed models stay below .45
-constexpr double same_share = .05;      // smaller differences of one_layer between directions are ignored
+// Least one_layer of one-sided scans; closed models have less than .45.
+constexpr double one_layer_share = .8;
+constexpr double same_share = .05;  // smaller differences of one_layer between directions are ignored
 
-// A direction along which a scan may have been taken, or its opposite.
+// A direction along which a scan may have been taken; its sign is arbitrary.
 struct Direction {
   Vec3 along;
   double one_layer = 0;
@@ -26,7 +27,7 @@ View view_of(const Side& side) {
   return view_towards(side.towards_viewer, side.up).value_or(View{});
 }
 
-// Returns the upward direction that the named views have without `up`.
+// Returns the upward direction that parse_view() uses for the named views.
 Vec3 usual_up(const Vec3& towards_viewer) {
   const bool is_along_y = std::abs(towards_viewer.y()) > std::sqrt(.5);
   const Vec3 up = is_along_y ? Vec3(0, 0, towards_viewer.y() > 0 ? -1 : 1) : Vec3(Vec3::UnitY());
@@ -38,7 +39,7 @@ Direction measured(const Cloud& cloud, const Vec3& along, NormalSigns signs) {
   return {along, coarse_visibility(cloud, {{view}}, signs)[0].one_layer};
 }
 
-// Returns the mean of v v^T over the vectors that vector(i) returns for each point.
+// Returns the mean of v v^T over the vectors v = vector(i) of all points.
 template <typename F>
 Mat3 second_moment(std::size_t count, F vector) {
   Mat3 sum = Mat3::Zero();
@@ -49,8 +50,8 @@ Mat3 second_moment(std::size_t count, F vector) {
   return sum / static_cast<double>(count);
 }
 
-// Finds the scan's own direction: that of its normals or, where these point everywhere, that of its least or
-// second least extent.
+// Finds the scan's own direction. The candidates are the mean direction of the normals, their principal
+// direction, and the directions of the least and second least extent of the points.
 class OwnDirection {
  public:
   OwnDirection(const Cloud& cloud, NormalSigns signs) : cloud_(cloud), signs_(signs) {}
@@ -72,13 +73,12 @@ class OwnDirection {
     return best_;
   }
 
-  // Returns the angle from an axis of the file at which a scan is shown along that axis. The direction of a
-  // coin's normals is exact, that of a bust's depends on what was scanned of it.
+  // Returns the largest angle between scan and axis at which the scan is shown along the axis. The direction
+  // of a coin's normals is exact; the direction of a bust depends on which parts were scanned.
   double snap_deg() const { return is_flat_ ? 3 : 25; }
 
  private:
-  static constexpr double flat =
-      .85;  // least second moment of the normals of a flat scan along its direction
+  static constexpr double flat = .85;  // least second moment of a flat scan's normals along its direction
 
   void take(const Vec3& along) {
     const Direction next = measured(cloud_, along, signs_);
@@ -91,11 +91,11 @@ class OwnDirection {
   Direction best_{Vec3::UnitZ()};
 };
 
-// Returns +1 if a camera at the file's origin that looks along +Z would have seen the cloud, -1 if one that
-// looks along -Z would have, otherwise 0.
+// Returns +1 if a camera at the file's origin that looks along +Z could have seen the cloud, -1 for a camera
+// that looks along -Z, and 0 otherwise.
 double camera_along_z(const Cloud& cloud) {
-  constexpr double widest = 1.2;  // tangent of half the angle of view of a wide camera
-  constexpr double most = .99;    // share of the points that must be within that angle
+  constexpr double widest = 1.2;  // tangent of half the field of view of a wide camera
+  constexpr double most = .99;    // least share of the points inside that field of view
   std::size_t ahead = 0, behind = 0;
   for (const Vec3& p : cloud.points) {
     const bool is_within = std::max(std::abs(p.x()), std::abs(p.y())) < widest * std::abs(p.z());
@@ -106,7 +106,7 @@ double camera_along_z(const Cloud& cloud) {
   return static_cast<double>(ahead) > least ? 1 : static_cast<double>(behind) > least ? -1 : 0;
 }
 
-// Returns the direction of the scan, of unknown sign.
+// Returns the direction of the scan, with arbitrary sign.
 std::optional<Vec3> scan_direction(const Cloud& cloud, NormalSigns signs, bool is_from_camera) {
   std::vector<Direction> axes;
   for (const int axis : {2, 1, 0}) axes.push_back(measured(cloud, Vec3::Unit(axis), signs));
@@ -124,7 +124,7 @@ std::optional<Vec3> scan_direction(const Cloud& cloud, NormalSigns signs, bool i
   return direct.along;
 }
 
-// Returns the share of the width on which the lowest points stand, in a view whose x and y axes these are.
+// Returns the share of the width over which points are lowest, in a view with these x and y axes.
 double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
   constexpr double foot = .03;  // share of the height
   constexpr std::size_t most_points = 20'000;
@@ -143,8 +143,8 @@ double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
   return static_cast<double>(std::ranges::count(is_stood_on, true)) / is_stood_on.size();
 }
 
-// Returns the side, turned such that it stands on its broadest foot if that is much broader than its present
-// one. It is turned by multiples of `step_deg`.
+// Rotates the view so that the object stands on its broadest foot, if that is much broader than the present
+// one. Angles are multiples of `step_deg`.
 Side standing(const Cloud& cloud, const Side& side, int step_deg) {
   constexpr double broad = .6, broader = 2, same = .05;
   const Vec3 x = side.up.cross(side.towards_viewer);
@@ -165,7 +165,7 @@ Side standing(const Cloud& cloud, const Side& side, int step_deg) {
 }  // namespace
 
 std::optional<Side> scanned_side(const Cloud& cloud, NormalSigns signs) {
-  constexpr double camera_weight = .5;  // as a mark of the outside, see CoarseVisibility::outside
+  constexpr double camera_weight = .5;  // weight as evidence for an outside, see CoarseVisibility::outside
   const double camera = camera_along_z(cloud);
   const std::optional<Vec3> along = scan_direction(cloud, signs, camera != 0);
   if (!along) return {};
@@ -178,7 +178,7 @@ std::optional<Side> scanned_side(const Cloud& cloud, NormalSigns signs) {
   const Vec3 towards = mark(0) - mark(1) >= 2 * from_camera ? *along : Vec3(-*along);
   const Side side{towards, usual_up(towards)};
   if (camera != 0 && towards.z() == -camera) return Side{towards, {0, -camera, 0}};
-  // Who laid a scan along an axis laid it along the others, too.
+  // A scan that was aligned with one axis was probably aligned with the others, too.
   const bool is_along_axis = towards.cwiseAbs().maxCoeff() == 1;
   return standing(cloud, side, is_along_axis ? 90 : 1);
 }

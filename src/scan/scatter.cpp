@@ -22,9 +22,9 @@ std::vector<double> areas(const Mesh& mesh) {
   return areas;
 }
 
-// Returns barycentric coordinates for point number i. They are from the R2 sequence of Roberts (2018), which
-// fills a square evenly, folded into the triangle. Its constants are 1 / p and 1 / p^2 for the plastic number
-// p, the root of p^3 = p + 1.
+// Returns barycentric coordinates for point i. They come from the R2 sequence of Roberts (2018), which fills
+// a square evenly, folded into the triangle. Its constants are 1 / p and 1 / p^2 for the plastic number p,
+// the root of p^3 = p + 1.
 Vec3f spread_weights(std::size_t i) {
   constexpr double first = 0.7548776662466927, second = 0.5698402909980532;
   double whole = 0;
@@ -53,8 +53,8 @@ void add(const Mesh& mesh, const std::array<Vec3f, 3>& normals, std::size_t t, c
   if (!mesh.colours.empty()) to.colours.push_back({byte(0), byte(1), byte(2)});
 }
 
-// Thousands of triangles may meet at the apex of a cone. An even sample of this size gives the same normal;
-// comparing each triangle with all the others would take quadratic time.
+// Thousands of triangles may meet at the apex of a cone. An even sample of this size gives the same normal.
+// Comparing each triangle with all others would take quadratic time.
 constexpr std::size_t enough_members = 512;
 
 double angle_at(const Mesh& mesh, const Triangle& t, std::size_t corner) {
@@ -63,7 +63,7 @@ double angle_at(const Mesh& mesh, const Triangle& t, std::size_t corner) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Returns the corners at each position: 3 t + c for corner c of triangle t.
+// Returns the triangle corners at each position; corner c of triangle t is 3 t + c.
 Groups<Index, std::size_t> corners_at(const Mesh& mesh, const std::vector<Index>& place) {
   return grouped<Index, std::size_t>(mesh.points.size(), [&](auto&& add) {
     for (Index t = 0; t < mesh.triangles.size(); ++t)

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// Almost all points have local spacings of at most largest_ratio rho. The other points may be outliers.
+// Almost all points have local spacings of at most largest_ratio * rho. The other points may be outliers.
 constexpr double almost_all = .98, largest_ratio = 4;
 
 }  // namespace
@@ -36,16 +36,16 @@ Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points, 
         if (count < 2) return;
         const double area = std::numbers::pi * distances_sq[count - 1] / static_cast<double>(count - 1);
         spacing.local[i] = static_cast<float>(std::sqrt(area));
-        // Coincident points may come before the point itself. Leaves out one entry: the point, or the last
-        // entry if the point is not there.
+        // Coincident points may precede the point itself. Leaves out one entry: the point, or the last entry
+        // if the point is not in the list.
         const auto self = std::find(found.begin(), found.end() - 1, static_cast<Index>(i));
         std::copy(self + 1, found.end(), std::copy(found.begin(), self, spacing.nearest[i].begin()));
       },
       1024);
   if (points.size() < 2 || (progress && progress->is_cancelled())) return spacing;
-  // rho is the median, because a few far outliers or dense spots would change the mean. Where density varies
-  // much, as among the corners of a mesh, rho is larger: relative to the median, sparse parts would be taken
-  // for noise and holes.
+  // rho is the median, because some far outliers or dense spots would change the mean. If the density varies
+  // much, as among the corners of a mesh, rho is larger; otherwise sparse parts would count as noise and
+  // holes.
   std::vector<float> distances = spacing.local;
   const double least = static_cast<double>(quantile(distances, almost_all)) / largest_ratio;
   spacing.rho = static_cast<double>(median(distances));

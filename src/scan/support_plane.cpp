@@ -15,29 +15,31 @@
 namespace relievo {
 namespace {
 
-// Planes are tried on a few points, and the best plane is judged on more points.
+// Planes are tried with few points; the best plane is verified with more points.
 constexpr std::size_t tried_points = 1024, judged_points = 16384;
-// If a plane has a twelfth of all points, one try in 1,728 draws three points of this plane; 6,000 tries miss
-// the plane with probability 0.03.
+// If a plane contains a twelfth of all points, one try in 1,728 draws three of its points. Then 6,000 tries
+// miss the plane with probability 0.03.
 constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
-    .01;  // share of the visible points' diagonal: the noise of a depth camera across a table
-// The tolerance is limited, because each fit widens it where the points do not gather about a plane.
+    .01;  // share of the visible points' diagonal; a depth camera's noise across a table
+// The tolerance is limited, because each fit widens it if the points do not concentrate at a plane.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
-constexpr double widest_angle_deg =
-    30;                               // between a plane and the normals of its points, which noise scatters
-constexpr double least_share = .08;   // of the points: smaller planes do no harm to a relief
-constexpr double least_figure = .02;  // points before the plane, as a share of all points
-constexpr double most_behind = .1;    // points behind the plane, as a share of those behind or before it
-constexpr double least_over = .7;     // points over the plane's points, as a share of those before it
-// A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals
-// and letters rise by less.
+constexpr double widest_angle_deg = 30;  // between a plane and the normals of its points, which are noisy
+constexpr double least_share = .08;      // share of the points; smaller planes do not disturb a relief
+constexpr double least_figure = .02;     // points in front of the plane, as a share of all points
+// Points behind the plane, as a share of the points behind it or in front of it.
+constexpr double most_behind = .1;
+// Points whose projection falls on the plane's points, as a share of the points in front of it.
+constexpr double least_over = .7;
+// A figure rises by at least this share of the side of a square with its area. Reliefs, medals and letters
+// rise by less.
 constexpr double least_rise = .2;
-constexpr double least_plane_facing = .1;  // z of the normal: a plane that is seen edge on covers nothing
+// Least z of the plane's normal; a plane seen edge-on covers nothing.
+constexpr double least_plane_facing = .1;
 constexpr double steepest_table_deg =
-    65;  // between a table and the view's up direction: cameras look down on tables
+    65;  // between a table's normal and the view's up direction; cameras look down on tables
 
 struct Plane {
   Vec3 normal = Vec3::UnitZ();
@@ -80,7 +82,7 @@ std::optional<Plane> plane_through(const Sample& sample, const std::array<std::s
   return plane;
 }
 
-// Counts of the points on a plane, before it and behind it.
+// The numbers of points on a plane, in front of it and behind it.
 struct SideCounts {
   std::size_t on = 0, before = 0, behind = 0;
   bool has_figure_before() const {
@@ -103,8 +105,9 @@ SideCounts sides_of(const Plane& plane, const Sample& sample, double tolerance) 
   return sides;
 }
 
-// Tries planes with nearly all other points before them, and returns the plane with most points on it: random
-// sample consensus, after Fischler and Bolles 1981, with normals as in Schnabel, Wahl and Klein 2007.
+// Tries planes that have nearly all other points in front of them. Returns the plane with the most points on
+// it. The method is random sample consensus (Fischler and Bolles 1981), with normals as in Schnabel, Wahl and
+// Klein 2007.
 std::optional<Plane> best_plane(const Sample& sample, double tolerance) {
   struct Best {
     std::size_t on = 0;
@@ -139,7 +142,7 @@ std::vector<std::size_t> points_on(const Plane& plane, const Sample& sample, dou
   return on;
 }
 
-// Returns the least squares plane of the points `on`.
+// Returns the least-squares plane of the points `on`.
 Plane fitted(const Sample& sample, const std::vector<std::size_t>& on) {
   Vec3 mean = Vec3::Zero();
   for (const std::size_t i : on) mean += sample.points[i];
@@ -172,8 +175,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-// Returns the approximate area that points in a plane cover: the area of the cells of a grid that contain
-// points.
+// Returns the approximate area of points in a plane: the area of all grid cells that contain points.
 double covered_area(const std::vector<Vec2>& points) {
   constexpr int side = 64;
   const Box box = Box::of(points);
@@ -189,7 +191,7 @@ double covered_area(const std::vector<Vec2>& points) {
   return cell * cell * static_cast<double>(std::ranges::count(is_covered, 1));
 }
 
-// Returns whether the points before the plane stand over it, and rise as a figure does.
+// Returns whether the points in front of the plane are above its points, and rise as much as a figure does.
 bool has_figure_over(const Plane& plane, const Sample& sample, const std::vector<std::size_t>& on,
                      double tolerance) {
   const Vec3 t1 = plane.normal.unitOrthogonal(), t2 = plane.normal.cross(t1);
@@ -240,9 +242,9 @@ std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<co
     plane = fitted(sample, on);
     std::vector<double> off;
     for (const std::size_t i : on) off.push_back(std::abs(plane.height(sample.points[i])));
-    // The tolerance is three standard deviations; 95 % of a normal distribution lie within 1.96. A tolerance
-    // from the median would leave half of a far table, because the noise of depth cameras grows with the
-    // distance.
+    // The tolerance is three standard deviations; 95 % of a normal distribution are within 1.96. A tolerance
+    // computed from the median would leave half of a distant table, because the noise of depth cameras grows
+    // with distance.
     tolerance = std::max(3 / 1.96 * quantile(off, .95), rho);
   }
   const std::vector<std::size_t> on = points_on(plane, sample, tolerance);

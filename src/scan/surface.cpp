@@ -32,23 +32,24 @@ struct ShownPoints {
   std::vector<Index>& hole_fill;
 };
 
-// A connected set of the points that remain when the plane is left out: their box, and the number of points
-// that are high over the plane.
+// A connected part that remains when the plane is removed: its box, and the number of its points high above
+// the plane.
 struct LeftPiece {
   Box box;
   std::size_t high = 0;
 };
 
-// Leaves out the remains of a plane: pieces that, for their size, stay low over the plane. They remain
-// because depth cameras bend tables, and boards have ridges. Also leaves out debris: pieces that are much
-// smaller than the largest one.
+// Removes what remains of a plane: parts that are low above the plane for their size. They remain because
+// depth cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than
+// the largest one.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
-  constexpr double low = 4;             // height, in tolerances
-  constexpr double flat = .05;          // height, as a share of the diagonal of the piece's box
-  constexpr double connected = 3;       // distance, in local spacings, as for floating noise: see visible.cpp
-  constexpr double high_share = .1;     // least share of high points in a figure
-  constexpr double debris_share = .03;  // least size of a piece, as a share of the largest piece
+  constexpr double low = 4;          // height, in tolerances
+  constexpr double flat = .05;       // height, as a share of the diagonal of the piece's box
+  constexpr double connected = 3;    // distance, in local spacings, as for floating noise in visible.cpp
+  constexpr double high_share = .1;  // least share of high points in a figure
+  // Size of the smallest part that is kept, as a share of the largest part.
+  constexpr double debris_share = .03;
   std::vector<std::uint8_t> is_left(cloud.size(), 0);
   for (const Index i : visible) is_left[i] = 1;
   DisjointSets sets(cloud.size());
@@ -58,7 +59,7 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
         sets.join(i, j);
   std::vector<LeftPiece> pieces;
-  std::vector<Index> numbers(cloud.size(), no_index);  // number of each piece, by its representative
+  std::vector<Index> numbers(cloud.size(), no_index);  // index of each part, by its representative
   const auto piece_of = [&](Index i) -> LeftPiece& {
     Index& number = numbers[sets.find(i)];
     if (number == no_index) {
@@ -84,8 +85,8 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
   if (!rest.empty()) visible = std::move(rest);
 }
 
-// Removes from the shown points those of the plane, of pieces that stay low over the plane, and of debris.
-// Also removes the outlines in the plane from the cloud.
+// Removes from the shown points those of the plane, parts that are low above the plane, and debris. Also
+// removes outlines in the plane from the cloud.
 void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
                      const ShownPoints& shown) {
   const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };
@@ -122,7 +123,7 @@ std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Inde
   return k;
 }
 
-// Does stages 3 and 4: sets the surface's points, normals and colours.
+// Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "visible points", .3));
   Cloud& cloud = viewed.cloud;
@@ -141,7 +142,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
   if (surface.plane && !surface.view.has_plane)
     leave_out_plane(*surface.plane, spacing, cloud, {visible, hole_fill});
   surface.visible_points = visible.size();
-  // Hole fill points get level normals, because the front is not known there.
+  // Hole-fill points get level normals, because the visible surface is unknown there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 
   RELIEVO_CHECK(begin_stage(progress, "curvature", .4));
@@ -156,8 +157,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Does stage 5, and the part of stage 6 that sets `is_inside`; put_points_on_outlines() sets the rest of the
-// boundary.
+// Stage 5, and `is_inside` of stage 6. put_points_on_outlines() sets the rest of the boundary.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
@@ -201,14 +201,14 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
   RELIEVO_CHECK(triangulate(surface, measures, progress));
   RELIEVO_CHECK(begin_stage(progress, "boundary", .65));
   if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
-  // The outline of a picture is that of its pixels, which all have to stay.
+  // The outline of a picture is that of its pixels, none of which may be replaced.
   if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Vec2> xy = in_plane(surface.points);
   complete(surface.boundary, xy, surface.triangulation);
   surface.curvature =
       normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
-  // Only the boundary needs the neighbours; they take as much memory as the triangles.
+  // Only the boundary needs the neighbours, which take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
 }

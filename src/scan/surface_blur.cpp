@@ -7,10 +7,9 @@
 namespace relievo {
 namespace {
 
-constexpr double most_cells = 1 << 24;  // cells of the whole grid
-// The standard deviation of the blur, in cells. The variances of its three steps add up: distributing to
-// cells and interpolating back, both linear, have 1/6 each; averaging neighbours with weights 1, 2, 1 has
-// 1/2.
+constexpr double most_cells = 1 << 24;  // largest number of cells of the whole grid
+// The standard deviation of the blur, in cells. The variances of its three steps add up: linear distribution
+// to cells and linear interpolation have 1/6 each; averaging neighbours with weights 1, 2, 1 has 1/2.
 const double sigma_in_cells = std::sqrt(5.0 / 6);
 constexpr std::size_t grain = 512;  // columns that one task averages
 
@@ -19,13 +18,13 @@ constexpr std::size_t grain = 512;  // columns that one task averages
 SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(points.size()) {
   const Box box = Box::of(points);
   double side = sigma / sigma_in_cells;
-  // The counts may exceed std::size_t, which has 32 bits in WebAssembly.
+  // The product may exceed std::size_t, which has 32 bits in WebAssembly, so counts are doubles.
   const auto count = [&](int axis) { return std::floor(box.size()[axis] / side) + 4; };
   while (count(0) * count(1) * count(2) > most_cells) side *= 1.1;
   width_ = static_cast<std::size_t>(count(0));
   parallel_for(points.size(), [&](std::size_t i) {
-    // One cell of margin makes room for the neighbours. The margin is added after rounding down, because the
-    // sum could be rounded up to the next cell.
+    // A margin of one cell provides space for neighbours. It is added after rounding down, because the sum
+    // could be rounded up to the next cell.
     const Vec3 from_corner = (points[i] - box.min) / side;
     const Vec3 cell = from_corner.array().floor() + 1, share = from_corner + Vec3::Ones() - cell;
     const auto x = static_cast<std::size_t>(cell.x()), y = static_cast<std::size_t>(cell.y());
@@ -34,7 +33,7 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   columns_ = columns_around_points(width_ * static_cast<std::size_t>(count(1)));
 }
 
-// Returns `count` columns of the cells around the points, from which values are interpolated, then an empty
+// Returns the `count` columns of cells around the points, from which values are interpolated, and an empty
 // column.
 std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points(std::size_t count) const {
   std::vector<Column> filled(count), around(count + 1);
@@ -51,7 +50,7 @@ std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points(std::size_t 
   return around;
 }
 
-// Calls f(cell, weight) for the eight cells around a place.
+// Calls f(cell, weight) for the eight cells around a position.
 template <typename F>
 void SurfaceBlur::each_corner(const Place& place, F&& f) const {
   const Vec3f& share = place.share;
@@ -64,7 +63,7 @@ void SurfaceBlur::each_corner(const Place& place, F&& f) const {
   }
 }
 
-// Sets each cell to twice itself plus its neighbours in the columns `step` before and after. The column
+// Sets each cell to twice its value plus its neighbours in the columns `step` before and after. The column
 // before the first one of a row is the last one of another row. Both are margins whose averages are never
 // used.
 void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& averages) const {
@@ -84,7 +83,7 @@ void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& av
       grain);
 }
 
-// Sets each cell to twice itself plus its neighbours in its column.
+// Sets each cell to twice its value plus its two neighbours in the same column.
 void SurfaceBlur::average_along(const Cells& cells, Cells& averages) const {
   parallel_for(
       columns_.size() - 1,

@@ -1,5 +1,5 @@
-// Gaussian blur along a surface. It averages points that are near each other in space: points beyond a depth
-// jump do not take part although they are near in the view plane.
+// Gaussian blur along a surface. It averages points that are close in space, so points beyond a depth jump do
+// not count, although they are close in the view plane.
 #pragma once
 
 #include <algorithm>
@@ -10,24 +10,24 @@
 
 namespace relievo {
 
-// A blur with a Gaussian of one width, prepared for given points. The points' values are distributed to a
-// grid of cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values
-// are interpolated back. Only cells around the points are kept: in each column of the grid along z, the cells
-// from the lowest to the highest point around the column.
+// A Gaussian blur of one width, prepared for given points. The points' values are distributed to a grid of
+// cells about as wide as the Gaussian, averaged with neighbouring cells, and interpolated back. Only cells
+// around the points are stored: in each column along z, the cells from the lowest to the highest point near
+// the column.
 class SurfaceBlur {
  public:
-  // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.
+  // `sigma` > 0 is the standard deviation. It is increased if the grid would have more than 2^24 cells.
   SurfaceBlur(std::span<const Vec3> points, double sigma);
 
-  // Replaces each value, one per point, by the average around the point.
+  // Replaces each value, one per point, by the average around its point.
   void apply(std::span<Vec2f> values) const;
 
   std::size_t number_of_cells() const { return columns_.back().first; }
 
  private:
-  // The cells with one x and y, and z in [low, high). The cells of the next column follow in memory.
+  // The cells with the same x and y, and z in [low, high). The cells of the next column follow in memory.
   struct Column {
-    std::size_t first = 0;  // number of the cell at `low`
+    std::size_t first = 0;  // index of the cell at `low`
     int low = 0, high = 0;
 
     bool is_empty() const { return low == high; }
@@ -38,7 +38,7 @@ class SurfaceBlur {
       high = std::max(high, to);
     }
   };
-  // Names the cell with the smallest coordinates among the eight cells around a point; `share` is the point's
+  // The cell with the smallest coordinates among the eight cells around a point. `share` is the point's
   // position between that cell and the others.
   struct Place {
     Index column = 0;
@@ -53,9 +53,9 @@ class SurfaceBlur {
   void average_across(std::size_t step, const Cells& cells, Cells& averages) const;
   void average_along(const Cells& cells, Cells& averages) const;
 
-  std::size_t width_ = 0;  // columns in a row
+  std::size_t width_ = 0;  // columns per row
   std::vector<Place> places_;
-  std::vector<Column> columns_;  // the last one is empty and begins behind the last cell
+  std::vector<Column> columns_;  // the last one is empty and begins after the last cell
 };
 
 }  // namespace relievo

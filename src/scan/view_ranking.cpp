@@ -1,4 +1,4 @@
-// Ranks the sides of a model. Declared in view.h. The constants were chosen on real scans:
+// Ranks the sides of a model. Declared in view.h. For the choice of the constants see
 // docs/decisions/best-view.md.
 #include <algorithm>
 #include <array>
@@ -21,10 +21,10 @@ namespace {
 using Sides = std::array<ViewGuess, 6>;
 
 constexpr double front_weight = 1.6;   // factor of the side that is the front in most files
-constexpr double beside_scan = .25;    // factor of the sides at right angles to the direction of a scan
-constexpr double perhaps_hollow = .5;  // factor of sides whose shape is that of a hollow back
+constexpr double beside_scan = .25;    // factor of the sides perpendicular to the direction of a scan
+constexpr double perhaps_hollow = .5;  // factor of sides with the shape of a hollow back
 
-// Writes a direction as parse_view() takes it.
+// Formats a direction for parse_view().
 std::string text_of(const Vec3& direction) {
   std::string text;
   for (const double x : direction) {
@@ -45,7 +45,7 @@ ViewGuess guess_of(const Side& side) {
   return {text_of(side.towards_viewer), text_of(side.up)};
 }
 
-// Returns the six sides of a model with that front. Opposite sides follow each other.
+// Returns the six sides of a model with this front. Opposite sides are next to each other.
 Sides sides_around(const Side& front) {
   const auto& [towards, up] = front;
   const Vec3 right = up.cross(towards);
@@ -53,8 +53,8 @@ Sides sides_around(const Side& front) {
           guess_of({right, up}), guess_of({-up, towards}), guess_of({up, -towards})};
 }
 
-// Returns the area of the box of the lowest points along an axis, or against it, as a share of the area of the
-// whole box. Both areas are seen along that axis.
+// Returns the area of the bounding box of the lowest points along an axis (or along its opposite), as a share
+// of the whole box's area. Both areas are perpendicular to the axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   constexpr double foot = .03;  // share of the height
   const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];
@@ -67,8 +67,8 @@ double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   return share;
 }
 
-// Returns the front of a model that stands upright: +Z with Y upwards or, if the model has a much wider foot
-// there, -Y with Z upwards, or -Z with -Y upwards, as in the frames of cameras.
+// Returns the front of an upright model: +Z, with Y upwards. If the model has a much wider foot there, the
+// front is -Y with Z upwards, or -Z with -Y upwards as in the coordinates of cameras.
 Side front_of(const Cloud& cloud) {
   constexpr double wide = .3, wider = 3;
   const Box box = bounds(cloud);
@@ -85,7 +85,7 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns the share of a side that is the outside of its model. Without signs of the normals, its shape tells.
+// Returns how much of a side is an outside: from the signs of its normals or, without signs, from its shape.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   if (has_signs) return seen.facing_share;
   return seen.outside < 0 ? perhaps_hollow : 1;

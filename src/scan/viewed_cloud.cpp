@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Returns the points, normals and outlines of a cloud in a view. The colours are left out.
+// Returns the points, normals and outlines of a cloud in a view, without colours.
 Cloud turned(const Cloud& cloud, const Mat3& R) {
   const Eigen::Matrix3f rotation = R.cast<float>();
   Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};
@@ -24,7 +24,7 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
   return out;
 }
 
-// Estimates the normals again and keeps their signs. Uses more neighbours because of the noise.
+// Estimates the normals again, but keeps their signs. Uses more neighbours, because of the noise.
 void estimate_again(Cloud& cloud, double noise) {
   constexpr double neighbours = 16, more_neighbours = 48;
   const std::vector<Vec3f> before = cloud.normals;
@@ -33,8 +33,8 @@ void estimate_again(Cloud& cloud, double noise) {
     if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
 }
 
-// Gives estimated normals the signs that the view suggests. Only then can the noise be measured; removes it,
-// too.
+// Gives estimated normals the signs that the view implies. Then measures the noise, which needs the signs,
+// and removes it.
 void sign_normals(ViewedCloud& viewed, Surface& surface) {
   give_signs(viewed.cloud, viewed.spacing());
   surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());
@@ -44,7 +44,8 @@ void sign_normals(ViewedCloud& viewed, Surface& surface) {
   remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);
 }
 
-// Returns the share of the surface's area in the view plane that faces the viewer, all layers included.
+// Returns the share of the area, in the view plane, of all points whose normals face the viewer, hidden
+// points included.
 double facing_share(const ViewedCloud& viewed) {
   double facing = 0, total = 0;
   for (std::size_t i = 0; i < viewed.cloud.size(); ++i) {
@@ -56,7 +57,7 @@ double facing_share(const ViewedCloud& viewed) {
   return total > 0 ? facing / total : 1;
 }
 
-// Returns the options of the best view of the cloud other than `view`.
+// Returns the options for the best view of the cloud other than `view`.
 std::string other_view(const MeasuredCloud& measured, const View& view) {
   Cloud cloud = measured.cloud();
   for (Vec3& p : cloud.points) p += measured.centre();

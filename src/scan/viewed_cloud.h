@@ -1,32 +1,33 @@
-// The cloud of a view, before its visible points are known (stage 2).
-// Tested by tests/scan/surface_test.cpp.
+// The cloud in a view, before its visible points are known (stage 2). Tested by tests/scan/surface_test.cpp.
 #pragma once
 
 #include "scan/measured_cloud.h"
 
 namespace relievo {
 
-// The whole cloud as the view shows it, with signed normals and without noise.
+// The whole cloud in view coordinates, with signed normals and without noise.
 struct ViewedCloud {
-  Cloud cloud;  // without its colours
+  Cloud cloud;  // without colours
   const MeasuredCloud& measured;
   double sign = 1;  // -1 if the measured normals were reversed, else 1
 
   const Spacing& spacing() const { return measured.spacing(); }
 };
 
-// Returns a surface without points, with what it takes over from the measurements and the view.
+// Returns a surface without points. It has all properties that follow from the measurements and the view.
 Surface surface_of_view(const MeasuredCloud& measured, const View& view);
 
-// Turns the cloud into the view of the surface, with signed normals and without the noise that the view asks to
-// remove. Sets the surface's rho, its facts about normals, and those about noise.
+// Returns the cloud in the view of the surface, with signed normals and without the noise that the view asks
+// to remove. Sets the surface's rho, and its properties about normals and noise.
 ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface);
 
-// Returns an error that names a better view if nine tenths of the surface face away from the viewer. Otherwise
-// the relief would be made of the rest, as of the back of a bust that was scanned from the front.
+// Returns an error that names a better view, if nine tenths of the surface face away from the viewer. A
+// relief would show only the remaining tenth, as when a bust that was scanned from the front is viewed from
+// behind.
 Result<void> check_side(const ViewedCloud& viewed, const View& view);
 
-// Return the errors of a view in which only so many points face the viewer, and of visible points on one line.
+// Return the errors for a view in which only `visible` points face the viewer, and for collinear visible
+// points.
 std::unexpected<Error> too_few_visible(std::size_t visible);
 std::unexpected<Error> no_area_error();
 

@@ -13,19 +13,19 @@
 namespace relievo {
 namespace {
 
-constexpr double pixel_side = 0.5;  // of the depth buffer, in rho: finer than the discs, which overlap
-// In rho. Of points that are closer together in the view plane, only the one nearest to the viewer is kept.
+constexpr double pixel_side = 0.5;  // width of the depth buffer's pixels, in rho; discs are wider
+// In rho. Of points closer together than this in the view plane, only the nearest to the viewer is kept.
 constexpr double coincidence_distance = .01;
-// Connected sets of fewer visible points are taken for floating noise.
+// Connected sets of fewer visible points count as floating noise.
 constexpr std::size_t smallest_fragment = 32;
-// Neighbours further apart than this, in local spacings, are not connected. A disc of this radius contains 9
-// pi = 28 points.
+// In local spacings. Neighbours farther apart are not connected. A disc of this radius contains 9 pi = 28
+// points.
 constexpr double connection_length = 3;
-// A set is a fragment only if it has fewer points than the number of visible points divided by this;
-// otherwise all of a small cloud would be fragments.
+// A set is a fragment only if it has fewer points than the number of visible points divided by this.
+// Otherwise all of a small cloud would be fragments.
 constexpr std::size_t fragment_divisor = 8;
-// In rho: the largest local spacing of hole fill points, which are taken only from well sampled surfaces, and
-// the least distance between hole fill points.
+// In rho: the largest local spacing of points that may become hole-fill points, because only densely sampled
+// surfaces supply them, and the least distance between hole-fill points.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {
@@ -37,8 +37,8 @@ class Visibility {
     std::vector<Index> visible = in_front();
     std::size_t removed = mark_fragments(visible);
     if (removed > 0) {
-      // Without the fragments other points become visible. New fragments among these points are removed, but
-      // the search is not repeated again.
+      // Without the fragments other points become visible. New fragments among these are removed, but the
+      // search is not repeated again.
       visible = in_front();
       removed += mark_fragments(visible);
     }
@@ -72,8 +72,8 @@ class Visibility {
     return facing;
   }
 
-  // Compares depths at the centre of the point's pixel, for which the buffer's depth was computed: on a slope
-  // the depth there differs from the point's own.
+  // Compares depths at the centre of the point's pixel, where the depth buffer was computed. On a slope that
+  // depth differs from the point's.
   bool is_in_front(Index i, const DepthBuffer& buffer) const {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();
@@ -83,7 +83,7 @@ class Visibility {
     return depth + tolerance >= static_cast<double>(buffer.depth(p.x(), p.y()));
   }
 
-  // Marks the visible points of small connected sets. Returns their number.
+  // Marks the visible points of small connected sets. Returns the number of these points.
   std::size_t mark_fragments(const std::vector<Index>& visible) {
     std::vector<std::uint8_t> is_visible(cloud_.size(), 0);
     for (const Index i : visible) is_visible[i] = 1;
@@ -101,13 +101,13 @@ class Visibility {
     return marked;
   }
 
-  // Keeps, of points that nearly coincide in the view plane, only the one nearest to the viewer. The
-  // triangulation in the plane uses only one of coincident points, and coordinates rounded to single
-  // precision in a file must stay distinct.
+  // Of points that nearly coincide in the view plane, keeps only the nearest to the viewer. The triangulation
+  // uses only one of coincident points, and coordinates must stay distinct when files round them to single
+  // precision.
   std::vector<Index> without_coincident(std::vector<Index> visible) const {
     const auto at = [&](Index i) -> const Vec3& { return cloud_.points[i]; };
-    // A sweep along x would compare all points of a column of a range image, which have the same x. Along
-    // this unit direction, 35.8 degrees from the x axis, no rows, columns or diagonals of a grid coincide.
+    // A sweep along x would compare all points of a column of a range image, which have the same x. This unit
+    // direction, 35.8 degrees from the x axis, separates the rows, columns and diagonals of a grid.
     const auto along = [&](Index i) { return .811 * at(i).x() + .585 * at(i).y(); };
     std::sort(visible.begin(), visible.end(),
               [&](Index a, Index b) { return std::pair(along(a), a) < std::pair(along(b), b); });
@@ -129,8 +129,7 @@ class Visibility {
   std::vector<std::uint8_t> is_fragment_;
 };
 
-// Returns some of the points, such that no two of them are nearer to each other than `distance` in the view
-// plane.
+// Returns some of the points, no two of which are nearer to each other than `distance` in the view plane.
 std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> points, double distance) {
   const auto at = [&](Index i) -> Vec2 { return cloud.points[i].head<2>(); };
   std::ranges::sort(points, {}, [&](Index i) { return std::pair(at(i).x(), i); });

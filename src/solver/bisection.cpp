@@ -9,11 +9,12 @@
 namespace relievo::solver {
 namespace {
 
-// Share of the vertices that must stay on either side; the remaining 30 % in the middle are the band in which
-// the separator is sought. A wider band allows a shorter separator, but sides of less equal size.
+// Share of the vertices that is assigned to each side in advance. The remaining 30 % in the middle form the
+// band in which the separator is sought. A wider band allows a shorter separator, but sides of less equal
+// size.
 constexpr double core_share = .35;
 
-// The positions of the vertices along one direction, and the limits of the band.
+// The positions of the vertices along a direction, and the limits of the band.
 struct Sweep {
   Eigen::Vector2f direction = {1, 0};
   std::vector<float> value;
@@ -24,8 +25,8 @@ bool is_in_band(const Sweep& sweep, Index v) {
   return sweep.value[v] >= sweep.low && sweep.value[v] <= sweep.high;
 }
 
-// Sets the limits of the band. Quantiles of a sample of 1,024 are accurate enough, because the flow then
-// finds the separator within the band.
+// Sets the limits of the band. Quantiles of a sample of about 1,024 vertices are accurate enough, because the
+// flow finds the best separator within the band.
 void find_band(Sweep& sweep) {
   const std::size_t most = 1024, n = sweep.value.size(), step = (n + most - 1) / most;
   std::vector<float> sample;
@@ -45,8 +46,9 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
 }
 
 // Returns the direction in which the positions spread most: the principal axis of their covariance.
-// Separators across it are mostly short. If all directions are alike, rounding decides. The direction is
-// still the same on every machine, because sums, quotients and square roots have the same bits everywhere.
+// Separators perpendicular to it are usually short. If the positions spread equally in all directions,
+// rounding decides; the result is still the same on every machine, because sums, quotients and square roots
+// have the same bits everywhere.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2f& p : positions) mean += p.cast<double>();
@@ -100,8 +102,8 @@ void count_sides(Bisection& cut) {
     ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
 }
 
-// Edges that cross the whole band are not part of its graph, so they may still join the two sides. Their ends
-// on the first side are moved to the separator.
+// Edges that cross the whole band are not part of its graph, so they may still connect the two sides. Their
+// ends on the first side are moved to the separator.
 void close_gaps(const Graph& graph, Bisection& cut) {
   for (Index v = 0; v < graph.size(); ++v) {
     if (cut.side[v] != Side::first) continue;
@@ -112,10 +114,10 @@ void close_gaps(const Graph& graph, Bisection& cut) {
   count_sides(cut);
 }
 
-// Estimates the factor entries that a bisection causes. The separator of s vertices is eliminated as a dense
-// triangle of s^2 / 2 entries, plus s entries in each row below it, on average 2.2 sqrt(n) rows. Sides of
-// unequal size cause 2 n (1 - H) entries more than equal ones, with H the entropy of the split in bits. See
-// docs/decisions/solver.md.
+// Estimates the number of factor entries that a bisection causes. A separator of s vertices is eliminated as
+// a dense triangle of s^2 / 2 entries, plus s entries in each row below it, on average 2.2 sqrt(n) rows.
+// Sides of unequal size cause 2 n (1 - H) more entries than equal ones; H is the entropy of the split in
+// bits. See docs/decisions/solver.md.
 double cost(const Bisection& cut) {
   if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
   const double n = static_cast<double>(cut.side.size()), s = cut.separator;
@@ -165,7 +167,8 @@ std::vector<Index> wave(const Graph& graph, Index start) {
   return order;
 }
 
-// Bisects by the breadth-first rank from a vertex at the graph's rim, which replaces a coordinate.
+// Bisects by breadth-first rank, which replaces a coordinate. The search starts at a vertex at the rim of the
+// graph.
 Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());
@@ -177,8 +180,8 @@ Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> p
 
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   Bisection cut = cut_along(graph, positions, widest_sweep(positions));
-  // A planar graph has a separator of about sqrt(n) vertices (Lipton and Tarjan 1979). A separator of four
-  // times that size shows that the positions do not fit the graph.
+  // A planar graph has a separator of about sqrt(n) vertices (Lipton and Tarjan 1979). If the separator has
+  // four times as many, the positions do not fit the graph.
   if (cut.separator > 4 * std::sqrt(static_cast<double>(graph.size())) || cut.first == 0 || cut.second == 0) {
     Bisection other = cut_by_distance(graph, positions);
     if (cost(other) < cost(cut)) return other;

@@ -18,22 +18,23 @@ Vector laplacian(const BoundedFit& fit, const Vector& x) {
   return fit.A.selfadjointView<Eigen::Lower>() * x;
 }
 
-// Returns the product of the energy's Hessian H with x. `misfit` is A x.
+// Returns H x, where H is the Hessian of the energy. `misfit` is A x.
 Vector hessian(const BoundedFit& fit, const Vector& misfit) {
   return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
 }
 
-// The matrix H + D of a Newton step, D being diagonal. Systems with it are solved by conjugate gradients.
-// Their preconditioner is A + D, or (A + E) M^-1 (A + E) with E = sqrt(M D), whose part without A and whose
-// part without D are those of the matrix (Pearson and Wathen, 2012): the number of iterations hardly grows
-// with the number of unknowns, and only A + E is factored, which is as sparse as A.
+// The matrix H + D of a Newton step; D is diagonal. Systems with this matrix are solved by preconditioned
+// conjugate gradients. A membrane has H = A, and the preconditioner is A + D. A plate has H = A M^-1 A, and
+// the preconditioner is (A + E) M^-1 (A + E) with E = sqrt(M D), which equals H + D plus mixed terms (Pearson
+// and Wathen, 2012). The number of iterations hardly grows with the number of unknowns. Only A + D or A + E
+// is factored, which is as sparse as A.
 class NewtonMatrix {
  public:
   static Result<NewtonMatrix> factor(const BoundedFit& fit, Vector D) {
     Eigen::SparseMatrix<double> shifted = fit.A;
     const Vector E = is_plate(fit) ? Vector(fit.mass.cwiseProduct(D).cwiseSqrt()) : D;
-    // A alone is nearly singular, and D is small where nothing is near a bound. The least shift holds a point
-    // like a spring over 300 edges.
+    // A alone is nearly singular, and D is small far from the bounds. With this least shift, the effect of a
+    // force decays over about 300 edges.
     constexpr double least_shift = 1e-5;
     for (int i = 0; i < shifted.cols(); ++i) {
       double& diagonal = shifted.coeffRef(i, i);
@@ -43,7 +44,7 @@ class NewtonMatrix {
     return NewtonMatrix(fit, std::move(D), std::move(factor));
   }
 
-  // Reduces the residual to a hundredth; the next step corrects the rest.
+  // Reduces the residual to a hundredth; the next Newton step corrects the rest.
   Vector solve(const Vector& b) {
     constexpr int most_iterations = 200;
     constexpr double reduction = 1e-2;
@@ -85,7 +86,7 @@ class NewtonMatrix {
   Cholesky::Workspace workspace_;
 };
 
-// Returns the largest step in [0, 1] that leaves at least a hundredth of all values.
+// Returns the largest step in [0, 1] after which each value is at least a hundredth of the old one.
 double step_that_keeps(const Vector& values, const Vector& change) {
   double step = 1;
   for (Eigen::Index i = 0; i < values.size(); ++i)
@@ -135,7 +136,8 @@ class InteriorPoint {
   const BoundedFit& fit_;
   Vector x_, below_, above_, g_, lower_, upper_;
   double energy_ = 0;
-  double centring_ = .2;  // share of the mean product of distance and multiplier that the next step aims at
+  // Share of the mean product of distance and multiplier that is the target of the next step.
+  double centring_ = .2;
 };
 
 }  // namespace

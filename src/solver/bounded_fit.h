@@ -1,5 +1,5 @@
-// Minimises a convex quadratic energy under bounds, by an interior-point method (Nocedal and Wright,
-// Numerical Optimization, 2006, chapter 16.6). Each step factors a matrix anew.
+// Minimises a convex quadratic energy under bounds by an interior-point method (Nocedal and Wright, Numerical
+// Optimization, 2006, chapter 16.6). Each step factors a new matrix.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -14,28 +14,28 @@ namespace relievo::solver {
 // Minimises E(x) under lowest <= x <= highest, where
 //   E(x) = 1/2 x^T A x - load^T x   or, if `mass` is the diagonal of a matrix M,
 //   E(x) = 1/2 (A x - load)^T M^-1 (A x - load).
-// If A is the Laplacian of a triangulation, that is a membrane or a thin plate. Vectors have an element per
-// unknown.
+// If A is the Laplacian of a triangulation, the first is a membrane and the second a thin plate. Vectors have
+// an element per unknown.
 struct BoundedFit {
-  Eigen::SparseMatrix<double> A;  // lower triangle with all of the diagonal, positive semidefinite
+  Eigen::SparseMatrix<double> A;  // lower triangle with all diagonal entries; positive semidefinite
   Eigen::VectorXd mass = {};      // > 0, or empty
   Eigen::VectorXd load = {};
   Eigen::VectorXd lowest = {}, highest = {};  // lowest < highest
-  std::vector<Vec2> positions = {};           // of the unknowns in the plane, see Cholesky::factor()
+  std::vector<Vec2> positions = {};  // positions of the unknowns in the plane, for Cholesky::factor()
 };
 
 struct BoundedFitResult {
   Eigen::VectorXd x;  // strictly between the bounds
   double energy = 0;  // E(x)
-  // No field between the bounds has an energy below E(x) - gap. The gap is the sum over all unknowns of (x -
-  // lowest) max(g, 0) + (highest - x) max(-g, 0), where g is the gradient of E: each term is 0 if the unknown
+  // No field within the bounds has an energy below E(x) - gap. The gap is the sum over all unknowns of (x -
+  // lowest) max(g, 0) + (highest - x) max(-g, 0), where g is the gradient of E. A term is 0 if its unknown
   // satisfies the conditions of Karush, Kuhn and Tucker.
   double gap = 0;
-  int steps = 0;  // factorisations
+  int steps = 0;  // number of factorisations
 };
 
 // Ends when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100 steps. Errors:
-// those of Cholesky::factor(), also for a tolerance below the level of rounding.
+// those of Cholesky::factor(), also if the tolerance is below the level of rounding errors.
 Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

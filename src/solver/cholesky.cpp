@@ -33,8 +33,8 @@ void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
       if (entry.row() > j) f(static_cast<Index>(j), static_cast<Index>(entry.row()), entry.value());
 }
 
-// Returns the graph of A in which unknown `order[v]` is vertex v. Entries on the diagonal that are stored
-// several times are added up.
+// Returns the graph of A in which unknown `order[v]` is vertex v. Diagonal entries that are stored several
+// times are summed.
 WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A, std::span<const Index> order) {
   WeightedGraph result;
   const auto n = static_cast<Index>(A.cols());
@@ -81,7 +81,7 @@ Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A, std::spa
   if (!is_finite(A)) return std::unexpected(not_positive_definite("found an entry that is not finite"));
   if (!positions.empty() && positions.size() != static_cast<std::size_t>(A.cols()))
     return option_error("positions", cat("expected one per unknown, found ", positions.size()));
-  // Vertices are numbered along a space-filling curve, so that all later steps walk through memory in order.
+  // Vertices are numbered along a space-filling curve, so that later steps access memory in order.
   std::vector<Eigen::Vector2f> places = in_unit_square(positions);
   places.resize(static_cast<std::size_t>(A.cols()), Eigen::Vector2f::Zero());
   const std::vector<Index> vertices = plane_order(places);

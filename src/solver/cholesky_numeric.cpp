@@ -1,7 +1,7 @@
 // Numeric factorisation by the multifrontal method (Duff and Reid 1983). Each supernode assembles a dense
-// frontal matrix from its part of A and the contribution blocks of its children, eliminates its columns in
-// double precision and stores them in single precision. It passes the Schur complement of the remaining rows
-// to its parent as its own contribution block. Declared in cholesky_factor.h, tested by
+// frontal matrix from its entries of A and the contribution blocks of its children. It eliminates its columns
+// in double precision and stores them in single precision. The Schur complement of the remaining rows is its
+// own contribution block for its parent. Declared in cholesky_factor.h, tested by
 // tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <atomic>
@@ -13,8 +13,8 @@
 namespace relievo::solver {
 namespace {
 
-// A pivot smaller than this fraction of its diagonal entry is taken for a rounded 0: double precision
-// resolves 1e-16, and sums over the fill lose about two digits.
+// A pivot smaller than this fraction of its diagonal entry is a rounded 0. Double precision resolves 1e-16,
+// and the sums over the fill lose about two digits.
 constexpr double relative_pivot = 1e-14;
 
 // The lower triangle of a contribution block, packed column by column.
@@ -41,8 +41,8 @@ class Multifrontal {
   const WeightedGraph& A_;
   Cholesky::Factor& factor_;
   std::vector<Index> position_;
-  std::vector<Packed> contribution_;  // per task, the block on the rows of its boundary
-  std::vector<Index> failed_;         // per task, the column whose pivot failed
+  std::vector<Packed> contribution_;  // per task: the block of its boundary rows
+  std::vector<Index> failed_;         // per task: the column whose pivot failed
 };
 
 // Returns whether the entry is stored at `column` of the task, see TaskMatrix.
@@ -88,8 +88,8 @@ void Multifrontal::fill_matrix() {
   parallel_for(n, [&](std::size_t j) { matrix.diagonal[j] = A_.diagonal[factor_.order[j]]; });
 }
 
-// Adds the entries of `width` columns of A to the frontal matrix; slot[r] is its row that belongs to row r of
-// the work vector.
+// Adds the entries of `width` columns of A to the frontal matrix. slot[r] is the row of the frontal matrix
+// for row r of the work vector.
 void Multifrontal::add_matrix(const Task& task, Index first, Index width, std::span<const Index> slot,
                               FrontalMatrix& front) const {
   const TaskMatrix& matrix = factor_.matrix;
@@ -111,8 +111,8 @@ void Multifrontal::eliminate(std::size_t t, Index first, Index width, FrontalMat
   values = write_panel(front, width, values);
 }
 
-// Adds a packed triangle to a target, whose column c begins at column(c). Row i of the triangle goes to row
-// slot[i]; slots ascend, so that the sum stays in the lower triangle.
+// Adds a packed triangle to a matrix whose column c begins at column(c). Row i of the triangle is added to
+// row slot[i]. Slots ascend, so the sum stays in the lower triangle.
 template <typename Column>
 void add_packed(const double* from, std::span<const Index> slot, Column&& column) {
   for (std::size_t c = 0; c < slot.size(); ++c) {
@@ -131,7 +131,8 @@ std::size_t packed_size(std::size_t rows) {
   return rows * (rows + 1) / 2;
 }
 
-// Eliminates a task that is a single supernode. The supernode's rows are the task's work vector, in order.
+// Eliminates a task that is a single supernode. The rows of the supernode are the task's work vector, in
+// order.
 void Multifrontal::eliminate_supernode(std::size_t t) {
   const Task& task = factor_.tasks[t];
   FrontalMatrix front;
@@ -152,8 +153,8 @@ void Multifrontal::eliminate_supernode(std::size_t t) {
   pack(front, task.own(), contribution_[t].data());
 }
 
-// Eliminates the supernodes of a subtree in postorder. When a supernode is assembled, the contribution blocks
-// of its children are then on top of a stack.
+// Eliminates the supernodes of a subtree in postorder. So the contribution blocks of a supernode's children
+// are on top of a stack when the supernode is assembled.
 class Multifrontal::Subtree {
  public:
   Subtree(Multifrontal& outer, std::size_t t)
@@ -168,7 +169,7 @@ class Multifrontal::Subtree {
 
   void eliminate() {
     const std::uint16_t* rows = outer_.factor_.rows.data() + task_.rows;
-    Index first = 0;  // the supernode's first column in the work vector
+    Index first = 0;  // first column of the supernode in the work vector
     for (Index s = task_.first_node; s < task_.end_node; ++s) {
       const auto [width, below] = outer_.factor_.nodes[s];
       eliminate_node(first, width, {rows, width + below});
@@ -205,11 +206,12 @@ class Multifrontal::Subtree {
     pop();
   }
 
-  // Adds the block of a supernode whose parent belongs to another task to the block of the whole task.
+  // The parent of this supernode belongs to another task, so its block is added to the block of the whole
+  // task.
   void add_to_boundary() {
     child_slots_.clear();
     for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());
-    // A packed column c begins with row c, hence the shift: row r of column c is at position r from there.
+    // A packed column c begins with row c. Subtracting packed_size(c) makes row r of column c position r.
     add_packed(stack_.data() + pending_.back().begin, child_slots_, [&](Index c) {
       return contribution_.data() + std::size_t{c} * task_.boundary - packed_size(c);
     });
@@ -225,7 +227,7 @@ class Multifrontal::Subtree {
   std::size_t t_;
   const Task& task_;
   Packed& contribution_;
-  std::vector<Index> slot_, child_slots_;  // slot_: per row of the work vector, the row of the front
+  std::vector<Index> slot_, child_slots_;  // slot_: row of the frontal matrix per row of the work vector
   float* values_;
   FrontalMatrix front_;
   std::vector<double> stack_;
@@ -238,7 +240,8 @@ Index Multifrontal::run() {
   factor_.values = make_large_array(factor_.value_count);
   contribution_.resize(n);
   failed_.assign(n, no_index);
-  // Children precede parents in the order of the tasks, so a task only waits for tasks that have started.
+  // Children precede their parents in the order of the tasks, so a task waits only for tasks that have
+  // started.
   BlockFlags done(n);
   parallel_for(
       n,

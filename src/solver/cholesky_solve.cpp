@@ -1,5 +1,5 @@
-// Solves with the factor, by forward and backward substitution in single precision and iterative refinement
-// in double precision. Tested by tests/solver/cholesky_test.cpp.
+// Solves with the factor: forward and backward substitution in single precision, with iterative refinement in
+// double precision. Tested by tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ struct Cholesky::Workspace::Storage {
   std::vector<float> work_vectors;
   BlockFlags done;
   std::vector<double> solution, residual;  // in elimination order
-  std::vector<double> largest;             // largest element of the residual, per task
+  std::vector<double> largest;             // per task: largest element of its residual
 };
 
 Cholesky::Workspace::Workspace(std::unique_ptr<Storage> storage) : storage_(std::move(storage)) {}
@@ -30,7 +30,7 @@ namespace {
 
 using Factor = Cholesky::Factor;
 
-// Forward and backward substitution of one task at a time.
+// Forward and backward substitution, task by task.
 struct Substitution {
   const Factor& factor;
   std::vector<float>& work_vectors;
@@ -84,9 +84,10 @@ struct Substitution {
   }
 };
 
-// Solves for one right-hand side: load(column) returns its elements, store(column, value) receives those of
-// the solution. All tasks go forward from the leaves, then backward from the roots, in a single parallel
-// call. Flags make a task wait only for its children or its parent, so that there is no barrier in between.
+// Solves for one right-hand side. load(column) returns its elements; store(column, value) receives the
+// elements of the solution. A single parallel call goes forward from the leaves through all tasks, and back
+// from the roots. Flags make a task wait only for its children or its parent, so no barrier is needed in
+// between.
 template <typename Load, typename Store>
 void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& store) {
   const std::size_t n = s.factor.tasks.size();
@@ -114,7 +115,7 @@ void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& st
       1);
 }
 
-// Subtracts from r the rows of the product A x that belong to a task.
+// Subtracts the task's rows of the product A x from r.
 void subtract_product(const TaskMatrix& A, const Task& task, std::span<const double> x, std::span<double> r) {
   for (Index j = task.first_column; j < task.end_column; ++j) {
     double sum = A.diagonal[j] * x[j];
@@ -128,8 +129,8 @@ void subtract_product(const TaskMatrix& A, const Task& task, std::span<const dou
   }
 }
 
-// Returns the power of two at the magnitude of the residual. Dividing by it is exact and keeps the
-// substitution within the range of single precision, whatever the unit of the right-hand side.
+// Returns a power of two close to the size of the residual. Dividing by it is exact, and keeps the
+// substitution within the range of single precision for every unit of the right-hand side.
 double unit_of(double largest) {
   return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1;
 }
@@ -153,7 +154,7 @@ void Cholesky::solve(std::span<const float> b, std::span<float> x, Workspace& wo
 
 namespace {
 
-// Iterative refinement of one solution; vectors are in elimination order.
+// Iterative refinement of one solution. Vectors are in elimination order.
 struct Refinement {
   const Factor& factor;
   std::vector<float>& work_vectors;
@@ -170,7 +171,7 @@ struct Refinement {
     });
   }
 
-  // Computes b - A x and returns its largest element.
+  // Computes b - A x. Returns its largest element.
   double find_residual(std::span<const double> b) const {
     return for_each_task([&](const Task& task) {
       for (Index i = task.first_column; i < task.end_column; ++i) residual[i] = b[factor.order[i]];
@@ -221,10 +222,10 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& 
   const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
   double last = refinement.start(b), rate = 1;
   const double enough = 1e-13 * last;
-  const int most_steps = 6;  // each gains about seven digits: two suffice unless A is badly conditioned
+  const int most_steps = 6;  // each gains about seven digits; two suffice unless A is ill-conditioned
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
-    // Steps converge at a constant rate, so the last residual can be predicted instead of computed.
+    // The steps converge at a constant rate, so the last residual need not be computed.
     if (rate * last < enough) break;
     const double now = refinement.find_residual(b);
     if (!(now < last / 4)) break;

@@ -11,18 +11,18 @@
 namespace relievo::solver {
 namespace {
 
-// Orders pieces of one graph. The object keeps its storage, so one object should order many pieces.
+// Orders parts of a graph by minimum degree. Use one object for many parts, because it keeps its memory.
 class MinimumDegree {
  public:
-  // Both arguments must outlive the object. `slots` has one element per vertex of the graph. All are
-  // no_index, and are so again after each call. Objects may share `slots` and order pieces concurrently if no
-  // edge joins these pieces.
+  // Both arguments must outlive the object. `slots` has an element per vertex of the graph; all elements are
+  // no_index before and after each call. Several objects may share `slots` and order parts concurrently, if
+  // no edge connects these parts.
   MinimumDegree(const Graph& graph, std::span<Index> slots) : graph_(graph), slots_(slots) {}
 
   // Permutes the vertices of `piece` so that eliminating them in that order, before all others, causes little
-  // fill: the next vertex is always one with the fewest remaining neighbours, those outside the piece
-  // included. The degrees are exact, kept with bit sets, so that time and memory grow at least with the
-  // square of the size; the function is meant for pieces of up to a few hundred vertices.
+  // fill. The next vertex is always one with the fewest remaining neighbours, including neighbours outside
+  // the piece. These degrees are exact and computed with bit sets. So time and memory grow at least with the
+  // square of the size: the function is meant for up to a few hundred vertices.
   void order(std::span<Index> piece) {
     gather(piece);
     std::vector<Index> sequence;
@@ -64,8 +64,8 @@ class MinimumDegree {
     return static_cast<Index>(std::lower_bound(outside_.begin(), outside_.end(), vertex) - outside_.begin());
   }
 
-  // Makes the neighbours of v neighbours of each other, which is the fill that eliminating v causes. Only
-  // vertices of the piece have sets, so the loop ends at the first neighbour outside it.
+  // Connects all neighbours of v with each other, which is the fill of eliminating v. Only vertices of the
+  // piece have bit sets, so the loop ends at the first neighbour outside.
   void eliminate(Index v) {
     degree_[v] = no_index;
     const std::uint64_t* eliminated = set(v);
@@ -92,22 +92,22 @@ class MinimumDegree {
   std::span<Index> slots_;
   std::vector<Index> outside_;  // vertices adjacent to the piece, ascending
   std::vector<std::uint64_t>
-      sets_;                   // per vertex of the piece, its neighbours: first the piece, then outside_
+      sets_;  // per vertex of the piece: its neighbours, first within the piece, then in outside_
   std::vector<Index> degree_;  // no_index once eliminated
   std::size_t words_ = 0;
 };
 
-// For parts of at most this many vertices minimum degree finds a better order than another cut, and faster.
+// For at most this many vertices, minimum degree is faster than another bisection and gives a better order.
 constexpr Index leaf_size = 120;
 
 struct Part {
   Graph graph;
   std::vector<Eigen::Vector2f> positions;
-  std::vector<Index> vertices;  // numbers of the vertices in the whole graph
-  Index begin = 0;              // where this part begins in the elimination order
+  std::vector<Index> vertices;  // indices of the vertices in the whole graph
+  Index begin = 0;              // start of this part in the elimination order
 };
 
-// Returns the vertices of one side and the edges among them.
+// Returns the part of a graph that consists of the vertices on one side and the edges between them.
 Part extract(const Part& part, const Bisection& cut, Side side) {
   Part result;
   std::vector<Index> slot(part.graph.size());
@@ -133,9 +133,9 @@ class Dissection {
   Dissection(const Graph& graph, std::vector<Index>& order)
       : graph_(graph), order_(order), slots_(graph.size(), no_index) {}
 
-  // Bisects level by level while parts are large, so that the parts of a level are cut concurrently, and
-  // orders the many small parts concurrently afterwards. Whether a part is large depends only on sizes, so
-  // that the result does not depend on the number of threads.
+  // While parts are large, bisects level by level, so that the parts of a level are processed concurrently.
+  // Then orders the many small parts concurrently. Only the size decides which parts are large, so the result
+  // does not depend on the number of threads.
   void run(Part whole) {
     const Index small = std::max<Index>(2048, whole.graph.size() / 32);
     std::vector<Part> large, pieces;
@@ -153,8 +153,8 @@ class Dissection {
   }
 
  private:
-  // Writes the separator to the end of the part's range in the order and returns the two sides. If the part
-  // is small, orders it as a leaf and returns two empty parts.
+  // Writes the separator to the end of the part's range in the order. Returns the two sides. If the part is
+  // small, orders it as a leaf and returns two empty parts.
   std::array<Part, 2> split(Part& part) {
     if (part.graph.size() <= leaf_size) {
       order_leaf(part);
@@ -183,8 +183,8 @@ class Dissection {
   void order_leaf(const Part& part) {
     const std::span<Index> places = std::span(order_).subspan(part.begin, part.vertices.size());
     std::copy(part.vertices.begin(), part.vertices.end(), places.begin());
-    // The bit sets of MinimumDegree grow with the square of the size (2 MB at 4,096). A larger part that
-    // resists every cut, such as a complete graph, keeps the order it has.
+    // The bit sets of MinimumDegree grow with the square of the size (2 MB at 4,096 vertices). A larger part
+    // that cannot be bisected, such as a complete graph, keeps the order it has.
     constexpr std::size_t largest_leaf = 4096;
     if (places.size() <= largest_leaf) MinimumDegree(graph_, slots_).order(places);
   }
@@ -194,15 +194,15 @@ class Dissection {
   std::vector<Index> slots_;
 };
 
-// Returns a substitute for the angle of a vector. It grows with the angle, from 0 to 4, and needs no arc
-// tangent.
+// Returns a substitute for the angle of a vector: a number from 0 to 4 that increases with the angle, without
+// an arc tangent.
 float pseudo_angle(const Eigen::Vector2f& step) {
   const float sum = std::abs(step.x()) + std::abs(step.y());
   const float turn = sum > 0 ? step.x() / sum : 0;
   return step.y() >= 0 ? 1 - turn : 3 + turn;
 }
 
-// Sorts each vertex's neighbours counter-clockwise, as minimum_separators() needs them.
+// Sorts each vertex's neighbours counter-clockwise, as minimum_separators() expects.
 void turn_in_order(Graph& graph, std::span<const Eigen::Vector2f> positions) {
   parallel_ranges(graph.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<float, Index>> around;

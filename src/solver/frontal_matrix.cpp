@@ -8,8 +8,8 @@
 namespace relievo::solver {
 namespace {
 
-// Arguments of C -= A B^T, where C has `rows` x `columns` elements, A `rows` x `depth` and B `columns` x
-// `depth`, all stored by columns. If `is_lower`, C begins with a square of which only the lower triangle is
+// Arguments of C -= A B^T, where C is a `rows` x `columns` matrix, A `rows` x `depth` and B `columns` x
+// `depth`, all stored by columns. If `is_lower`, only the lower triangle of the square at the top of C is
 // computed.
 struct Product {
   double* c;
@@ -20,7 +20,7 @@ struct Product {
   bool is_lower;
 };
 
-constexpr Index narrow = 8;  // up to this many columns are eliminated or inverted one by one
+constexpr Index narrow = 8;  // at most this many columns are eliminated or inverted one by one
 
 RELIEVO_INLINE Double4& at(double* p) {
   return *reinterpret_cast<Double4*>(p);
@@ -29,7 +29,7 @@ RELIEVO_INLINE const Double4& at(const double* p) {
   return *reinterpret_cast<const Double4*>(p);
 }
 
-// Updates 4 * Height rows by Width columns of C, which stay in registers, for the depths `from` to `to`.
+// Updates 4 * Height rows and Width columns of C, which stay in registers, for depths from `from` to `to`.
 template <int Height, int Width>
 RELIEVO_INLINE void subtract_tile(const Product& p, Index i, Index j, Index from, Index to) {
   Double4 sum[Height][Width] = {};
@@ -50,7 +50,7 @@ RELIEVO_INLINE void subtract_strip(const Product& p, Index j, Index from, Index 
 }
 
 RELIEVO_INLINE void subtract(const Product& p) {
-  const Index block = 128;  // depth of a block: this many columns of A stay in the cache
+  const Index block = 128;  // this many columns of A stay in the cache
   for (Index from = 0; from < p.depth; from += block) {
     const Index to = std::min(p.depth, from + block);
     Index j = 0;
@@ -61,7 +61,7 @@ RELIEVO_INLINE void subtract(const Product& p) {
   }
 }
 
-// Adds factor x to y for the elements [from, to), and up to three beyond, which are padding.
+// Adds factor x to y for the elements [from, to), and for up to three padding elements after them.
 RELIEVO_INLINE void add_multiple(double* y, const double* x, double factor, Index from, Index to) {
   for (Index i = from; i < to; i += 4) at(y + i) += at(x + i) * factor;
 }
@@ -70,8 +70,8 @@ RELIEVO_INLINE void scale(double* x, double factor, Index from, Index to) {
   for (Index i = from; i < to; i += 4) at(x + i) *= factor;
 }
 
-// Eliminates the columns [begin, begin + width) one after the other. Returns the same as eliminate_columns().
-// After a failure it goes on with pivots of 1, so that no element becomes infinite.
+// Eliminates the columns [begin, begin + width) one by one. Returns the same as eliminate_columns(). After a
+// failure it continues with pivots of 1, so that no element becomes infinite.
 RELIEVO_INLINE Index eliminate(FrontalMatrix& front, Index begin, Index width,
                                std::span<const double> smallest_pivot) {
   const Index end = begin + width;
@@ -87,8 +87,8 @@ RELIEVO_INLINE Index eliminate(FrontalMatrix& front, Index begin, Index width,
   return failed;
 }
 
-// Inverts the columns [begin, begin + width) one after the other, the last one first: the columns to the
-// right of column j are already inverted.
+// Inverts the columns [begin, begin + width) one by one, from the last to the first. The columns to the right
+// of column j are already inverted.
 RELIEVO_INLINE void invert(FrontalMatrix& front, Index begin, Index width) {
   const Index end = begin + width;
   for (Index j = end; j-- > begin;) {
@@ -116,7 +116,7 @@ Index first_half(Index width) {
   return (width / 2 + narrow - 1) / narrow * narrow;
 }
 
-// Halves the columns until few are left, so that nearly all of the work is in matrix products.
+// Halves the range of columns until few are left, so that matrix products do nearly all arithmetic.
 Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
                             std::span<const double> smallest_pivot) {
   if (width <= narrow) return RELIEVO_WIDE(eliminate(front, begin, width, smallest_pivot));
@@ -129,8 +129,8 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
   return std::min(failed, failed_later);
 }
 
-// The columns are [La; Lb; Ld] on the left and [Lc; Le] on the right, where the right ones become [Wc; We]
-// first. Then the rows below La become [Wc Lb; Ld + We Lb], and the left columns are inverted on their own.
+// Let the columns be [La; Lb; Ld] on the left and [Lc; Le] on the right. The right ones are replaced by [Wc;
+// We] first. Then the rows below La become [Wc Lb; Ld + We Lb], and the left columns are inverted.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;
@@ -141,7 +141,7 @@ void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vec
     for (Index r = 0; r < rest; ++r) scratch[c + std::size_t{r} * half] = -inside[r];
     std::fill_n(inside, rest, 0.0);
   }
-  // Elements above the diagonal of Wc are not defined, and the product reads them, so they are set to 0.
+  // The product reads the undefined elements above the diagonal of Wc, so they are set to 0.
   for (Index c = 1; c < rest; ++c) std::fill_n(front.column(middle + c) + middle, c, 0.0);
   subtract_product({front.column(begin) + middle, front.column(middle) + middle, scratch.data(), front.stride,
                     front.stride, half, front.rows - middle, half, rest, false});
@@ -153,7 +153,7 @@ void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vec
 void FrontalMatrix::reset(Index new_rows) {
   rows = new_rows;
   stride =
-      (new_rows + 3 + 3) / 4 * 4;  // at least three elements of padding, and whole vectors of four elements
+      (new_rows + 3 + 3) / 4 * 4;  // whole vectors of four elements, with at least three elements of padding
   data.assign(std::size_t{stride} * new_rows + 8, 0.0);
 }
 

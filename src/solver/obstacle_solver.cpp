@@ -8,18 +8,19 @@
 namespace relievo::solver {
 namespace {
 
-// Sweeps per level, from fine to coarse. Coarse levels resolve the long waves, which converge slowly, but a
-// sweep there costs a quarter of one on the next finer level: the sweeps of all four levels take about as
-// long as 14 of the finest. These numbers suffice: see docs/decisions/height-correction.md.
+// Sweeps per level, from fine to coarse. Long waves converge slowly on fine levels, so coarse levels solve
+// for them. A sweep costs a quarter of a sweep on the next finer level, so all these sweeps take about as
+// long as 14 sweeps of the finest level. For the choice of these numbers see
+// docs/decisions/height-correction.md.
 constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
-// Successive over-relaxation converges for factors in (0, 2). The best factor grows towards 2 with the number
-// of nodes per side; 1.6 suits the short waves that are left to the finer levels.
+// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 with the number of
+// nodes per side. 1.6 suits the short waves that remain on the finer levels.
 constexpr float over_relaxation = 1.6F;
-// Sweeps between updates of the pull of pairs, per level from fine to coarse. More updates change nothing that
-// is measured: see docs/decisions/near-order.md.
+// Sweeps between updates of the pull of pairs, per level from fine to coarse. More updates improve no measure
+// (docs/decisions/near-order.md).
 constexpr std::array<int, ObstacleSolver::levels> sweeps_per_update{8, 2, 2, 2};
 
-// Returns the weights of bilinear interpolation at a place within a cell, one per node of the cell, row by
+// Returns the weights of bilinear interpolation at a position within a cell, one per node of the cell, row by
 // row.
 std::array<float, 4> weights(const Vec2f& at) {
   const float x = at.x(), y = at.y();
@@ -44,8 +45,7 @@ ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector
     if (is_free(n)) couple(n, tie_of);
 }
 
-// Replaces the ties that lie in one coarse cell by one tie at the mean of their places, weighted by
-// stiffness.
+// Replaces the ties of each coarse cell by one tie at their mean position, weighted by stiffness.
 std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   std::vector<Tie> coarse;
   std::vector<Index> tie_of(diagonal_.size(), no_index);
@@ -63,7 +63,7 @@ std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   return coarse;
 }
 
-// Puts a free node into its colour, with its weights in the ties of the cells around it.
+// Assigns a free node to its colour, together with its weights in the ties of the four cells around it.
 void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of) {
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];
@@ -97,9 +97,9 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Keeps every other node of every other row. A coarse node gets the least bending stiffness and the harmonic
-// mean of the tensions of the fine node there and its four neighbours, so that thin hinges between stiff
-// regions are not lost.
+// Keeps every other node of every other row. A coarse node gets the least bending stiffness of the fine node
+// at its position and of that node's free neighbours, and the harmonic mean of the tensions of that node and
+// its four neighbours. So thin hinges between stiff regions remain.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
@@ -157,9 +157,9 @@ void ObstacleSolver::Level::start(Fields& f) const {
   }
 }
 
-// One step of projected over-relaxation. Changes b at a node by over_relaxation times the step to the minimum
-// of the energy, clamps it to its bounds and updates the moments of the node and its neighbours. Returns the
-// change.
+// One step of projected over-relaxation at a node. Moves b towards the minimum of the energy by
+// over_relaxation times the distance, clamps it to its bounds, and updates the moments of the node and its
+// neighbours. Returns the change.
 inline float ObstacleSolver::Level::move(Index n, const Slope& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
@@ -178,7 +178,7 @@ inline float ObstacleSolver::Level::move(Index n, const Slope& ties, Fields& f) 
   return change;
 }
 
-// Does the same at a node whose cells have ties, and updates the values at these ties.
+// Does the same as move() at a node whose cells have ties, and updates the values at these ties.
 inline void ObstacleSolver::Level::move_tied(const TiedNode& tied, const Springs& springs, Fields& f) const {
   float* at_ties = f.at_ties.data();
   Slope slope;
@@ -253,10 +253,11 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
   std::ranges::fill(w.back().b, 0.F);
   for (std::size_t l = levels; l-- > 0;) {
     if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
-    // A node of level l represents 4^l of the finest nodes.
+    // A node of level l represents 4^l nodes of the finest level.
     Springs here = springs;
     here.order.stiffness *= static_cast<float>(1 << 2 * l);
-    // The joined ties of a coarse cell would be too stiff for the sweeps to converge.
+    // With the sum of their stiffnesses, the joined ties of a coarse cell would be too stiff for the sweeps
+    // to converge.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);

@@ -29,7 +29,7 @@ OrderPull::OrderPull(std::size_t width, const OrderedPairs& pairs) {
         const long x = n % columns + dx;
         const float share = pairs.share[n] * pairs.share[n + offset];
         if (x < 0 || x >= columns || share == 0) continue;
-        // The standard libraries differ in the last bit of tanh in single precision.
+        // Standard libraries differ in the last bit of tanh in single precision.
         direction.wanted[n] = share * static_cast<float>(std::tanh(static_cast<double>(
                                           (pairs.depth[n] - pairs.depth[n + offset]) / pairs.saturation)));
       }
@@ -43,7 +43,8 @@ std::size_t OrderPull::memory() const {
   return sum;
 }
 
-// Both nodes of a pair move, each with a hold of twice the stiffness: k (x - y)^2 <= 2 k (x^2 + y^2).
+// If both nodes of a pair move, k (x - y)^2 <= 2 k (x^2 + y^2). So each node gets a spring of twice the
+// stiffness.
 void OrderPull::write_bound(std::span<const float> b, std::span<const float> heights,
                             const OrderLimits& limits, const Bound& bound) const {
   const std::size_t nodes = b.size();

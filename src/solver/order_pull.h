@@ -1,4 +1,4 @@
-// Pulls on the differences between nodes of a lattice, so that near parts stand before far ones.
+// Forces between nodes of a lattice that raise near parts above farther ones.
 #pragma once
 
 #include <span>
@@ -8,24 +8,24 @@
 
 namespace relievo::solver {
 
-// The pairs of nodes that lie `distances` apart, in cells, along rows, columns and both diagonals. Of each
-// pair the node with the larger depth should be higher by tanh(|difference of depth| / saturation), times the
-// shares of both nodes and OrderLimits::height.
+// The pairs of nodes with these distances, in cells, along rows, columns and both diagonals. The nearer node
+// of a pair should be higher by OrderLimits::height * tanh(|difference of depth| / saturation) * the shares
+// of both nodes.
 struct OrderedPairs {
   std::span<const float> depth;  // per node, larger is nearer
-  std::span<const float> share;  // per node, [0, 1]; nodes where it is 0 are in no pair
+  std::span<const float> share;  // per node, in [0, 1]; nodes with share 0 are in no pair
   float saturation = 1;          // > 0
-  std::vector<float> distances;  // > 0; pairs that are less than half a cell apart are left out
+  std::vector<float> distances;  // > 0; distances below half a cell are left out
 };
 
 struct OrderLimits {
-  float height = 0;     // the most by which one node of a pair should be higher than the other, >= 0
-  float stiffness = 0;  // of the pull, >= 0
+  float height = 0;     // largest height by which one node of a pair should be above the other, >= 0
+  float stiffness = 0;  // stiffness of the forces, >= 0
 };
 
-// The energy of the pull is 1/2 stiffness times the sum over all pairs of the square of what their difference
-// of heights lacks. It is convex, and 0 where the order is right. write_bound() replaces it by a quadratic
-// bound, so that relaxation converges though all nodes move at once.
+// The energy is 1/2 stiffness times the sum over all pairs of (missing height difference)^2. It is convex,
+// and 0 if the order is right. write_bound() replaces it by a quadratic upper bound, with which relaxation
+// converges although all nodes move at the same time.
 class OrderPull {
  public:
   OrderPull() = default;
@@ -34,8 +34,9 @@ class OrderPull {
   bool empty() const { return directions_.empty(); }
   std::size_t memory() const;
 
-  // Writes the bound 1/2 sum hold b^2 - sum load b of the energy, up to a constant, that touches it at b.
-  // `heights` are the heights without b; `lack` is scratch memory. All spans have an element per node.
+  // Writes an upper bound of the energy, 1/2 sum hold b^2 - sum load b up to a constant, that equals the
+  // energy at b. `heights` are the heights without b; `lack` is scratch memory. All spans have an element per
+  // node.
   struct Bound {
     std::span<float> load, hold, lack;
   };
@@ -44,8 +45,9 @@ class OrderPull {
 
  private:
   struct Direction {
-    std::size_t offset;         // from the first node of a pair to the second, > 0
-    std::vector<float> wanted;  // per first node: the signed share of the height; 0 if it is in no pair
+    std::size_t offset;  // > 0; from the first node of a pair to the second
+    // Per first node: the wanted difference as a signed share of the height; 0 if the node is in no pair.
+    std::vector<float> wanted;
   };
   std::vector<Direction> directions_;
 };

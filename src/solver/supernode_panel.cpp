@@ -20,8 +20,8 @@ RELIEVO_INLINE const Float4& four(const float* p) {
   return *reinterpret_cast<const Float4*>(p);
 }
 
-// Adds strip * b to `out`, for a strip of Width columns. Even and odd columns have sums of their own, so that
-// an addition need not wait for the one before.
+// Adds strip * b to `out`, for a strip of Width columns. Even and odd columns have separate sums, so that an
+// addition need not wait for the previous one.
 template <int Width>
 RELIEVO_INLINE void add_strip(const float* strip, Index rows, const float* b, float* out) {
   float factor[Width];
@@ -48,7 +48,8 @@ RELIEVO_INLINE void add_across(const Float4* v, float* sums) {
   four(sums) = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 
-// Computes strip^T * x for a strip of Width columns, from the last row up: see multiply_transposed().
+// Computes strip^T * x for a strip of Width columns, from the last row to the first; see
+// multiply_transposed().
 template <int Width>
 RELIEVO_INLINE void multiply_strip(const float* strip, Index rows, const float* x, float* result) {
   Index r = rows / 8 * 8;
@@ -70,7 +71,7 @@ RELIEVO_INLINE void multiply_strip(const float* strip, Index rows, const float* 
   for (int w = 0; w < Width; ++w) result[w] = sums[w];
 }
 
-// Calls f<Width>() for the width of a strip, 1 to 8, so that the loops over its columns are unrolled.
+// Calls f<Width>() for the width of a strip, 1 to 8. The compiler can then unroll the loops over columns.
 template <typename F>
 RELIEVO_INLINE void with_width(Index width, F&& f) {
   switch (width) {
@@ -114,7 +115,7 @@ RELIEVO_INLINE std::size_t values_before(Index c, Index rows) {
   return std::size_t{c} * rows - std::size_t{c} * (c - strip_width) / 2;
 }
 
-// Computes W^T x. It reads the values exactly backwards, a pattern that the processor prefetches by itself.
+// Computes W^T x. Reads the values exactly backwards, a pattern that the processor prefetches.
 RELIEVO_INLINE void multiply_transposed(NodeSize node, const float* values, const float* x, float* result) {
   const Index rows = padded_rows(node.width, node.below);
   Index c = node.width / 8 * 8;
@@ -145,8 +146,8 @@ RELIEVO_INLINE void forward(const Subtree& subtree) {
   }
 }
 
-// Copies work[rows[i]] to x[i]. The vectors are assembled in registers: single stores followed at once by a
-// load of the whole vector would stall.
+// Copies work[rows[i]] to x[i]. The vectors are assembled in registers, because loading a vector right after
+// storing its single elements would stall.
 RELIEVO_INLINE void gather(const float* work, const std::uint16_t* rows, Index count, float* x) {
   Index i = 0;
   for (; i + 8 <= count; i += 8, rows += 8)

@@ -1,11 +1,11 @@
 // Dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal method, and on the
-// panels that substitutions multiply by. The panel of a supernode is the dense part of W that belongs to it.
-// Tested by tests/solver/cholesky_test.cpp.
+// panels that substitutions multiply by. The panel of a supernode is its dense part of W. Tested by
+// tests/solver/cholesky_test.cpp.
 //
-// A panel consists of strips of eight columns. Each strip begins at its own first row, since the columns of a
-// supernode are lower triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are
-// stored in blocks of eight, by columns within a block, with a last block of four if that many rows remain.
-// Forward substitution reads the values from front to back, backward substitution from back to front.
+// A panel consists of strips of eight columns. Each strip begins at its own first row, because a supernode is
+// lower triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are stored in
+// blocks of eight, and blocks by columns; if four rows remain, the last block has four. Forward substitution
+// reads the values from front to back, backward substitution from back to front.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,24 @@
 
 namespace relievo::solver {
 
-// The lower triangle of a symmetric matrix of `rows` rows, stored by columns that begin `stride` elements
-// apart. Each column ends with at least three elements of padding, all 0, so that it can be processed in
-// vectors of four. Elements above the diagonal are never read for a result.
+// The lower triangle of a symmetric matrix with `rows` rows, stored by columns at a distance of `stride`
+// elements. Each column ends with at least three zeros of padding, so that vectors of four can be used.
+// Elements above the diagonal never affect a result.
 struct FrontalMatrix {
   Index rows = 0, stride = 0;
   std::vector<double> data;
 
   double* column(Index c) { return data.data() + std::size_t{stride} * c; }
-  // Makes it a zero matrix of that many rows.
+  // Makes it a zero matrix with that many rows.
   void reset(Index new_rows);
 };
 
 // Factors the first `width` columns, A = L L^T, and subtracts their outer product from the other columns,
 // which become the Schur complement. Returns no_index, or the first column whose pivot is not above its
-// element of `smallest_pivot`; the contents are then meaningless.
+// element of `smallest_pivot`; then the contents are meaningless.
 Index eliminate_columns(FrontalMatrix& front, Index width, std::span<const double> smallest_pivot);
 
-// Replaces the first `width` columns [L1; L2] by W = [L1^-1; -L2 L1^-1], so that substitution with L becomes
+// Replaces the first `width` columns [L1; L2] by W = [L1^-1; -L2 L1^-1], which turns substitution with L into
 // a product with W.
 void invert_columns(FrontalMatrix& front, Index width);
 
@@ -43,20 +43,20 @@ inline Index padded_rows(Index width, Index below) {
   return (width + below + 3) / 4 * 4;
 }
 
-// Writes the first `width` columns of an inverted front to `values`, rounded to single precision. Returns the
-// end of the written values.
+// Writes the first `width` columns of an inverted frontal matrix to `values`, rounded to single precision.
+// Returns the end of the written values.
 float* write_panel(FrontalMatrix& front, Index width, float* values);
 
 struct NodeSize {
   Index width = 0, below = 0;
 };
 
-// The largest number of rows of a supernode inside a subtree: the products keep a copy on the stack.
+// The largest number of rows of a supernode inside a subtree, because the products keep a copy on the stack.
 inline constexpr Index largest_subtree_rows = 2048;
 
-// A run of supernodes in postorder. Their columns are consecutive elements of `work`, the task's work vector.
-// `rows` lists for each supernode the positions in `work` of its rows, its own columns included, padded to
-// padded_rows() with any valid position.
+// Consecutive supernodes in postorder. Their columns are consecutive elements of `work`, the task's work
+// vector. `rows` lists, for each supernode, the positions of its rows in `work`, including its own columns,
+// padded to padded_rows() with any valid position.
 struct Subtree {
   std::span<const NodeSize> nodes;
   const float* values;
@@ -64,17 +64,17 @@ struct Subtree {
   float* work;
 };
 
-// Forward substitution: multiplies the elements of the subtree's columns in the work vector by L^-1 and
-// updates the elements of the rows below.
+// Forward substitution: multiplies the work vector's elements of the subtree's columns by L^-1, and updates
+// the elements of the rows below.
 void substitute_forward(const Subtree& subtree);
 
-// Backward substitution: replaces the elements of the subtree's columns by L^-T times the elements of these
-// columns and of the rows below. It goes from the last supernode to the first, so `values` and `rows` of
-// `end` point behind the last supernode's; `work` is as for the forward direction.
+// Backward substitution: computes the elements of the subtree's columns by multiplying these and the elements
+// of the rows below by L^-T. Goes from the last supernode to the first, so `values` and `rows` of `end` point
+// to the end of the last supernode; `work` is the same as for the forward direction.
 void substitute_backward(const Subtree& end);
 
-// Do the same for a single supernode of any size whose rows are the whole work vector, in order. The work
-// vector is padded to a multiple of four with finite numbers; `scratch` has room for width + 8 floats.
+// These two substitute for a single supernode of any size whose rows are the whole work vector, in order. The
+// work vector is padded to a multiple of four with finite numbers. `scratch` has width + 8 floats.
 void substitute_forward(NodeSize node, const float* values, float* work, float* scratch);
 void substitute_backward(NodeSize node, const float* values, float* work, float* scratch);
 

@@ -12,14 +12,14 @@ std::vector<Index> inverse(std::span<const Index> order) {
   return place;
 }
 
-// Returns the elimination tree: the parent of a column is the first row below its diagonal, fill included.
+// Returns the elimination tree: the parent of a column is the first row below its diagonal, including fill.
 // Liu's algorithm (1990), with path compression in `ancestor`.
 std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> order,
                                     std::span<const Index> place) {
   std::vector<Index> parent(order.size(), no_index), ancestor(order.size(), no_index);
   for (Index i = 0; i < order.size(); ++i) {
     for (const Index neighbour : graph.neighbours(order[i])) {
-      // Climb from each earlier neighbour to the root of its tree; i becomes the parent of that root.
+      // Climbs from each earlier neighbour to the root of its tree; i becomes the parent of that root.
       for (Index j = place[neighbour]; j < i;) {
         const Index next = ancestor[j];
         ancestor[j] = i;
@@ -31,8 +31,8 @@ std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> o
   return parent;
 }
 
-// Returns the nodes of a forest so that children precede their parents and each subtree is contiguous. Needs
-// parent[v] > v.
+// Returns the nodes of a forest in an order in which children precede their parents and subtrees are
+// contiguous. Requires parent[v] > v.
 std::vector<Index> postorder(std::span<const Index> parent) {
   const auto n = static_cast<Index>(parent.size());
   std::vector<Index> child(n + 1, no_index), sibling(n, no_index), order, stack;
@@ -58,8 +58,8 @@ std::vector<Index> postorder(std::span<const Index> parent) {
   return order;
 }
 
-// Finds the fundamental supernodes, which store no zeros. The rows of each are in no particular order, all of
-// them below its last column.
+// Finds the fundamental supernodes, which store no zeros. The rows of each are in no particular order; all
+// are below its last column.
 class Fundamental {
  public:
   Fundamental(const Graph& graph, std::vector<Index> order) : graph_(graph), order_(std::move(order)) {
@@ -96,8 +96,8 @@ class Fundamental {
     column_parent_ = std::move(parent);
   }
 
-  // Returns whether column j has the same structure as the open supernode: the only child of j is the column
-  // before, and all later neighbours of j are rows of the supernode already.
+  // Returns whether column j has the same structure as the open supernode: the only child of j is the
+  // previous column, and all later neighbours of j are already rows of the supernode.
   bool continues(Index j, std::span<const Index> place) const {
     if (j == 0 || column_parent_[j - 1] != j || children_[j] != 1) return false;
     const auto nearby = graph_.neighbours(order_[j]);
@@ -121,7 +121,7 @@ class Fundamental {
     result_.rows.push_back(row);
   }
 
-  // Begins a supernode at column j. Its rows are the later neighbours of j and the rows of its children.
+  // Begins a supernode at column j. Its rows are the later neighbours of j, and the rows of its children.
   void open(Index j, std::span<const Index> place) {
     result_.parent.push_back(no_index);
     for (const Index u : graph_.neighbours(order_[j])) add_row(place[u], j);
@@ -158,19 +158,20 @@ class Fundamental {
 };
 
 // The cost of a supernode in a substitution, in units of one float read from memory: reading its panel,
-// gathering and scattering each row below, and about 40 for starting on it. The figures were measured; they
-// decide how far supernodes are merged.
+// gathering and scattering each row below, and a measured constant of about 40. It decides which supernodes
+// are merged.
 double substitution_cost(Index width, Index below) {
   return static_cast<double>(panel_floats(width, below)) + 2.0 * below + 40;
 }
 
-// Decides which supernodes join their parents. Returns for each supernode the topmost member of its group.
+// Decides which supernodes are merged with their parents. Returns for each supernode the topmost member of
+// its group.
 std::vector<Index> amalgamate(const Supernodes& nodes) {
   const Index n = nodes.size();
   std::vector<Index> width(n), group(n);
   for (Index s = 0; s < n; ++s) width[s] = nodes.width(s);
-  // In postorder a child is final before its parent is considered. The last child, the most similar in
-  // structure, is considered first.
+  // In postorder a child is final before its parent is considered. The last child, which is the most similar
+  // in structure, is considered first.
   std::vector<Index> first_child(n, no_index), sibling(n, no_index);
   for (Index s = 0; s < n; ++s) {
     group[s] = s;
@@ -187,10 +188,10 @@ std::vector<Index> amalgamate(const Supernodes& nodes) {
   return group;
 }
 
-// The groups of joined supernodes, in postorder of the merged tree.
+// The groups of merged supernodes, in postorder of the merged tree.
 struct Groups {
-  std::vector<Index> top;     // per group, its topmost member
-  std::vector<Index> number;  // per old supernode, the group it belongs to
+  std::vector<Index> top;     // per group: its topmost member
+  std::vector<Index> number;  // per old supernode: its group
 };
 
 Groups number_groups(const Supernodes& nodes, std::span<const Index> group) {
@@ -209,7 +210,7 @@ Groups number_groups(const Supernodes& nodes, std::span<const Index> group) {
   return groups;
 }
 
-// Orders the columns group by group. Returns the new number of each old column.
+// Orders the columns group by group. Returns the new index of each old column.
 std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, Supernodes& result) {
   std::vector<Index> next(groups.top.size() + 1, 0);
   for (Index s = 0; s < nodes.size(); ++s) next[groups.number[s] + 1] += nodes.width(s);
@@ -225,8 +226,8 @@ std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, 
   return moved;
 }
 
-// Joins each group into one supernode. Its rows are those of the topmost member, which include the rows below
-// all other members.
+// Merges each group into one supernode. Its rows are the rows of the topmost member, which include the rows
+// below all other members.
 Supernodes merged(const Supernodes& nodes, std::span<const Index> group) {
   const Groups groups = number_groups(nodes, group);
   Supernodes result;

@@ -1,20 +1,20 @@
-// Symbolic factorisation: finds the columns of a sparse Cholesky factor that form supernodes, and the rows
-// that they fill. Tested by tests/solver/cholesky_test.cpp.
+// Symbolic factorisation: finds the supernodes of a sparse Cholesky factor and the rows of each. Tested by
+// tests/solver/cholesky_test.cpp.
 #pragma once
 
 #include "solver/dissection.h"
 
 namespace relievo::solver {
 
-// The columns in elimination order, grouped into supernodes: consecutive columns stored as one dense panel.
-// The rows of a panel are the columns themselves and the rows in `rows`. Supernodes are in postorder of the
+// The columns in elimination order, grouped into supernodes: consecutive columns that are stored as one dense
+// panel. The rows of a panel are its columns and the rows in `rows`. Supernodes are in postorder of the
 // assembly tree.
 struct Supernodes {
-  std::vector<Index> order;        // per column, the vertex eliminated there
+  std::vector<Index> order;        // per column: the vertex that is eliminated there
   std::vector<Index> first = {0};  // supernode s has the columns first[s] up to first[s + 1]
-  std::vector<Index> parent;       // supernode of the first row below; no_index for a root
-  // The rows of s below its own columns are rows[begin[s]] up to rows[begin[s + 1]]: numbers of columns,
-  // ascending.
+  std::vector<Index> parent;       // supernode that contains the first row below; no_index for a root
+  // The rows of supernode s below its own columns are rows[begin[s]] up to, but not including, rows[begin[s +
+  // 1]]: ascending column indices.
   std::vector<std::size_t> begin = {0};
   std::vector<Index> rows;
 
@@ -26,12 +26,12 @@ struct Supernodes {
   }
 };
 
-// Returns the supernodes of eliminating `graph` in the given order, or in one that causes the same fill.
-// Columns of equal structure form a supernode; supernodes are merged, storing some zeros, where that makes a
-// substitution cheaper.
+// Returns the supernodes for eliminating `graph` in the given order, or in an order with the same fill.
+// Consecutive columns with the same structure form a supernode. Supernodes are merged, which stores some
+// zeros, if that makes a substitution cheaper.
 Supernodes analyse(const Graph& graph, std::span<const Index> order);
 
-// Returns the number of floats in a supernode's panel of `width` columns with `below` rows under them, see
+// Returns the number of floats of a supernode's panel with `width` columns and `below` rows under them, see
 // supernode_panel.h.
 std::size_t panel_floats(Index width, Index below);
 

@@ -1,5 +1,5 @@
-// Cuts the assembly tree into tasks, the units of parallel work: subtrees at the bottom, each small enough
-// for one thread, and the single supernodes above them. Declared in cholesky_factor.h, tested by
+// Divides the assembly tree into tasks, the units of parallel execution: subtrees at the bottom, each small
+// enough for one thread, and the single supernodes above them. Declared in cholesky_factor.h, tested by
 // tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <numeric>
@@ -9,9 +9,9 @@
 namespace relievo::solver {
 namespace {
 
-// Returns the largest number of columns of a task that is a subtree. It is small enough that tasks outnumber
-// threads (at least 64 of them), and large enough that few rows cross from one task to another. It is at most
-// 16,384, so that positions in a work vector fit into 16 bits.
+// Returns the largest number of columns of a task that is a subtree: small enough for at least about 64
+// tasks, and large enough that few rows belong to two tasks. It is at most 16,384, so that positions in a
+// work vector fit into 16 bits.
 Index subtree_limit(std::size_t columns) {
   return static_cast<Index>(std::clamp<std::size_t>(columns / 64, 1024, 16384));
 }
@@ -34,9 +34,8 @@ class TaskTreeBuilder {
   }
 
  private:
-  // Marks the supernodes whose subtree is too large for one task. A single supernode with too many rows
-  // counts as too large, too, because its products would not fit on the stack. All ancestors of marked
-  // supernodes are marked.
+  // Marks the supernodes whose subtree is too large for one task, and all their ancestors. A single supernode
+  // with too many rows counts as too large, too, because its products would not fit on the stack.
   void mark_supernodes_above() {
     const Index n = nodes_.size();
     std::vector<Index> columns(n, 0);
@@ -55,8 +54,8 @@ class TaskTreeBuilder {
     }
   }
 
-  // Makes the tasks. Neighbouring subtrees under one parent share a task as long as its columns stay below
-  // the limit and its work vector stays addressable with 16 bits.
+  // Makes the tasks. Neighbouring subtrees under one parent share a task, as long as their columns stay below
+  // the limit and 16 bits suffice for positions in their work vector.
   void make_tasks() {
     for (Index s = 0; s < nodes_.size(); ++s) {
       const Index p = nodes_.parent[s];
@@ -90,9 +89,9 @@ class TaskTreeBuilder {
     return task_of;
   }
 
-  // Sorts the tasks by height, which is the order in which threads take them. Tasks of one height do not
-  // depend on each other, so that the many leaves keep all threads busy and a task rarely waits for its
-  // children. The sort is stable, so that the order is the same every time.
+  // Sorts the tasks by height, the order in which threads take them. Tasks of the same height do not depend
+  // on each other, so the many leaves keep all threads busy, and a task rarely waits for its children. The
+  // sort is stable, so the order is reproducible.
   void sort_by_height() {
     const std::vector<Index> task_of = tasks_of_nodes();
     std::vector<Index> height(tasks_.size(), 0), sequence(tasks_.size());
@@ -123,10 +122,10 @@ class TaskTreeBuilder {
       if (const Index p = result_->tasks[t].parent; p != no_index) result_->children[next[p]++] = t;
   }
 
-  // Assigns each task its part of the shared arrays: the boundary, the work vector and the values.
+  // Assigns to each task its parts of the shared arrays: boundary, work vector and values.
   void assign_storage() {
-    // All boundaries are found first: where a row stands in the parent's work vector depends on the parent's
-    // boundary.
+    // All boundaries are found first, because the position of a row in the parent's work vector depends on
+    // the parent's boundary.
     for (Task& task : result_->tasks) find_boundary(task);
     for (Task& task : result_->tasks) {
       find_rows_in_parent(task);
@@ -134,8 +133,8 @@ class TaskTreeBuilder {
       // A supernode above the subtrees needs a copy of its columns, padded to vectors of eight.
       const Index scratch = task.is_subtree ? 0 : task.own() + 8;
       task.work_begin = result_->work_count;
-      // The size is in whole cache lines of 16 floats, with at least eight floats of padding, so that no two
-      // threads write to one line.
+      // Whole cache lines of 16 floats, with at least eight floats of padding, so that no two threads write
+      // to the same line.
       result_->work_count += (task.own() + task.boundary + scratch + 23) / 16 * 16;
       task.values = result_->value_count;
       for (Index s = task.first_node; s < task.end_node; ++s)
@@ -163,7 +162,7 @@ class TaskTreeBuilder {
   }
 
   // Lists the work rows of each supernode of a subtree. They are padded with the supernode's first row, as
-  // the products need it.
+  // the products require.
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
     std::vector<std::uint16_t>& rows = result_->rows;
@@ -180,7 +179,7 @@ class TaskTreeBuilder {
 
   const Supernodes& nodes_;
   Index limit_;
-  std::vector<Index> begin_;  // per supernode, the first supernode of its subtree
+  std::vector<Index> begin_;  // per supernode: the first supernode of its subtree
   std::vector<std::uint8_t> is_above_;
   std::vector<Task> tasks_;
   Index last_parent_ = no_index;

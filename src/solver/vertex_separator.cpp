@@ -5,9 +5,10 @@
 namespace relievo::solver {
 namespace {
 
-// A maximum set of vertex-disjoint paths as a flow. Every vertex v is split into an entrance (state 2v) and
-// an exit (state 2v + 1), joined by an arc of capacity 1; arcs between vertices are unbounded, so that only
-// vertices can be cut. The path through a used vertex v comes from previous_[v] and goes on to next_[v].
+// Finds a maximum set of vertex-disjoint paths as a flow. Every vertex v is split into an entrance (state 2v)
+// and an exit (state 2v + 1), which are connected by an arc of capacity 1. Arcs between vertices are
+// unbounded, so that only vertices can be cut. The path through a used vertex v comes from previous_[v] and
+// continues to next_[v].
 class PathFlow {
  public:
   explicit PathFlow(const SeparatorBand& band)
@@ -23,16 +24,16 @@ class PathFlow {
     queue_.reserve(level_.size());
   }
 
-  // Finds first paths greedily, before maximise(). Each path begins at the uppermost unused start and always
-  // takes the leftmost turn. A vertex from which such a walk has turned back lies above the walk. In a planar
-  // graph no lower path gets there without crossing the walk, so no vertex is visited twice.
+  // Finds most paths greedily, before maximise(). Each path begins at the uppermost unused start and always
+  // takes the leftmost turn. If a walk turns back at a vertex, that vertex lies above the walk. In a planar
+  // graph a lower path would have to cross the walk to reach it, so no vertex is visited twice.
   void take_uppermost_paths() {
     std::vector<std::uint8_t> is_seen(graph_.size(), 0);
     for (const Index start : starts_from_above())
       if (!is_seen[start] && find_uppermost_path(start, is_seen)) keep_path();
   }
 
-  // Dinic's algorithm: augments along shortest residual paths until no path is left.
+  // Dinic's algorithm: augments the flow along shortest residual paths until no such path is left.
   void maximise() {
     while (find_levels()) {
       arc_ = graph_.begin;
@@ -41,9 +42,9 @@ class PathFlow {
     }
   }
 
-  // Reads the separator off the final flow, after maximise(): vertices that can still be reached are on the
-  // near side. A vertex with a reachable entrance and an unreachable exit is saturated, hence in the
-  // separator.
+  // Returns the sides from the final flow, after maximise(). Vertices that can still be reached are on the
+  // near side. A vertex whose entrance is reachable, but whose exit is not, is saturated, so it belongs to
+  // the separator.
   std::vector<Side> cut(Side near, Side far) const {
     std::vector<Side> side(graph_.size(), far);
     for (Index v = 0; v < graph_.size(); ++v) {
@@ -55,15 +56,14 @@ class PathFlow {
     return side;
   }
 
-  // Turns the flow around, so that it is read from the other end.
+  // Reverses the flow, so that cut() starts from the other side.
   void reverse() {
     std::swap(starts_, ends_);
     std::swap(previous_, next_);
   }
 
  private:
-  // A vertex of the current walk, the number of its neighbour to try first, and how many neighbours were
-  // tried.
+  // A vertex of the current walk, its first neighbour to try, and how many neighbours were tried.
   struct Turn {
     Index vertex, first, tried;
   };
@@ -90,8 +90,8 @@ class PathFlow {
       const Eigen::Vector2f step = band_.positions[nearby[i]] - band_.positions[v];
       const float x = -step.dot(band_.direction);
       const float y = step.x() * band_.direction.y() - step.y() * band_.direction.x();
-      // A substitute for the angle that needs no arc tangent: it grows clockwise from 0 in the backward
-      // direction (x = 1, y = 0) to 4.
+      // A substitute for the angle, without an arc tangent. It increases clockwise to 4, from 0 in the
+      // backward direction (x = 1, y = 0).
       const float sum = std::abs(x) + std::abs(y), turn = sum > 0 ? x / sum : 1;
       const float angle = -y >= 0 ? 1 - turn : 3 + turn;
       if (angle < best_angle) best = i, best_angle = angle;
@@ -140,7 +140,7 @@ class PathFlow {
     queue_.push_back(state);
   }
 
-  // Writes to level_ the distances from the start in the residual network. Returns whether the far end can be
+  // Writes the distances from the start in the residual network to level_. Returns whether the far end can be
   // reached. If so, the search stops there, and not all levels are known.
   bool find_levels() {
     std::fill(level_.begin(), level_.end(), no_index);
@@ -161,15 +161,15 @@ class PathFlow {
     return false;
   }
 
-  // Returns the state that follows the entrance of v: its exit if v is free, otherwise back along the path
-  // that uses v, and no_index if that path begins at v.
+  // Returns the state after the entrance of v: its exit if v is free; otherwise the previous vertex of the
+  // path that uses v, or no_index if that path begins at v.
   Index inner_arc(Index v) const {
     if (!is_used_[v]) return 2 * v + 1;
     return previous_[v] == no_index ? no_index : 2 * previous_[v] + 1;
   }
 
-  // Searches depth first along rising levels and keeps the states in path_. A dead end loses its level, so
-  // that a phase visits it once.
+  // Searches depth first along increasing levels, and stores the states in path_. A dead end loses its level,
+  // so each phase visits it only once.
   bool find_path(Index start) {
     path_.assign(1, start);
     while (!path_.empty()) {
@@ -209,7 +209,7 @@ class PathFlow {
       }
     }
     next_[path_.back() / 2] = no_index;
-    // Paths are vertex-disjoint: no other path of this phase may pass any of these states.
+    // Paths are vertex-disjoint, so no other path of this phase may contain these states.
     for (const Index state : path_) level_[state] = no_index;
   }
 
@@ -231,7 +231,8 @@ MinimumSeparators minimum_separators(const SeparatorBand& band) {
   MinimumSeparators cuts;
   cuts.near_first = flow.cut(Side::first, Side::second);
   flow.reverse();
-  flow.maximise();  // the flow is already maximal; this only finds what can be reached from the other end
+  // The flow is already maximal; this only finds the vertices that can be reached from the other side.
+  flow.maximise();
   cuts.near_second = flow.cut(Side::second, Side::first);
   return cuts;
 }

@@ -1,5 +1,5 @@
-// Tables of the words for an enumeration's values. One table serves to parse the words, to write them and to
-// list them in errors.
+// Tables of the words for an enumeration's values. The same table is used to parse the words, to write them,
+// and to list them in errors.
 #pragma once
 
 #include <array>
@@ -17,15 +17,14 @@ struct Choice {
   E value;
 };
 
-// Returns the names joined: "a, b or c".
+// Returns the names joined, such as "a, b or c".
 std::string either(const std::vector<std::string_view>& names);
 
-// Returns the error for a word that is not in `names`: "expected one of a, b or c, found 'x'". Its kind is
-// option.
+// Returns an error of kind option for a word that is not in `names`: "expected one of a, b or c, found 'x'".
 std::unexpected<Error> not_one_of(std::string_view option, const std::vector<std::string_view>& names,
                                   std::string_view found);
 
-// Returns the words of a table, in its order. Each row has a `name`.
+// Returns the words of a table in its order. Each entry has a member `name`.
 template <typename Table>
 std::vector<std::string_view> names_of(const Table& choices) {
   std::vector<std::string_view> names;
@@ -33,7 +32,7 @@ std::vector<std::string_view> names_of(const Table& choices) {
   return names;
 }
 
-// Returns the value whose word is `text`. For any other text, returns an error of kind option that names
+// Returns the value for the word `text`. For any other text, returns an error of kind option that names
 // `option` and lists all words.
 template <typename E, std::size_t n>
 Result<E> parse_choice(std::string_view option, std::string_view text,
@@ -43,7 +42,7 @@ Result<E> parse_choice(std::string_view option, std::string_view text,
   return not_one_of(option, names_of(choices), text);
 }
 
-// Returns the word of `value`; empty if the table has no such value.
+// Returns the word for `value`; an empty text if the table does not contain that value.
 template <typename E, std::size_t n>
 constexpr std::string_view name_in(const std::array<Choice<E>, n>& choices, E value) {
   for (const Choice<E>& choice : choices)

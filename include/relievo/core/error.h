@@ -1,4 +1,4 @@
-// Errors as values: the library throws nothing and prints nothing.
+// Errors as values. The library throws nothing and prints nothing.
 #pragma once
 
 #include <version>
@@ -15,29 +15,29 @@ namespace relievo {
 
 enum class ErrorKind {
   input,      // a file's bytes contradict their format
-  option,     // a parameter is out of its range, or two contradict each other
+  option,     // a parameter is out of range, or two parameters contradict each other
   geometry,   // the points do not determine a relief
   cancelled,  // Progress::cancel() was called
   output,     // a file could not be written
   memory,     // an allocation failed; see within_memory.h
 };
 
-// Returns the kind's name, as written in files and messages: "input", "option" and so on.
+// Returns the kind's name in files and messages: "input", "option" and so on.
 constexpr std::string_view name_of(ErrorKind kind) {
   constexpr std::string_view names[] = {"input", "option", "geometry", "cancelled", "output", "memory"};
   return names[static_cast<int>(kind)];
 }
 
-// Describes an error: the input, the place in it, and what was expected there and found instead.
+// Describes an error: the input, the position in it, and what was expected and found there.
 struct Error {
   ErrorKind kind = ErrorKind::input;
-  // The name that the caller gave to the input or option, "scan.ply" or "height"; may be empty.
+  // The caller's name for the input or option, such as "scan.ply" or "height"; may be empty.
   std::string input;
   std::string place;     // "line 12", "byte 340", "vertex 7"; empty if the error concerns the whole input
   std::string expected;  // one clause: what was expected and what was found instead
 
-  // Returns one line for a person: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty parts are left
-  // out.
+  // Returns the error as one line of text: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty
+  // members are left out.
   std::string message() const {
     std::string head = input;
     if (!place.empty()) head += (head.empty() ? "" : ", ") + place;
@@ -48,8 +48,7 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return an error of kind input, option, geometry or cancelled, ready to be returned from a function that
-// returns a Result.
+// Return an error of kind input, option, geometry or cancelled, to be returned from a function with a Result.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }
@@ -66,7 +65,7 @@ inline std::unexpected<Error> cancelled_error() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
-// These are macros, because only a macro can return from the function that uses it.
+// Macros, because a function could not return from its caller.
 #define RELIEVO_JOIN_(a, b) a##b
 #define RELIEVO_JOIN(a, b) RELIEVO_JOIN_(a, b)
 

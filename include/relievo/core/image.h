@@ -1,4 +1,4 @@
-// Rectangular grids of values: pictures, height maps, masks.
+// Rectangular grids of values: pictures, height maps and masks.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// Row-major, first row at the top. A pixel has `channels` values: 1 (grey, a height, a mask), 3 (red, green,
-// blue) or 4 (red, green, blue and opacity; the colours are not multiplied by it).
+// Values are row-major, with the first row at the top. A pixel has `channels` values: 1 (grey, a height, a
+// mask), 3 (red, green, blue) or 4 (red, green, blue and opacity; colours are not premultiplied).
 template <typename T>
 struct Image {
   int width = 0, height = 0, channels = 1;
@@ -16,24 +16,24 @@ struct Image {
 
   bool empty() const { return pixels.empty(); }
 
-  // Access to `pixels` in their order: row by row, with the channels of a pixel side by side.
+  // Accesses `pixels` in order: row by row, with the channels of a pixel next to each other.
   std::size_t size() const { return pixels.size(); }
   T& operator[](std::size_t i) { return pixels[i]; }
   const T& operator[](std::size_t i) const { return pixels[i]; }
 
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
 
-  // Returns the position of the pixel's first value in `pixels`.
+  // Returns the index in `pixels` of the pixel's first value.
   std::size_t index(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
            static_cast<std::size_t>(channels);
   }
 
-  // The pixel's first value; x and y lie in the image.
+  // Return the pixel's first value; x and y must be inside the image.
   T& at(int x, int y) { return pixels[index(x, y)]; }
   const T& at(int x, int y) const { return pixels[index(x, y)]; }
 
-  // Sets the size, each side 0 or more. The values are then unspecified. Allocated memory is kept.
+  // Sets the size; each side is at least 0. Then the values are unspecified. Allocated memory is reused.
   void resize(int new_width, int new_height, int new_channels = 1) {
     width = new_width;
     height = new_height;

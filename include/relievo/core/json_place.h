@@ -1,4 +1,4 @@
-// Finds the place at which a text stops being JSON.
+// Finds the position of a syntax error in JSON.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace relievo {
 
-// Returns the place of the first character that cannot belong to a JSON text, "line 3, column 14"; empty if
-// the text is JSON.
+// Returns the position of the first character that cannot belong to a JSON text, such as "line 3, column 14";
+// an empty text if `text` is JSON.
 std::string json_error_place(std::string_view text);
 
 }  // namespace relievo

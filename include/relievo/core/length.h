@@ -1,4 +1,4 @@
-// Lengths as people write them: in millimetres, centimetres or inches. Tested by tests/core/length_test.cpp.
+// Lengths as users write them, in millimetres, centimetres or inches. Tested by tests/core/length_test.cpp.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@ namespace relievo {
 
 inline constexpr double mm_per_inch = 25.4;
 
-// Returns the millimetres in one unit.
+// Returns the length of one unit in millimetres.
 constexpr double mm_per(LengthUnit unit) {
   return unit == LengthUnit::inch ? mm_per_inch : 1;
 }
@@ -20,15 +20,18 @@ constexpr std::string_view name_of(LengthUnit unit) {
   return unit == LengthUnit::inch ? "in" : "mm";
 }
 
-// Returns the unit called "mm" or "in". Errors: kind option for any other name; the error's input is "units".
+// Returns the unit with the name "mm" or "in". Errors: kind option for any other name; the error's input is
+// "units".
 Result<LengthUnit> parse_unit(std::string_view name);
 
-// Returns the length in millimetres of a text such as "12.5mm", "2,5cm", "4in", "4\"", "1 3/8in" or "3+0.5":
-// a number, a fraction, a number with a fraction, or a sum of these, followed by one unit for the whole, with
-// or without spaces. Numbers have a decimal point or comma; "1,234" is refused, because it could mean a
-// thousand. A text without a unit is in `bare` units. The result is finite and may have any sign. Errors:
-// kind option for any other text; the error's input is empty, for the caller to fill in.
-// apps/studio/page/lengths.js is the same function in JavaScript; tests/core/lengths.json has cases for both.
+// Returns the length in millimetres that a text describes, such as "12.5mm", "2,5cm", "4in", "4\"", "1 3/8in"
+// or "3+0.5": a number, a fraction, a number with a fraction, or a sum of these, followed by a single unit,
+// with or without spaces. Without a unit, `bare` is the unit. Numbers have a decimal point or comma; "1,234"
+// is refused, because it could mean a thousand. The result is finite and may be negative. Errors: kind option
+// for any other text; the error's input is empty, for the caller to fill in.
+//
+// apps/studio/page/lengths.js is the same function in JavaScript; tests/core/lengths.json has test cases for
+// both.
 Result<double> parse_length(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 }  // namespace relievo

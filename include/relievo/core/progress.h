@@ -1,4 +1,4 @@
-// Progress of a long call: stage names, fraction done, timing and cancellation in one small object.
+// The progress of a long call: stage names, fraction done, times and cancellation.
 #pragma once
 
 #include <atomic>
@@ -17,20 +17,20 @@ struct StageTime {
   double seconds = 0;
 };
 
-// Long calls take a pointer to a Progress as their last argument; a null pointer means that nothing is
-// reported or cancelled. stage() and times() may only be called by the thread that runs the call; cancel()
-// and is_cancelled() by any thread at any time.
+// Long calls take a pointer to a Progress as their last argument. If it is null, they report nothing and
+// cannot be cancelled. Only the thread of the call may use stage() and times(); any thread may use cancel()
+// and is_cancelled() at any time.
 class Progress {
  public:
-  // Called at the start of each stage with its name and the fraction done so far, in [0, 1], never
-  // decreasing.
+  // A function that is called at the start of each stage, with its name and the fraction done, in [0, 1],
+  // which never decreases.
   using Watcher = std::function<void(std::string_view stage, double fraction)>;
 
   Progress() = default;
   explicit Progress(Watcher watcher) : watcher_(std::move(watcher)) {}
 
-  // Ends the running stage, records its time, and starts the next one. Returns an error of kind `cancelled`
-  // if cancel() was called; the caller then returns that error at once.
+  // Ends the current stage, records its time, and starts the next one. Returns an error of kind `cancelled`
+  // if cancel() was called; the caller must then return that error.
   Result<void> stage(std::string_view name, double fraction);
 
   // Ends the last stage, records its time and sets the fraction to 1.
@@ -39,7 +39,7 @@ class Progress {
   void cancel() { is_cancelled_ = true; }
   bool is_cancelled() const { return is_cancelled_; }
 
-  // Returns the stages that have ended, in order.
+  // Returns the finished stages, in order.
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
@@ -54,11 +54,11 @@ class Progress {
   double fraction_ = 0;
 };
 
-// Returns an error of kind `cancelled` if cancel() was called. Long stages call it repeatedly. The pointer
+// Returns an error of kind `cancelled` if cancel() was called. Long stages call this repeatedly. The pointer
 // may be null.
 Result<void> check_cancelled(const Progress* progress);
 
-// Calls stage(); does nothing if the pointer is null.
+// Calls stage(). Does nothing if the pointer is null.
 inline Result<void> begin_stage(Progress* progress, std::string_view name, double fraction) {
   return progress ? progress->stage(name, fraction) : Result<void>{};
 }

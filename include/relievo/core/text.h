@@ -1,5 +1,4 @@
-// Joining of texts and parsing of small inputs, independent of the locale. Tested by
-// tests/core/text_test.cpp.
+// Joins texts and parses small inputs, independently of the locale. Tested by tests/core/text_test.cpp.
 #pragma once
 
 #include <charconv>
@@ -26,8 +25,8 @@ void append(std::string& out, T number) {
   out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-// Returns the parts joined. Parts are texts, characters and numbers; floating-point numbers get six
-// significant digits.
+// Returns the concatenation of texts, characters and numbers. Floating-point numbers get six significant
+// digits.
 template <typename... Parts>
 std::string cat(const Parts&... parts) {
   std::string out;
@@ -35,11 +34,11 @@ std::string cat(const Parts&... parts) {
   return out;
 }
 
-// Returns the text for XML or HTML: characters with a meaning there are escaped, and control characters,
-// which are not allowed there, become blanks.
+// Returns the text for XML or HTML: special characters are escaped, and control characters, which are not
+// allowed there, become blanks.
 std::string escaped_markup(std::string_view text);
 
-// Parses finite numbers with commas between them. Returns nothing for any other text.
+// Parses finite numbers separated by commas. Returns nothing for any other text.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 // Parses "X,Y,Z" as three finite numbers. Returns nothing for any other text.

@@ -1,4 +1,4 @@
-// Basic types that all other headers use.
+// Basic types for all other headers.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,23 +20,23 @@ using Mat3 = Eigen::Matrix3d;
 using Index = std::uint32_t;
 inline constexpr Index no_index = ~Index{0};
 
-// Three vertices. They are counter-clockwise as seen from +Z, or, in a solid, as seen from outside.
+// Three vertices, counter-clockwise seen from +Z or, in a solid, seen from outside.
 using Triangle = std::array<Index, 3>;
 
-// The unit of coordinates and lengths; core/length.h reads and names it.
+// The unit of coordinates and lengths. core/length.h parses and names it.
 enum class LengthUnit { mm, inch };
 
 // Red, green, blue.
 using Colour = std::array<std::uint8_t, 3>;
 
-// Returns the colour at a fraction `share` of the way from a to b, rounded.
+// Returns the rounded mixture of two colours: a for `share` = 0, b for `share` = 1.
 inline Colour mixed(const Colour& a, const Colour& b, double share) {
   Colour out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::uint8_t>(a[i] + share * (b[i] - a[i]) + .5);
   return out;
 }
 
-// An axis-aligned box. It is empty, with min above max, until the first extend(). An empty box has size 0 and
+// An axis-aligned box. Until the first extend() it is empty, with min above max. An empty box has size 0 and
 // its centre at the origin.
 struct Box {
   Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -46,7 +46,7 @@ struct Box {
     min = min.cwiseMin(p);
     max = max.cwiseMax(p);
   }
-  // Returns the box of points of any precision; for points in the plane z is 0.
+  // Returns the bounding box of points of any precision. For points in the plane z is 0.
   template <typename Points>
   static Box of(const Points& points) {
     Box box;
@@ -62,7 +62,7 @@ struct Box {
   Vec3 size() const { return is_empty() ? Vec3::Zero() : Vec3(max - min); }
   Vec3 centre() const { return is_empty() ? Vec3::Zero() : Vec3((min + max) / 2); }
   double diagonal() const { return size().norm(); }
-  // Returns the longer of the box's sides in x and y.
+  // Returns the longer of the box's extents in x and y.
   double longer_side() const { return std::max(size().x(), size().y()); }
 };
 

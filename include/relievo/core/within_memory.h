@@ -9,24 +9,24 @@
 
 namespace relievo {
 
-// Describes work for which there may be too little memory; a number is 0 if it is not known.
+// Describes an operation for which memory may run out. Numbers are 0 if unknown.
 struct MemoryNeed {
   std::size_t points = 0;
   double resolution_mm = 0;
 };
 
-// Returns an error of kind memory whose message states the known numbers of the need. If there is no memory
-// for that message, the error has a shorter one.
+// Returns an error of kind memory whose message states the known numbers. If there is not even memory for
+// that message, the message is shorter.
 Error memory_error(const MemoryNeed& need = {}) noexcept;
 
-// Returns the Result of f, or an error of kind memory if an allocation in f failed, in whatever thread. In
-// nested calls of this function, the error states the need of the innermost call.
+// Returns the Result of f, or an error of kind memory if an allocation in f failed, in any thread. If calls
+// are nested, the error states the need of the innermost call.
 template <typename F>
 auto within_memory(const MemoryNeed& need, F&& f) -> decltype(f()) {
   try {
     return f();
-  } catch (const std::bad_alloc&) {     // the memory that f had allocated is free again
-  } catch (const std::length_error&) {  // a vector of more elements than there are addresses
+  } catch (const std::bad_alloc&) {     // the memory that f allocated is free again
+  } catch (const std::length_error&) {  // a vector with more elements than addresses
   }
   return std::unexpected(memory_error(need));
 }

@@ -1,9 +1,9 @@
-// Multilevel B-splines: smooth functions of the plane, fitted to values at scattered sites that stay the
-// same.
+// Multilevel B-splines: smooth functions of the plane, fitted to values at scattered sites. The sites are
+// fixed, the values change. Source: Lee, Wolberg and Shin, "Scattered Data Interpolation with Multilevel
+// B-Splines", 1997.
 //
-// Lee, Wolberg and Shin, "Scattered Data Interpolation with Multilevel B-Splines", 1997: uniform cubic
-// B-splines on lattices whose cells halve from level to level. Each level is fitted to the residual of the
-// coarser ones.
+// The functions are uniform cubic B-splines on lattices; the cells of a level are half as wide as those of
+// the previous level. Each level is fitted to the residual of the coarser levels.
 #pragma once
 
 #include <span>
@@ -14,22 +14,24 @@
 namespace relievo {
 
 struct SplineOptions {
-  Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; points outside take the value at its edge
-  double cell = .01;                            // side of the finest lattice's cells, > 0
-  int levels = 5;  // number of lattices, [1, 16]; each has cells twice as wide as the next finer one
-  // The levels that are fitted, counted from the coarsest, 0; the others only refine the coarser function.
+  Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; the function is constant beyond its edge
+  double cell = .01;                            // width of the cells of the finest lattice, > 0
+  // Number of lattices, [1, 16]; the cells of each are twice as wide as those of the next finer one.
+  int levels = 5;
+  // The range of levels that are fitted, counted from the coarsest, 0. All others only refine the coarser
+  // function.
   int first_fitted = 0, last_fitted = 15;
-  // The damping in units of the mean weight of the sites, >= 0; see MultilevelSpline::fit().
+  // The damping in units of the mean weight of the sites, >= 0, see MultilevelSpline::fit().
   double damping = 0;
 };
 
 // A point relative to the finest lattice.
 struct SplinePlace {
-  Index node = 0;              // lower left of the 4 x 4 nodes that influence the point
-  std::uint16_t x = 0, y = 0;  // position in the middle cell of these nodes, in 65536ths
+  Index node = 0;              // lower left one of the 4 x 4 nodes that influence the point
+  std::uint16_t x = 0, y = 0;  // position in the middle cell of these nodes, in units of 1/65536
 };
 
-// A function of the plane: a constant plus a uniform cubic B-spline.
+// A function of the plane: the sum of a constant and a uniform cubic B-spline.
 struct SplineFunction {
   float mean = 0;
   std::vector<float> nodes;  // values at the nodes of the finest lattice, row by row
@@ -38,42 +40,42 @@ struct SplineFunction {
 // Fits and evaluates functions given at fixed sites. Const calls may run concurrently.
 class MultilevelSpline {
  public:
-  // Scratch memory of fit(), so that it allocates nothing.
+  // Scratch memory, so that fit() allocates nothing.
   struct Workspace {
     std::vector<float> rest;        // residual of the levels so far, per site
-    std::vector<float> coarser;     // nodes of the level before
-    std::vector<float> correction;  // correction by the current level, per node
+    std::vector<float> coarser;     // nodes of the previous level
+    std::vector<float> correction;  // per node: correction by the current level
   };
 
-  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites: functions are 0
+  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites functions are 0
 
-  // Prepares fits at the sites. Each has a weight >= 0 relative to the other sites near it.
+  // Prepares fits at the sites. Each site has a weight >= 0, relative to other sites near it.
   MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights, const SplineOptions& options);
 
-  // Returns the memory used, in bytes.
+  // Returns the number of bytes of memory in use.
   std::size_t memory() const;
 
   SplineFunction make_function() const;
   Workspace make_workspace() const;
 
   // Overwrites the function with the fit to one value per site: the weighted mean of the values, corrected
-  // level by level. Damping shrinks corrections that few sites support: to a half at nodes where the weight
-  // around them equals the damping. Nodes without sites around them keep the values of the coarser levels. If
-  // all weights are 0, the function is 0.
+  // level by level. Damping reduces corrections with little support: by half at nodes where the sum of
+  // weights around the node equals the damping. Nodes without nearby sites keep the values of the coarser
+  // levels. If all weights are 0, the function is 0.
   void fit(std::span<const float> values, SplineFunction& function, Workspace& workspace) const;
 
-  // Returns the points relative to the finest lattice, for evaluate().
+  // Returns the points relative to the finest lattice, as evaluate() needs them.
   std::vector<SplinePlace> pack(std::span<const Vec2> points) const;
 
-  // Writes the function's value at each place to `values`, which has the same size.
+  // Writes the function's value at each position to `values`, which must have the same size as `places`.
   void evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
                 std::span<float> values) const;
 
-  // Interleaves the nodes of two functions into `pair`, which is overwritten. The functions may belong to
+  // Interleaves the nodes of two functions. Overwrites `pair` with the result. The functions may belong to
   // another spline with the same domain, cell size and number of levels.
   static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
 
-  // Writes the values of both functions, without their means, at each place. Uses only the calling thread.
+  // Writes the values of both functions, without their means, at each position. Uses only the calling thread.
   struct PairValues {
     std::span<float> a, b;
   };
@@ -83,7 +85,7 @@ class MultilevelSpline {
  private:
   struct Position {
     Index node = 0;
-    float x = 0, y = 0;  // position in the middle cell, [0, 1]
+    float x = 0, y = 0;  // position in the middle cell, in [0, 1]
   };
   struct Site {
     Eigen::Array4f x, y;  // weights of the 4 nodes along each axis
@@ -91,10 +93,10 @@ class MultilevelSpline {
     float scale = 0;  // the site's weight divided by the sum of the squared node weights
   };
   struct Level {
-    std::size_t columns = 0, rows = 0;  // numbers of nodes: cells + 3
+    std::size_t columns = 0, rows = 0;  // numbers of nodes, which is cells + 3
     double cell = 0;
     std::vector<Site> sites;     // empty unless the level is fitted
-    std::vector<float> inverse;  // per node, 1 / the weight around it
+    std::vector<float> inverse;  // per node: 1 / the sum of weights around it
   };
 
   Position locate(const Level& level, const Vec2& point) const;

@@ -1,4 +1,4 @@
-// Reads scans from the bytes of a file. The functions here open no files; only the programs do.
+// Reads scans from the bytes of files. These functions open no files.
 #pragma once
 
 #include <cstddef>
@@ -19,94 +19,95 @@ namespace relievo {
 // (PLY, STL ...) or depth image (PNG, TIFF ...)".
 std::string readable_formats();
 
-// Returns the endings of the names of readable files, with the dot and in lower case.
+// Returns the endings of the names of readable files, in lower case with the dot.
 std::vector<std::string> readable_endings();
 
-// Returns the bytes of another file to which the file being read refers, such as a buffer of a glTF. The name
-// is relative to the folder of the file being read, in UTF-8, and does not lead out of that folder. An error
-// is not passed on: the reader reports only that the file cannot be read.
+// A function that returns the bytes of another file that the file being read refers to, such as a buffer of a
+// glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. The
+// reader reports an error only as a file that cannot be read.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
-// Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content,
-// then by the ending of `name`; anything else is read as text of numbers. src/io/formats.h states which parts
-// of each format are read. Errors contain `name`.
+// Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content
+// or, if that is not decisive, by the ending of `name`; anything else is read as text of numbers.
+// src/io/formats.h lists the supported parts of each format. Errors contain `name`.
 //
-// Polygons, concave ones too, are triangulated as if they were flat. A polygon that crosses itself becomes a
-// triangle fan.
+// Polygons, also concave ones, are triangulated as if they were flat. A polygon that intersects itself
+// becomes a triangle fan. Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf.
+// Numbers too large for double are infinite.
 //
-// Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf. A number beyond the
-// range of double is infinite.
+// `beside` is called at most once for each other file that the file refers to. Without `beside`, such a
+// reference is an error, or only a remark if just colours are missing.
 //
-// `beside` is called for the other files to which the file refers, at most once each. Without `beside`, a
-// reference to another file is an error, or a remark if only colours are missing.
-//
-// Errors (kind input) state the line or the byte and what was expected there, or the name of an unsupported
-// format, "a PTX file". A file without a point of finite coordinates is an error. A header that promises more
-// than the bytes contain is an error, too, before memory is allocated for it; only a LAS file that ends early
-// is read up to its end. Reading always ends: there is no recursion, and the time is linear in the number of
-// bytes. Only concave polygons of at most 10,000 corners take time quadratic in the number of corners.
+// Errors (kind input) state the line or the byte and what was expected there, or name an unsupported format,
+// such as "a PTX file". It is an error if no point has finite coordinates. It is also an error if a header
+// promises more than the bytes contain; no memory is allocated for it. Only a LAS file that ends early is
+// read to its end. Reading always terminates: there is no recursion, and the time is linear in the number of
+// bytes, except that concave polygons of at most 10,000 corners take quadratic time.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
 struct ReadOptions {
   FilesBeside beside = {};
-  // Reads also points that the file itself marks as noise or withheld (LAS), and splats that are less than half
+  // Whether to read points that the file marks as noise or withheld (LAS), and splats that are less than half
   // opaque.
   bool keeps_doubtful = false;
 };
 
-// Reads a point cloud or mesh with these options; otherwise like the function above.
+// Reads a point cloud or mesh with these options; otherwise the same as the function above.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const ReadOptions& options);
 
-// Returns lines for people about the points and normals of a file that were left out, its remarks among them.
+// Returns messages about the points and normals of a file that were left out, including its remarks.
 std::vector<std::string> remarks_on(const CloudFile& file);
 
-// Returns true for the beginning of a picture, an array or a table of heights.
+// Returns whether a file that begins with these bytes is a picture, an array or a table of heights.
 bool is_picture(std::span<const std::byte> bytes);
 
 // Selects the value to read from a picture with several values per pixel.
 struct PictureChannels {
-  bool is_luminance_wanted = false;  // reads the luminance of colours (Rec. 709)
-  int channel = 0;                   // number of the channel to read, from 1; 0: the only one
+  bool is_luminance_wanted = false;  // whether to read the luminance of colours (Rec. 709)
+  int channel = 0;                   // number of the channel to read, from 1; 0 for the only channel
 };
 
-// Returns the depths in a picture, with NaN where they are missing:
+// Returns the depths in a picture; missing ones are NaN.
 //
-// - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are more transparent than opaque
-//   are missing.
-// - TIFF: grey, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64 bits, in strips or
-//   tiles, with any compression that libtiff supports: the first picture that is neither a thumbnail nor a
-//   mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values that GDAL's
-//   no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large values.
-//   GeoTIFF's tags give the size of pixels, also in degrees.
-// - JPEG: grey, or colours that are equal or of which a channel or the luminance is wanted, turned as the tag
-//   Orientation of Exif says. No CMYK.
-// - NPY: an array of whole numbers or fractions in two dimensions. PFM, PGM, PPM and BMP without compression.
-// - Esri ASCII grid, with its no-data value and the size of its cells.
-// - Text with at least 8 numbers per line, of which neighbours are alike, or at least 32: a line is a row of
-//   the picture, from the top. Other words are missing values.
+// - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are less than half opaque are
+// missing.
+// - TIFF: grey, with integers of 1 to 32 or 64 bits or floating-point numbers of 16, 32 or 64 bits, in strips
+// or tiles, with any compression of libtiff. The first picture that is neither a thumbnail nor a mask is
+// read, and turned according to its tag Orientation. Pixels that are less than half opaque are missing, and
+// so are values that GDAL's no-data tag names. If 0 is white, integers are inverted, so that bright pixels
+// have large values. GeoTIFF's tags determine the pixel size, also in degrees.
+// - JPEG: grey, or with equal colour channels, or with a requested channel or luminance; turned according to
+// Exif's tag Orientation. No CMYK.
+// - NPY: a two-dimensional array of integers or floating-point numbers. PFM, PGM, PPM, and BMP without
+// compression.
+// - Esri ASCII grid, with its no-data value and cell size.
+// - Text with at least 32 numbers per line, or at least 8 if neighbouring numbers correlate. A line is a row
+// of the picture, from the top. Words that are not numbers are missing values.
 //
 // Errors: kind input for other or broken pictures and palettes, for a missing channel, and for more than 2^27
 // pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 
-// Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by
-// commas or white space. Errors: kind option for any other text, or a focal length that is not positive.
+// Returns the camera in a text "FX,FY,CX,CY", or in a text with the nine numbers of its matrix, row by row,
+// separated by commas or white space. Errors: kind option for any other text, or a focal length that is not
+// positive.
 Result<DepthCamera> parse_camera(std::string_view text);
 
-// The size of a scan. It is found from the beginning of the file, so that the needed memory is known before
+// The size of a scan, determined from the beginning of the file, so that the needed memory is known before
 // the scan is read.
 struct ScanSize {
   std::uint64_t points = 0, triangles = 0, pixels = 0;
-  bool is_stated = false;  // true if the header states the size; else it is estimated from the file's
+  // True if the header states the size, false if it is estimated from the size of the file.
+  bool is_stated = false;
 };
 
-// Returns the number of points and triangles of a cloud or mesh, or of pixels of a depth image. `head` is the
-// beginning of a file of `file_bytes` bytes; 64 kB suffice. PLY, PCD, LAS, binary STL, PNG and JPEG state
-// these numbers; for other formats they are estimated. A header may promise anything, so the result is limited to
-// the numbers that fit into the file. All numbers are 0 for an empty file.
+// Returns the numbers of points and triangles of a cloud or mesh, or the number of pixels of a depth image.
+// `head` is the beginning of a file of `file_bytes` bytes; 64 kB suffice. PLY, PCD, LAS, binary STL, PNG and
+// JPEG state these numbers; for other formats they are estimated. Because a header may promise anything, the
+// numbers are limited to what fits into the file. They are all 0 for an empty file.
 ScanSize scan_size(std::span<const std::byte> head, std::string_view name, std::uint64_t file_bytes);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
-// Reads clouds that are too large for memory piece by piece, and reduces them to the points that the viewer
-// sees, at the desired resolution.
+// Reads clouds too large for memory block by block, and reduces them to the points that the viewer sees, at
+// the requested resolution.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-// A file, or anything else with random access to its bytes. Errors of read() are passed on.
+// A file, or another source of bytes with random access. Errors of read() are passed to the caller.
 class ByteSource {
  public:
   ByteSource() = default;
@@ -25,41 +25,41 @@ class ByteSource {
   virtual ~ByteSource() = default;
 
   virtual std::uint64_t size() const = 0;
-  // Fills `to` with the bytes from `offset` on. Callers ask only for bytes within size().
+  // Fills `to` with the bytes from `offset` on. Callers request only bytes within size().
   virtual Result<void> read(std::uint64_t offset, std::span<std::byte> to) = 0;
 };
 
 // A large cloud after its reduction.
 struct StreamedCloud {
-  Cloud cloud;                            // points in the frame of the file
-  std::string format;                     // name of the format, for people
+  Cloud cloud;                            // points in the file's axes
+  std::string format;                     // name of the format, for messages
   std::uint64_t input_points = 0;         // number of points in the file
-  std::uint64_t ignored_faces = 0;        // faces of the file, which are not read
-  std::uint64_t missing_points = 0;       // points missing because the file ends early
-  std::vector<std::string> remarks = {};  // what of the file is left out, as in CloudFile
+  std::uint64_t ignored_faces = 0;        // number of faces in the file, which are not read
+  std::uint64_t missing_points = 0;       // number of points missing at the end of the file
+  std::vector<std::string> remarks = {};  // messages about what was left out, as in CloudFile
 };
 
-// Returns true if stream_front() reads the file that begins with these bytes: binary PLY without lists in the
-// vertices and the elements before them, LAS, or binary PCD.
+// Returns whether stream_front() can read the file that begins with these bytes: LAS, binary PCD, or binary
+// PLY without lists in the vertices and in the elements before them.
 bool can_stream(std::span<const std::byte> head, std::string_view name);
 
-// Says how much of a file stream_front() reads.
+// How much of a file stream_front() reads.
 struct StreamOptions {
-  // The number of points; see ReadOptions about those that are doubtful.
+  // `wanted` is the number of points; `keeps` is ReadOptions::keeps_doubtful.
   StreamOptions(double wanted, bool keeps = false) : points(wanted), keeps_doubtful(keeps) {}
 
   double points;
   bool keeps_doubtful;
 };
 
-// Returns about `options.points` points of the side that the view shows. For each square of a grid over the view, the
-// result has the mean of the front-most points that face the viewer, with their mean normal and colour;
-// averaging also reduces noise. Without normals, all points are taken to face the viewer. Normals that point
-// inwards are reversed. The file is read three times, and a few pieces once more. Memory is 80 bytes per
-// square plus 40 MB, whatever the file's size. The result has the same bits for any number of threads.
+// Returns about `options.points` points of the side that the view shows. The result has a point for each
+// square of a grid over the view: the mean of the front-most points that face the viewer, with their mean
+// normal and colour. This also reduces noise. Points without normals count as facing the viewer. Inward
+// normals are reversed. The file is read three times, and a few blocks once more. The memory is 80 bytes per
+// square plus 40 MB, for any size of the file. The result has the same bits for any number of threads.
 // Errors: kind input as for read_cloud(), and for bytes that can_stream() refuses; kind option for a number
 // of points not in [1000, 1e7]; kind geometry if no point faces the viewer; kind cancelled, checked after
-// each piece of 8 MB.
+// each block of 8 MB.
 Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view,
                                    const StreamOptions& options, Progress* progress = nullptr);
 

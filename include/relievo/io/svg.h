@@ -9,10 +9,11 @@
 
 namespace relievo {
 
-// Returns closed outlines of the drawing's filled paths in its own unit, y up; together they cover where their
-// winding number is not 0. Curves become polygons that differ from them by at most a 5000th of the drawing. Strokes
-// are ignored, and so are paths without a fill. Errors: kind input, with the place, for text that is no SVG, other
-// shapes than paths, transforms, path data that cannot be read, and more than 50,000 corners.
+// Returns closed outlines of the drawing's filled paths, in the drawing's unit, with y upwards. The filled
+// area is where their winding number is not 0. Curves are approximated by polygons to a 5000th of the
+// drawing's longer side. Strokes and paths without fill are ignored. Errors: kind input, with the position,
+// for text that is not SVG, shapes other than paths, transforms, invalid path data, and more than 50,000
+// corners.
 Result<std::vector<std::vector<Vec2>>> read_svg(std::string_view text, std::string_view name);
 
 }  // namespace relievo

@@ -16,12 +16,12 @@
 
 namespace relievo {
 
-// The line on which a text stands.
+// The baseline of a text.
 enum class TextArc {
   straight,  // below the relief
-  top,       // on a circle around the plate's middle, read clockwise
-  bottom,    // on that circle, read counter-clockwise
-  around     // on the whole circle, from the left, clusters spread evenly
+  top,       // on a circle around the plate's middle, clockwise
+  bottom,    // on the same circle, counter-clockwise
+  around     // all around that circle, from the left, with evenly spaced clusters of characters
 };
 
 inline constexpr std::array<Choice<TextArc>, 4> text_arc_choices{{{"straight", TextArc::straight},
@@ -32,7 +32,7 @@ inline constexpr std::array<Choice<TextArc>, 4> text_arc_choices{{{"straight", T
 enum class OrnamentKind {
   text,
   beads,    // a row of balls along the rim
-  rope,     // a row of slanting strands along the rim
+  rope,     // a row of slanted strands along the rim
   line,     // a raised line along the rim
   drawing,  // filled outlines
 };
@@ -43,9 +43,9 @@ inline constexpr std::array<Choice<OrnamentKind>, 5> ornament_kinds{{{"text", Or
                                                                      {"line", OrnamentKind::line},
                                                                      {"drawing", OrnamentKind::drawing}}};
 
-// The bytes of a TrueType or OpenType font. Two are equal if they are the same object.
+// A TrueType or OpenType font. Options are equal only if their fonts are the same object.
 struct FontFile {
-  std::string name;  // for errors
+  std::string name;  // name for errors
   std::vector<std::byte> bytes;
 };
 
@@ -53,33 +53,35 @@ struct FontFile {
 struct Ornament {
   OrnamentKind kind = OrnamentKind::text;
   std::string text = {};                      // UTF-8
-  std::shared_ptr<const FontFile> font = {};  // null: the font inside the program
+  std::shared_ptr<const FontFile> font = {};  // null for the built-in font
   TextArc arc = TextArc::straight;
   std::optional<double> size_mm = {};  // height of capitals; diameter of beads; width of borders and drawings
-  std::optional<double> height_mm = {};  // above the ground, below it if negative
+  std::optional<double> height_mm = {};  // height above the ground; negative below it
   std::optional<double> inset_mm = {};   // distance from the rim to the outer edge
   std::optional<double> angle_deg = {};  // middle of a text on an arc, counter-clockwise from x
   std::optional<Vec2> at_mm =
-      {};                    // middle of a straight text's line or of a drawing, from the plate's middle
-  bool is_engraved = false;  // sunk by walls of 45 degrees that meet in the middle of thin strokes
-  double tracking_mm = 0;    // added between clusters
-  std::optional<double> count = {};              // of beads or strands
-  std::vector<std::vector<Vec2>> outlines = {};  // of a drawing, in any unit, y up; filled by winding number
+      {};                    // middle of a straight text or of a drawing, relative to the plate's middle
+  bool is_engraved = false;  // cut into the ground with walls of 45 degrees, which meet in thin strokes
+  double tracking_mm = 0;    // additional space between clusters
+  std::optional<double> count = {};              // number of beads or strands
+  std::vector<std::vector<Vec2>> outlines = {};  // drawing: any unit, y up; filled by nonzero winding
 
   bool operator==(const Ornament&) const = default;
 };
 
-// The thinnest stroke and the largest height or depth of a plate's ornaments; 0 and infinite without ornaments.
+// The largest height or depth of a plate's ornaments, and their thinnest stroke. The values below are those
+// without ornaments.
 struct OrnamentFacts {
   double highest_mm = 0;
   double thinnest_mm = std::numeric_limits<double>::infinity();
 };
 
-// Returns whether this build can set texts; the one for WebAssembly cannot.
+// Returns whether this build can typeset text. The build for WebAssembly cannot.
 bool has_lettering();
 
-// Checks that the text can be set in its font. Errors: kind option for a font that cannot be read, for a text
-// without visible characters or too long, and for characters that the font lacks, which are named.
+// Checks that the text can be typeset in its font. Errors: kind option for a font that cannot be read, for a
+// text without visible characters, for a text that is too long, and for characters missing in the font, which
+// the message names.
 Result<void> check_text(const Ornament& ornament);
 
 }  // namespace relievo

@@ -16,9 +16,9 @@ inline constexpr std::array<Choice<Material>, 5> material_choices{{{"plaster", M
                                                                    {"walnut", Material::walnut},
                                                                    {"porcelain", Material::porcelain}}};
 
-// The direction towards the lamp, seen from the plate. Light comes from the upper left, as people assume
+// The direction to the lamp, in the axes of the plate. Light comes from the upper left, as people assume
 // (Kleffner and Ramachandran, On the perception of shape from shading, 1992), and from 30 degrees above the
-// plate, which is low enough for the slopes of a shallow relief to differ.
+// plate, low enough to distinguish the slopes of a shallow relief.
 inline const Vec3f upper_left_lamp(-1, 1, .8F);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Shaded pictures of a finished body, from the front and obliquely or from any side, drawn on the CPU.
+// Shaded pictures of a finished body, from the front and obliquely, or from any direction, drawn on the CPU.
 #pragma once
 
 #include <limits>
@@ -13,31 +13,29 @@
 namespace relievo {
 
 struct PreviewOptions {
-  int longer_side_px = 1200;      // longer side of each of the two pictures, front and oblique
-  Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
+  int longer_side_px = 1200;      // longer side of each of the two pictures
+  Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate
   Material material = Material::plaster;
-  // The body before it was bent. If given, the front picture shows this solid instead, because bending to the
-  // inside hides the relief, and any bending hides the relief of porcelain, which is lit from behind. The
-  // solid must outlive the call.
+  // The body before bending. If given, the front picture shows this solid instead: bending to the inside
+  // hides the relief, and any bending hides a porcelain relief, which is lit from behind. The solid must
+  // outlive the call.
   const Solid* flat = nullptr;
-  // The oblique picture cuts the body open at this height in z, and leaves out the part that is nearer to the
-  // viewer.
+  // The oblique picture cuts the body at this height in z, and shows only the part below.
   double nearest_mm = std::numeric_limits<double>::infinity();
 };
 
-// Returns the body as seen from the front and, beside it, obliquely, on a neutral ground (3 channels). Each
-// of the two pictures equals, up to one grey level of rounding, FrameRenderer's fine picture of the same body
-// at this size and zoom, with the same lamp and sky, soft cast shadows and darkened hollows. The light
-// belongs to the plate, so both pictures show the same shading. Level triangles are shaded flat. The result
-// has no pixels for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles on two
-// cores.
+// Returns a picture (3 channels) of the body from the front and, to the right of that, obliquely, on a
+// neutral background. Both equal FrameRenderer's fine picture of the same body at this size and zoom, up to
+// one grey level of rounding, with the same lamp and sky, soft cast shadows and darkened hollows. The light
+// is fixed to the plate, so both show the same shading. Level triangles are shaded flat. The result has no
+// pixels for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles on two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
-// Draws one solid as render_preview() does. The background is transparent (opacity 0) except for the solid's
+// Draws one solid like render_preview(). The background is transparent (opacity 0) except for the solid's
 // soft shadow. Not for concurrent use.
 class SolidRenderer {
  public:
-  // Shares ownership of the solid, which has at least one triangle.
+  // Shares ownership of the solid, which must have at least one triangle.
   explicit SolidRenderer(std::shared_ptr<const Solid> solid);
 
   // Also colours the material that the tool leaves on the solid, from orange to red. Shares ownership of
@@ -46,10 +44,10 @@ class SolidRenderer {
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 
-  // Overwrites the picture, which gets no pixels if the size is out of range. Zoom 1 fits the solid into the
-  // picture; the camera turns around the middle of its box, at the height of its ground. Lengths in the
-  // options (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is
-  // cancelled is left unfinished.
+  // Overwrites the picture; it gets no pixels if the size is out of range. At zoom 1 the solid fits into the
+  // picture. The camera rotates about the centre of the solid's box, at the height of its ground. The lengths
+  // in the options (mm_per_unit, margin_mm, thickness_mm) are ignored, because the solid has its own. After
+  // cancellation the picture is unfinished.
   void render(const RenderOptions& options, Picture& picture, const Progress* progress = nullptr);
 
  private:

@@ -1,5 +1,5 @@
-// Draws pictures of frames within milliseconds, for programs that show a relief while the user works on it.
-// Everything is drawn on the CPU. For a picture of a finished solid see render_preview().
+// Draws pictures of frames in milliseconds, for programs that show a relief while the user edits it, on the
+// CPU. For pictures of a finished solid see render_preview().
 #pragma once
 
 #include <algorithm>
@@ -19,16 +19,16 @@ namespace relievo {
 
 struct Picture {
   Image8 image;  // 4 channels
-  // The scale of the plate's plane, seen from the front; CloudRenderer writes pixels per unit of the scan.
+  // The scale of the plate's plane in the front view. CloudRenderer sets pixels per unit of the scan.
   double pixels_per_mm = 1;
 };
 
-// A camera that is turned first about the vertical axis of the picture, then about the horizontal one.
-// Without turns it views the plate from the front.
+// A camera that is rotated first about the vertical axis of the picture, then about the horizontal one.
+// Without rotation it shows the plate from the front.
 struct Camera {
   double yaw_deg = 0, pitch_deg = 0;
-  double zoom = 1;          // 1 fits the plate into the picture
-  Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, that is in the middle of the picture
+  double zoom = 1;          // 1 if the plate fits into the picture
+  Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, at the centre of the picture
 
   bool operator==(const Camera&) const = default;
 };
@@ -39,41 +39,41 @@ struct RenderOptions {
   double margin_mm = 5, thickness_mm = 3;
   Camera camera;
   Material material = Material::plaster;
-  Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate; not zero
-  bool has_shadows = true;        // shadows that the relief casts on itself, and darker hollows
-  bool is_fine = false;           // nine samples per pixel and finer shadows, for about five times the time
+  Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate; not zero
+  bool has_shadows = true;        // shadows of the relief on itself, and darker hollows
+  bool is_fine = false;           // nine samples per pixel and finer shadows, in about five times the time
 
-  // Returns whether width and height are in [1, 8192]. If not, the picture is empty.
+  // Returns whether width and height are in [1, 8192]. If not, pictures are empty.
   bool has_size() const { return std::min(width, height) >= 1 && std::max(width, height) <= 8192; }
 
   bool operator==(const RenderOptions&) const = default;
 };
 
 // Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane, in rows from below upwards. A cell is NaN if the scan shows nothing there, or an edge.
+// view plane. Rows begin with the lowest. Cells are NaN where the scan shows nothing and at edges.
 struct SurfaceDetail {
-  Vec2f corner = Vec2f::Zero();  // lower left of the grid, in the coordinates of the surface's points
+  Vec2f corner = Vec2f::Zero();  // lower left corner of the grid, in the coordinates of the surface's points
   float cell = 1;
   Image<Vec2f> xy;
-  std::vector<Vec2f> own;  // per point of the surface: -(n_x, n_y) of its own normal
+  std::vector<Vec2f> own;  // per point of the surface: -(n_x, n_y) of the point's normal
 };
 
-// The heights and normals with which a surface is drawn, one entry per point.
+// The heights and normals for drawing a surface, one per point.
 struct Shown {
-  std::span<const float> heights;                  // heights above the ground, in the model's units
+  std::span<const float> heights;                  // above the ground, in the model's units
   std::span<const Vec3f> normals;                  // unit length
-  float stretch = 1;                               // factor of the heights and normals in the picture, > 0
-  std::optional<std::array<float, 2>> range = {};  // lowest and highest height; searched if not given
-  // The detail is multiplied by a gain per point and added to the slopes between the points, see
+  float stretch = 1;                               // factor of heights and normals in the picture, > 0
+  std::optional<std::array<float, 2>> range = {};  // lowest and highest height; determined if not given
+  // The detail is multiplied by a gain per point, and added to the slopes between the points, see
   // FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
 };
 
 // Draws frames of one model on a rectangular plate. The background is transparent (opacity 0) except for the
-// plate's soft shadow. Not for concurrent use. In the view from the front the visible triangle of each pixel
-// is cached. So, if only heights or light change, a picture takes one look-up per pixel, about 10 ms for
-// 500,000 pixels on two cores. A picture from another direction takes three times as long.
+// plate's soft shadow. For the front view the visible triangle of each pixel is cached. So if only heights or
+// light change, a picture takes one look-up per pixel, about 10 ms for 500,000 pixels on two cores. Other
+// views take three times as long. Not for concurrent use.
 class FrameRenderer {
  public:
   // Shares ownership of the model.
@@ -81,16 +81,16 @@ class FrameRenderer {
   FrameRenderer(FrameRenderer&&) noexcept;
   ~FrameRenderer();
 
-  // Overwrites the picture, which gets no pixels if the size is out of range. `shown` has an entry for each
-  // point of the model's surface. A picture that is cancelled is left unfinished.
+  // Overwrites the picture; it gets no pixels if the size is out of range. `shown` has an entry for each
+  // point of the model's surface. After cancellation the picture is unfinished.
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
-  // Returns the model itself, uncompressed: its depths above its lowest visible point.
+  // Returns the uncompressed model: its depths above its lowest visible point.
   Shown original() const;
 
-  // Returns `samples` heights in mm above the ground. They are evenly spaced along the line between two
-  // positions in the plate's plane, in mm from the middle of the relief. Outside the relief the height is 0.
+  // Returns `samples` heights in mm above the ground, evenly spaced along the line between two positions in
+  // the plate's plane, in mm from the middle of the relief. Outside the relief the height is 0.
   std::vector<float> profile(const Shown& shown, const RenderOptions& options, const Vec2& from,
                              const Vec2& to, std::size_t samples);
 
@@ -99,13 +99,13 @@ class FrameRenderer {
   std::unique_ptr<State> state_;
 };
 
-// Draws a cloud from any side, for choosing a view. The points are drawn as discs that overlap.
+// Draws a cloud from any direction, for choosing a view. Points are drawn as overlapping discs.
 class CloudRenderer {
  public:
-  // Copies at most 250,000 of the cloud's points; estimates normals if there are none.
+  // Copies at most 250,000 of the cloud's points. Estimates normals if there are none.
   explicit CloudRenderer(const Cloud& cloud);
 
-  // Overwrites the picture with the cloud as seen in the view, on a transparent background.
+  // Overwrites the picture with the cloud in that view, on a transparent background.
   void render(const View& view, int width, int height, Picture& picture) const;
 
  private:

@@ -1,4 +1,4 @@
-// Bases: surfaces under a relief, given as heights over the plane of its plate.
+// Bases: surfaces under a relief, given as heights above the plane of its plate.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class BaseKind {
   plane,
   fold,      // two planes that meet in a ridge
   wave,      // a cosine
-  cylinder,  // the outside of a cylinder that lies on the plate
+  cylinder,  // the outside of a cylinder lying on the plate
   dome,      // the cap of a sphere
   image      // a height map
 };
@@ -32,58 +32,63 @@ inline constexpr std::array<Choice<BaseKind>, 6> base_choices{{{"plane", BaseKin
                                                                {"image", BaseKind::image}}};
 
 // A base is highest in the middle of the plate, or lowest there if it is hollow. Fold, wave and cylinder are
-// straight along one direction.
+// straight in one direction.
 struct BaseOptions {
   BaseKind kind = BaseKind::plane;
-  std::optional<double> height_mm;    // height difference over the plate, or over the image
-  std::optional<double> angle_deg;    // fold: angle between each side and the plate; default 15 if no height
-  std::optional<double> diameter_mm;  // cylinder: default twice the plate's width (if no height either);
-                                      // dome: default from a height of 0.15 of the plate's radius
-  std::optional<double> length_mm;    // wave: from crest to crest; default half the plate, at least 4 heights
-  double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is upright
-  bool is_hollow = false;     // upside down: a valley, a trough, a bowl
-  bool is_mirrored = false;   // left and right swapped
-  // image: its heights in any unit; the default of height_mm is then a tenth of the plate
+  // Difference between the highest and the lowest point, on the plate or in the image. The default for an
+  // image is a tenth of the plate.
+  std::optional<double> height_mm;
+  // For a fold: angle between each half and the plate. The default is 15 degrees, if there is no height.
+  std::optional<double> angle_deg;
+  // If there is no height, either, the default for a cylinder is twice the plate's width, and a dome gets a
+  // height of 0.15 of the plate's radius.
+  std::optional<double> diameter_mm;
+  // For a wave: distance from crest to crest. The default is half the plate, but at least 4 heights.
+  std::optional<double> length_mm;
+  double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is vertical
+  bool is_hollow = false;     // whether it is upside down: a valley, a trough or a bowl
+  bool is_mirrored = false;   // whether left and right are swapped
+  // For an image: heights in any unit.
   std::shared_ptr<const Image<float>> image;
 
-  bool operator==(const BaseOptions&) const = default;  // images are equal if they are the same object
+  bool operator==(const BaseOptions&) const = default;  // equal images are the same object
 };
 
-// Returns the base that a text describes, such as "wave", "wave:height=3,length=40" or
+// Returns the base described by a text such as "wave", "wave:height=3,length=40" or
 // "dome:diameter=90,hollow". Errors: kind option for any other text.
 Result<BaseOptions> parse_base(std::string_view text);
 
-// The base over one plate. Its height in the plate's middle is 0.
+// The base under one plate. Its height in the plate's middle is 0.
 class Base {
  public:
   // A plane at height 0.
   Base() = default;
 
-  // Returns the base over a plate of that outline; the outline's box gives its middle and size. An image is
-  // scaled until it covers the plate, and its excess is cut off. Errors: kind option for a number out of its
-  // range, for numbers that contradict each other, for a surface (other than an image) steeper than 80
-  // degrees somewhere on the plate, for an image that is missing or smaller than 2 x 2 or has values that are
+  // Returns the base under a plate with that outline; its bounding box determines middle and size. An image
+  // is scaled until it covers the plate; the rest is cut off. Errors: kind option for a number out of range,
+  // for numbers that contradict each other, for a surface (except an image) that is steeper than 80 degrees
+  // somewhere on the plate, and for an image that is missing, is smaller than 2 x 2, or has values that are
   // not finite.
   static Result<Base> over(const BaseOptions& options, std::span<const Vec2> outline);
 
   bool is_plane() const { return kind_ == BaseKind::plane; }
 
-  // Returns the height in mm at a place in the outline's coordinates.
+  // Returns the height in mm at a position in the outline's coordinates.
   double height(const Vec2& place) const;
 
-  // Returns an approximate length in mm within which the base curves to one side only; infinite for bases
-  // that curve to one side everywhere.
+  // Returns an approximate length in mm over which the base curves in one direction only; infinity if the
+  // whole base does.
   double min_feature_mm() const { return min_feature_mm_; }
 
-  // Returns the position, in (0, 1), at which the segment from a to b crosses the ridge of a fold; nothing if
-  // it crosses no ridge.
+  // Returns the position, in (0, 1), where the segment from a to b crosses the ridge of a fold; nothing if it
+  // crosses none.
   std::optional<double> ridge_between(const Vec2& a, const Vec2& b) const;
 
  private:
   class ImageSurface;
 
   Vec2 from_middle(const Vec2& place) const;
-  double profile(const Vec2& p) const;  // the height of a base that is not hollow
+  double profile(const Vec2& p) const;  // the height of the base if it were not hollow
   Result<void> shape_fold(const BaseOptions& options, double half_extent);
   Result<void> shape_wave(const BaseOptions& options, double half_extent);
   Result<void> shape_round(const BaseOptions& options, double half_extent);

@@ -1,5 +1,4 @@
-// The forms in which a relief can be made: as it is, as its mirror image, as the die that strikes it, or as a
-// lithophane.
+// The forms of a relief: as it is, mirrored, as a die that strikes it, or as a lithophane.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@ enum class Form {
   relief,
   mirror,     // left and right swapped, as for a stamp
   die,        // strikes or casts the relief: deep where the relief is high, left and right swapped
-  lithophane  // shows the model in front of a light: thick where the model is dark
+  lithophane  // shows the model with a light behind it: thick where the model is dark
 };
 
 inline constexpr std::array<Choice<Form>, 4> form_choices{{{"relief", Form::relief},
@@ -31,17 +30,17 @@ HeightFieldMesh mirrored(HeightFieldMesh front);
 // Returns the front of the die: mirrored, with every height multiplied by -1.
 HeightFieldMesh as_die(HeightFieldMesh front);
 
-// Returns a lithophane of the surface, scaled by `mm_per_unit`, with heights from 0, where the model is
-// brightest, to `height_mm`. A plate transmits light as exp(-thickness), so a height is minus the logarithm
-// of the brightness. The brightness is that of a white model under a lamp from the upper left, times the
-// luminance of the model's colours if it has any. Highlights, the brightest 2 % of the points, count as
-// equally bright. The greatest height belongs to the ground, to the outline, and to points less than a tenth
-// as bright as the highlights. If the darkest tenth of the points is darker still, it belongs to that tenth
-// instead.
+// Returns a lithophane of the surface, scaled by `mm_per_unit`. Its heights are 0 where the model is
+// brightest, and at most `height_mm`. A plate transmits light as exp(-thickness), so a height is minus the
+// logarithm of the brightness. The brightness is that of a white model under a lamp from the upper left,
+// multiplied by the luminance of the model's colours, if any. The brightest 2 % of the points (highlights)
+// count as equally bright. The ground, the outline, and the darkest points have the largest height: all
+// points below a tenth of the highlights' brightness or, if these are more than a tenth of the points, the
+// darkest tenth.
 //
-// A flat surface with colours is a picture: its heights fall linearly from black to white, without highlights
-// and shading. Displays show the values of a picture raised to about 2.2, so that linear values are close to
-// the logarithm of the brightness, and dark pixels still differ.
+// A flat surface with colours is a picture. Its heights fall linearly from black to white, without highlights
+// and shading. The values of a picture are already close to the logarithm of its brightness, because displays
+// raise them to the power of about 2.2. Linear heights also keep dark pixels distinguishable.
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

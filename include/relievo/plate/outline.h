@@ -18,8 +18,8 @@ enum class Outline {
   round,  // a rectangle with round corners
   circle,
   ellipse,
-  hexagon,  // regular, with a side or a corner at the top, whichever makes it smaller
-  none      // only the relief, without any ground
+  hexagon,  // regular, with a side or a corner at the top, whichever gives the smaller plate
+  none      // only the relief, without ground
 };
 
 inline constexpr std::array<Choice<Outline>, 6> outline_choices{{{"rectangle", Outline::rectangle},
@@ -31,15 +31,15 @@ inline constexpr std::array<Choice<Outline>, 6> outline_choices{{{"rectangle", O
 
 struct OutlineOptions {
   Outline outline = Outline::rectangle;
-  double corner_mm = 5;  // radius of the corners of `round`; limited to half the shorter side
+  double corner_mm = 5;  // radius of the corners of `round`, at most half the shorter side
   double margin_mm = 5;  // least distance from the enclosed points to the outline
-  // Width and height of the outline, even if they leave less than the margin; 0: as small as the margin
-  // allows. Only for outlines with has_free_size(), and for circles, which use only the width.
+  // Width and height of the outline, even if they leave less than the margin; 0 for the smallest size that
+  // the margin allows. Only for outlines with has_free_size(), and for circles, which use only the width.
   Vec2 size_mm = Vec2::Zero();
 };
 
-// Parses width and height, in millimetres, from a text such as "200x150" or "8in x 6in": two lengths, see
-// parse_length(), with x or the multiplication sign between them. If only the second length has a unit, it
+// Parses width and height, in millimetres, from a text such as "200x150" or "8in x 6in": two lengths (see
+// parse_length()) with x or the multiplication sign between them. If only the second length has a unit, it
 // applies to both. Errors: kind option for any other text; the error's input is empty, for the caller to fill
 // in.
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
@@ -49,22 +49,23 @@ Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUni
 // to fill in.
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns whether any width and height can be given for the outline: true for rectangles and ellipses.
+// Returns whether width and height of the outline can be chosen independently: true for rectangles and
+// ellipses.
 bool has_free_size(Outline outline);
 
-// Returns true if the outline is the box around the points, grown by the margin. Its sides are then vertical
-// and horizontal.
+// Returns whether the outline is the bounding box of the points, enlarged by the margin.
 bool is_box(Outline outline);
 
-// Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges are at
-// least the margin away from every point. A curved outline keeps the margin itself and is replaced by an
-// inscribed polygon. The polygon is as wide and as high as the curve, and deviates from it by at most a
-// micrometre, or by a ten-millionth of the curve's radius if that is more.
+// Returns the outline around points in the plane: a convex polygon, counter-clockwise, whose edges are at
+// least the margin away from every point. A curved outline is replaced by an inscribed polygon; the curve
+// itself has the margin. The polygon is as wide and as high as the curve, and deviates from it by at most a
+// micrometre or a ten-millionth of the curve's radius, whichever is more.
 //
-// Outlines are centred on the points' box. Circles, ellipses and hexagons are centred on it only from left to
-// right; their vertical position makes the circle or ellipse smallest. All outlines but `round` are as small
-// as their centre allows. Rounded corners that would cut into the margin move the sides out. If a size is
-// given, the outline has that size and the same centre. The result is empty for no points and for `none`.
+// Outlines are centred on the bounding box of the points. Circles, ellipses and hexagons are centred only
+// horizontally; their vertical position minimises the circle or ellipse. All outlines but `round` are as
+// small as their centre allows. If rounded corners would cut into the margin, the sides are moved outwards.
+// If a size is given, the outline has that size and the same centre. The result is empty for no points and
+// for `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
 
 }  // namespace relievo

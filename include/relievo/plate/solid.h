@@ -1,4 +1,4 @@
-// A relief as a closed body that a machine can cut or print, in millimetres.
+// A relief as a closed body for milling or printing, in millimetres.
 #pragma once
 
 #include <cstddef>
@@ -19,104 +19,108 @@
 namespace relievo {
 
 // The front of a relief: a triangulated height field over the view plane, in millimetres.
-// - `points`: x, y in the plane, z the height; no two share x and y.
-// - `triangles`: cover the convex hull of the points, counter-clockwise seen from +Z, no overlaps.
-// - `hull`: the convex hull, counter-clockwise, with the points on its edges; all at height `ground_mm`.
+// - `points`: x and y in the plane, z is the height; no two points have the same x and y.
+// - `triangles`: cover the convex hull of the points without overlaps, counter-clockwise seen from +Z.
+// - `hull`: the convex hull, counter-clockwise, including points on its edges; all at height `ground_mm`.
 struct HeightFieldMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::vector<Index> hull;
-  double ground_mm = 0;              // height of the flat background
+  double ground_mm = 0;              // height of the flat ground
   std::vector<Colour> colours = {};  // colours of the points, or empty
-  // For each triangle, true if it is part of the relief, false if it is part of the ground around or within
-  // the relief; empty if all triangles are part of the relief. Only used for a plate without ground.
+  // Per triangle: true if it is part of the relief, false if it is part of the ground around or inside the
+  // relief. Empty if all triangles are part of the relief. Used only for a plate without ground.
   std::vector<std::uint8_t> is_relief = {};
 };
 
-// A raised edge along the outline, as coins and plaques have. Each length is 0 or at least 0.001.
+// A raised rim along the outline, as on coins and plaques. Each length is 0 or at least 0.001.
 struct RimOptions {
-  double width_mm = 0;  // width from the outline to the ground inside; 0 for no rim
-  // Height of the rim's flat top above the ground. A rim of negative height is a groove, as in a die; the
-  // plate then continues outside the groove by the rim's width.
+  double width_mm = 0;  // width from the outline to the inner ground; 0 for no rim
+  // Height of the rim's flat top above the ground. If negative, the rim is a groove, as in a die, and the
+  // plate extends beyond the groove by the rim's width.
   double height_mm = 1;
-  double bevel_mm = .3;  // width of the slanting inner side; it is a part of width_mm
+  double bevel_mm = .3;  // width of the sloping inner side, which is a part of width_mm
 };
 
 struct PlateOptions {
-  double margin_mm = 5;     // smallest width of the flat ground between the front and the rim, >= 0.001
-  double thickness_mm = 3;  // smallest thickness of the plate anywhere, >= 0.001
+  double margin_mm = 5;     // least width of the flat ground between front and rim, >= 0.001
+  double thickness_mm = 3;  // least thickness of the plate, >= 0.001
   Outline outline = Outline::rectangle;
   double corner_mm = 5;  // radius of the corners of outline `round`, >= 0.001
   RimOptions rim = {};
   BaseOptions base = {};
-  WrapOptions wrap = {};      // the body that wrap_plate() will bend the plate around; needs a plane base
+  WrapOptions wrap = {};      // the body that wrap_plate() will bend the plate around; requires a plane base
   double tolerance_mm = .01;  // largest distance of triangles from a curved base or wrap, >= 0.0001
-  // The tolerance of simplify() for the whole front, ground included. All triangles are kept if it is 0 or
-  // the plate has no ground.
+  // The tolerance of simplify() for the whole front, including the ground. If it is 0, or the plate has no
+  // ground, the front is not simplified.
   double simplify_mm = 0;
   double max_slope = std::numeric_limits<double>::infinity();            // slope limit for simplify()
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // limit of triangles for simplify()
-  std::optional<Tool> tool = {};  // makes the front as this tool leaves it; only on a plane base
-  // Width and height of the outline, see OutlineOptions; 0: no given size. For a die with a groove for the
-  // rim this is the size of the piece that the die makes.
+  std::optional<Tool> tool = {};  // makes the front that this tool leaves; only for a plane base
+  // Width and height of the outline, see OutlineOptions; 0 if not given. For a die whose rim is a groove,
+  // this is the size of the workpiece that the die makes.
   Vec2 size_mm = Vec2::Zero();
   Vec2 shift_mm = Vec2::Zero();          // shift of the front from the middle of an outline with a given size
-  std::vector<Ornament> ornaments = {};  // on the ground; they need an outline other than `none`
-  double ornament_slope = 3.7;           // of the ornaments' walls, > 0: 15 degrees off the vertical
-  bool is_mirrored = false;              // ornaments have left and right swapped
-  bool is_die = false;                   // raised ornaments are sunk, and sunk ones raised
+  std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
+  // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
+  double ornament_slope = 3.7;
+  bool is_mirrored = false;  // whether ornaments are mirrored
+  bool is_die = false;       // whether raised ornaments are sunk, and sunk ones raised
 };
 
-// The parts of a front; ornaments are bevel. Renderers draw a crease where two of them meet, however small the angle is.
+// The parts of a front; ornaments belong to `bevel`. Renderers draw a crease between two parts, even at a
+// very small angle.
 enum class Region : std::uint8_t { relief, ground, bevel };
 
-// A closed triangle mesh, oriented outwards. The first `front_triangles` triangles are the front (relief,
-// ground and rim).
+// A closed triangle mesh, oriented outwards. The first `front_triangles` triangles are the front: relief,
+// ground and rim.
 struct Solid {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::size_t front_triangles = 0;
   std::vector<Colour> colours = {};  // colours of the points, or empty
   std::vector<Region> regions = {};  // regions of front triangles, for pictures; empty if all are relief
-  Vec3 shift = Vec3::Zero();  // added to the front's coordinates to get the solid's, if the ground is flat
-  double ground_mm = 0;       // height of the flat ground, or of a curved base in the middle
-  double error_mm = 0;        // largest distance to the exact surface, from curving and simplifying
+  Vec3 shift = Vec3::Zero();         // added to the front's coordinates to get the solid's, for flat ground
+  double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
+  double error_mm = 0;  // largest distance from the exact surface, due to curving and simplifying
   OrnamentFacts ornaments = {};
-  LengthUnit unit = LengthUnit::mm;  // unit of the coordinates; other units only by in_unit() and in files
+  // Unit of the coordinates; only in_unit() and files use other units than mm.
+  LengthUnit unit = LengthUnit::mm;
 };
 
 // Returns the solid with coordinates in `unit`, for files. Points that would coincide in single precision are
 // separated as in make_plate().
 Solid in_unit(Solid solid, LengthUnit unit);
 
-// Returns the plate: front, flat ground and rim out to the outline, walls, bottom. It is moved so that its
-// box starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z =
-// thickness_mm. Its z extent is thickness + (highest - lowest point of the front, ground and rim included).
-// The front's points and triangles come first, in their order; the ground adds only the corners of the
-// outline and of the rim's edges as points, and ornaments add theirs. If two points coincide in single precision, the second is lifted
-// or lowered by the smallest step that separates them.
+// Returns the plate: front, flat ground and rim up to the outline, walls, and bottom. Its bounding box begins
+// at the origin: x, y, z >= 0, with the bottom at z = 0 and the lowest point of the front at z =
+// thickness_mm. Its extent in z is the thickness plus the difference between the highest and the lowest point
+// of the front, including ground and rim. The front's points and triangles come first, in their order. The
+// ground adds as points only the corners of the outline and of the rim's edges; ornaments add theirs. If two
+// points coincide in single precision, the second is raised or lowered by the smallest step that separates
+// them.
 //
-// Outline `none` makes a body of the relief only, with its holes, or several bodies if the relief has several
-// connected parts. The front then has only the relief's points and triangles, in their order, and the bottom
-// has as many. Triangles that are connected only by a corner, and parts smaller than a thousandth of the
-// whole, are left out.
+// The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
+// several connected parts. The front then has only the relief's points and triangles, in their order, and the
+// bottom has as many. Triangles that are connected only by a corner, and parts smaller than a thousandth of
+// the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
-// bevel wider than its rim, a rim or ornaments for outline `none`, or ornaments without room; kind geometry for an empty front, a front with
-// triangles whose corners are missing or not finite, or a front without relief for outline `none`. Time: O(n
-// log n), 0.1 s for 340k points.
+// bevel wider than its rim, a rim or ornaments with the outline `none`, or ornaments without sufficient
+// space; kind geometry for an empty front, a front with triangles whose corners are missing or not finite, or
+// a front without relief with the outline `none`. Time: O(n log n), 0.1 s for 340k points.
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the base that make_plate() puts under the front, in the front's coordinates. Errors: those of
+// Returns the base that make_plate() uses under the front, in the front's coordinates. Errors: those of
 // make_plate() and Base::over().
 Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the plate bent around its wrap: its ground lies on the wrap, its bottom becomes the other side of
-// the shell, and its walls point at the axis. It is moved so that its box starts at the origin. If a
-// rectangle goes all the way around a cylinder or a cone, its two sides are joined. `plate` is the result of
-// make_plate() with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief
-// would reach the axis, if another outline, a rim or a slanting axis goes all the way around, or if there is
-// no wrap.
+// Returns the plate bent around its wrap: its ground is on the wrap, its bottom is the other side of the
+// shell, and its walls point towards the axis. Its bounding box begins at the origin. If a rectangle goes all
+// the way around a cylinder or a cone, its two sides are joined. `plate` must be the result of make_plate()
+// with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief would reach
+// the axis, if a plate that goes all the way around has another outline, a rim or a slanted axis, or if there
+// is no wrap.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().
@@ -124,8 +128,8 @@ Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
 // Checks that every edge of a solid is shared by exactly two triangles with opposite directions, that no
 // triangle has two equal corners, that no two used points have the same single-precision coordinates, and
-// that the volume is positive. Returns a description of the first fault, or an empty string. The function is
-// public for tests and bug reports. Takes 0.1 s for 1M triangles.
+// that the volume is positive. Returns a description of the first fault, or an empty string. It is public for
+// tests and bug reports. Takes 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.

@@ -1,6 +1,6 @@
-// Baselines as strong as their authors would run them: with the parameters of a grid that serve a relief
-// best. `compare` and docs/quality.md show these. Methods of the same name have
-// fixed parameters.
+// Baselines at their best: each relief uses the parameters of a grid that give it the best shading. The
+// program's command `compare` and docs/quality.md show these. The methods with the same names have fixed
+// parameters.
 #pragma once
 
 #include <array>
@@ -16,22 +16,23 @@ namespace relievo {
 
 class ReliefMetrics;
 
-// Four are methods; docs/quality.md says what the others are.
+// Four of them are also methods; docs/quality.md describes the others.
 inline constexpr std::array<std::string_view, 7> baseline_names{
     "linear", "equalise", "gradient", "detail", "mimicking", "normal-layers", "bounded"};
 
-// Returns the names of all that `compare` shows: the methods with a shape, then the baselines.
+// Returns the names of everything that `compare` shows: the methods with a shape, then the baselines.
 std::vector<std::string_view> compared_methods();
 
 struct TunedRelief {
   Relief relief;
-  std::string parameters;  // of the grid: "attenuation 5, bands 1 1 0.8 0.6"; empty if the baseline has none
-  double shading = 0;      // Measures::shading
+  // Parameters of the grid, such as "attenuation 5, bands 1 1 0.8 0.6"; empty if the baseline has none.
+  std::string parameters;
+  double shading = 0;  // Measures::shading
 };
 
-// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names, and
-// `system` that of all points of the surface. Errors: kind geometry if the baseline has no height to scale;
-// the message states heights in millimetres, `unit_mm` per unit.
+// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names; `system`
+// is the system of all points of the surface. Errors: kind geometry if the baseline has no height that could
+// be scaled. Messages give heights in millimetres; one unit is `unit_mm`.
 struct BaselineInput {
   const Surface& surface;
   const HeightSystem& system;

@@ -1,6 +1,6 @@
-// Baselines by which users make reliefs: published methods of other authors. Each follows its paper and runs
-// on the same visible points, normals and height system as layered reliefs, with fixed parameters that served
-// it well on our scans. baseline_grid.h compares them, and others, at their best.
+// Baselines that are methods for users: published methods of other authors. Each follows its paper, and uses
+// the same visible points, normals and height system as layered reliefs, with fixed parameters that gave good
+// results for our scans. baseline_grid.h compares these and other baselines at their best.
 #pragma once
 
 #include <vector>
@@ -17,18 +17,18 @@ struct Surface;
 struct GradientOptions {
   double attenuation = 5;     // a in log(1 + a |g|) / a, > 0
   double steepest_kept = 10;  // gradients steeper than this are removed
-  // Weights of the bands, from the finest on. A band is the difference between blurs by two Gaussians, each
-  // twice as wide as the one before; the last band is the remainder.
+  // Weights of the bands, from the finest. A band is the difference between two consecutive Gaussian blurs,
+  // the second one twice as wide as the first; the last band is the remainder.
   std::vector<double> band_weights{1, 1, .8, .6};
   double finest_band = .01;  // the first Gaussian's standard deviation, as a share of the longer side
 };
 
-// Returns a slope per point. Gradients at silhouettes are removed. All others are attenuated, see
-// attenuated(), and their frequency bands are weighted. The gradients are computed from the scan's normals.
-// These are free of the noise of a height map, and no gradient needs to be removed across a depth jump.
+// Returns a slope per point. Gradients at silhouettes are removed, all others are attenuated (see
+// attenuated()), and their frequency bands are weighted. The gradients are computed from the scan's normals,
+// so they have no noise of a height map, and none has to be removed at a depth jump.
 std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options = {});
 
-// Returns the surface's slope (dz/dx, dz/dy) at a normal with z > 0, at most 1e3.
+// Returns the slope (dz/dx, dz/dy) of a surface with this normal, z > 0, limited to 1e3.
 Vec2 slope_of(const Vec3f& normal);
 
 // Returns the gradient g with its length reduced to log(1 + a |g|) / a.
@@ -37,25 +37,26 @@ Vec2 attenuated(const Vec2& gradient, double a);
 // Returns the relief whose heights are the depths, scaled linearly to `height`.
 Relief linear_relief(const Surface& surface, double height);
 
-// Adaptive histogram equalisation of the depths. Local histograms on a picture of the depths are weighted by
-// gradients and clipped; the results for several sizes of neighbourhood are averaged. Source: Sun, Rosin,
-// Martin and Langbein, Bas-relief generation using adaptive histogram equalization, 2009.
+// Adaptive histogram equalisation of the depths. Local histograms of a depth image are weighted by gradients
+// and clipped, and the results for several sizes of neighbourhoods are averaged. Source: Sun, Rosin, Martin
+// and Langbein, Bas-relief generation using adaptive histogram equalization, 2009.
 struct EqualiseOptions {
-  int picture_px = 512;         // longer side of the picture, [16, 4096]
-  int largest_window_px = 128;  // the largest neighbourhood, at most picture_px; others are half as wide each
-  int windows = 2;              // number of neighbourhood sizes, >= 1
-  int bins = 256;               // number of bins of a histogram, which covers all depths
-  double clip = 12;             // limit of a bin, in units of the mean bin; the excess is spread over all
-  double gradient_gain = 5;     // a in log(1 + a |g|) / a, the weight of a pixel with gradient g
+  int picture_px = 512;  // longer side of the picture, [16, 4096]
+  // The largest neighbourhood, at most picture_px; each next one is half as wide.
+  int largest_window_px = 128;
+  int windows = 2;   // number of neighbourhood sizes, >= 1
+  int bins = 256;    // number of bins of a histogram over all depths
+  double clip = 12;  // limit of a bin, in units of the mean bin; the excess is distributed over all bins
+  double gradient_gain = 5;  // a in log(1 + a |g|) / a, the weight of a pixel with gradient g
 };
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options = {});
 
-// Integrates gradient_slopes() to a relief of that height. The background lies at the base.
+// Returns the relief of that height whose slopes fit gradient_slopes() best. The background is on the base.
 Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options);
 
-// A linearly compressed base with amplified detail. The detail is the difference between the heights that the
-// normals give and a Gaussian blur of these heights in the view plane. Source: Ji, Sun, Li and Wang,
-// Real-time bas-relief generation from depth-and-normal maps on GPU, 2014.
+// A linearly compressed base with amplified detail. The detail is the difference between the heights from the
+// normals and their Gaussian blur in the view plane. Source: Ji, Sun, Li and Wang, Real-time bas-relief
+// generation from depth-and-normal maps on GPU, 2014.
 struct DetailOptions {
   double amplification = 10;  // factor of the detail relative to the base
   double scale = .08;         // the Gaussian's standard deviation, as a share of the surface's longer side

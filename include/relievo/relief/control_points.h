@@ -1,5 +1,5 @@
-// Control points (stage 7): a few thousand visible points that represent all visible points. Paper, section
-// 4.2.
+// Control points (stage 7): a few thousand visible points that represent all visible points. Section 4.2 of
+// the paper.
 #pragma once
 
 #include <span>
@@ -16,19 +16,20 @@ struct ControlPointOptions {
 };
 
 struct ControlPoints {
-  // Indices of the control points; those on the boundary come first.
+  // Indices of the control points; boundary points come first.
   std::vector<Index> points;
   std::size_t boundary_points = 0;
-  double radius = 0;  // the paper's r2: every point has a control point within it; 0 if all are chosen
+  // The paper's r2: every point has a control point within this distance; 0 if all points are chosen.
+  double radius = 0;
 };
 
-// Chooses about `count` of the points in the view plane, by growing regions from the boundary inwards.
-// `boundary_distance` is the distance of each point to the boundary, 0 on it.
+// Returns about `count` of the points in the view plane, chosen by region growing from the boundary inwards.
+// `boundary_distance` is the distance of each point from the boundary; 0 on the boundary.
 //
-// A point is chosen unless an earlier chosen point is nearer than the spacing. On the boundary the spacing is
-// `at_boundary` times the result's `radius`. Inwards it grows by half the distance to the boundary, up to
-// `radius`. All points are chosen if there are no more than `count`. The result does not depend on the order
-// of the points, except for coincident ones.
+// A point is chosen unless a point chosen before is nearer than the spacing. On the boundary the spacing is
+// `at_boundary` times the result's `radius`; inwards it grows by half the distance from the boundary, up to
+// `radius`. If there are no more than `count` points, all are chosen. The result does not depend on the order
+// of the points, except for coincident points.
 ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const float> boundary_distance,
                                   const ControlPointOptions& options = {});
 

@@ -1,5 +1,5 @@
-// Limits the slopes of reliefs to a draft angle, so that a die, a mould or a cutter can be withdrawn. Runs
-// after stages 12 and 14.
+// Limits the slopes of reliefs to a draft angle, so that a die, a mould or a cutter can be withdrawn. Follows
+// stages 12 and 14.
 #pragma once
 
 #include <span>
@@ -9,40 +9,40 @@
 
 namespace relievo {
 
-// Returns the slope (rise over run) of a wall at the angle `draft_deg`, in (0, 90) degrees, to the vertical.
+// Returns the slope (rise over run) of a wall whose angle to the vertical is `draft_deg`, in (0, 90) degrees.
 double slope_at_draft(double draft_deg);
 
-// The share of the limit below which reliefs are brought. It leaves a thousandth for the rounding of all later
-// steps.
+// The slopes of reliefs are reduced below this share of the limit. A thousandth remains for the rounding of
+// all later steps.
 inline constexpr double kept_slope = .999;
 
 struct DraftOptions {
   double max_slope = 1;  // largest slope that a triangle may have, > 0
   // Heights of the base, one per point, in the surface's units; empty for a plane. The limit applies to the
-  // sum of relief and base.
+  // slope of relief and base together.
   std::span<const double> base = {};
 };
 
-// The arguments of make_by_method() for the wanted relief.
+// The requested relief, as for make_by_method().
 struct DraftOrder {
   Method method = Method::layered;
   Shape shape;
-  double height = 0;   // see make_by_method()
+  double height = 0;   // as for make_by_method()
   double unit_mm = 1;  // millimetres per unit of the height, for messages
 };
 
-// Returns the relief nearest to `relief` that has no triangle steeper than the limit. Nearest means the least
-// sum, over all triangles, of squared changes of slope; a slope of more than twice the limit counts as twice
-// the limit. Boundary points stay on the base. A relief that keeps the limit is returned unchanged, bit for
-// bit. Any other is brought a thousandth below the limit, so that it also keeps the limit in single
+// Returns the relief nearest to `relief` that has no triangle steeper than the limit. Nearest means the
+// smallest sum over all triangles of squared slope changes, where slopes above twice the limit count as twice
+// the limit. Boundary points stay on the base. A relief within the limit is returned unchanged, bit for bit.
+// Any other relief is reduced to a thousandth below the limit, so that it also satisfies the limit in single
 // precision. Takes about 0.5 s for 160k points. Errors: kind geometry if the base alone is steeper; those of
 // HeightSystem::build(); kind cancelled.
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress = nullptr);
 
-// Returns the relief of `order` that keeps the limit and has exactly the height asked for. The limit lowers
-// walls; a larger u, or for baselines a larger scale, makes up for the lost height. Errors: those of
-// limit_draft() and make_by_method(); kind geometry if no relief under the limit is that high, with the
+// Returns the relief for `order` that is within the limit and has exactly the requested height. The limit
+// lowers walls; a larger u (for baselines, a larger scale) compensates for the lost height. Errors: those of
+// limit_draft() and make_by_method(); kind geometry if no relief within the limit is that high, with the
 // largest height in the message.
 Result<Relief> make_with_draft(const ReliefModel& model, const DraftOrder& order, const DraftOptions& options,
                                Progress* progress = nullptr);

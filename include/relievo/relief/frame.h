@@ -1,5 +1,5 @@
-// Frames: reliefs that are made from a prepared model within milliseconds, in single precision. For final
-// output ReliefModel makes reliefs in double precision.
+// Frames: reliefs made from a prepared model in milliseconds, in single precision. ReliefModel makes final
+// reliefs in double precision.
 #pragma once
 
 #include <memory>
@@ -12,67 +12,68 @@
 
 namespace relievo {
 
-// The options that can change from frame to frame. No change requires a new factorisation. The shape is that of
-// make_relief() without options; shape_of() in make_relief.h returns that of other ReliefOptions.
+// The options that can change from frame to frame; none requires a new factorisation. The default shape is
+// that of make_relief() without options; shape_of() in make_relief.h returns the shape for other
+// ReliefOptions.
 struct FrameOptions {
   Shape shape = layered_shape();
-  // A locked height, in units of the cloud: u is searched until the relief has it. mm_per_unit() in
-  // make_relief.h converts it.
+  // A locked height in units of the cloud: u is searched for it. mm_per_unit() in make_relief.h gives the
+  // conversion.
   std::optional<double> height = {};
-  std::shared_ptr<const std::vector<float>> base = {};  // heights of the base, one per point; null is a plane
-  double height_tolerance = 5e-4;  // relative to the locked height; a larger tolerance may save a solve
+  std::shared_ptr<const std::vector<float>> base = {};  // height of the base per point; null for a plane
+  double height_tolerance = 5e-4;  // relative to the locked height; a larger tolerance can save a solve
 
-  bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
+  bool operator==(const FrameOptions&) const = default;  // equal bases are the same object
 };
 
 struct FrameTimes {
-  double heights_s = 0;      // t1: weights, slopes, right-hand side and solve, summed over all solves
-  double after_solve_s = 0;  // t2: detail or height correction, and the extension from control points
+  double heights_s = 0;      // t1: weights, slopes, right-hand side and solve; the sum over all solves
+  double after_solve_s = 0;  // t2: detail or height correction, and extension from control points
   double normals_s = 0;      // t3: normals
   int solves = 0;            // number of solves: 1, or more for a locked height
 };
 
 struct Frame {
-  FrameOptions options;           // the options used, including the u that was found
-  std::vector<float> heights;     // heights of the surface's points, in the cloud's units, base included
-  std::vector<Vec3f> normals;     // unit normals: means over the triangles around a point, weighted by area
-  double height = 0;              // highest minus lowest height without the base; 0 counts as a height
-  float lowest = 0, highest = 0;  // lowest and highest of `heights` and 0, the base plane
+  FrameOptions options;           // the effective options, including the u that was found
+  std::vector<float> heights;     // heights of the surface's points including the base, in the cloud's units
+  std::vector<Vec3f> normals;     // unit normals: area-weighted means over the triangles around a point
+  double height = 0;              // highest minus lowest height, without the base; 0 counts as a height
+  float lowest = 0, highest = 0;  // lowest and highest number among `heights` and 0
   bool is_height_met =
-      true;  // false if a locked height is out of reach: then the relief is as high as possible
+      true;  // false if a locked height is out of reach; the relief is then as high as possible
   FrameTimes times;
 };
 
-// Returns the normals of a frame of the surface with these heights, one per point (stage 13).
+// Returns the normals of the surface with these heights, one per point (stage 13).
 std::vector<Vec3f> vertex_normals(const Surface& surface, std::span<const float> heights);
 
-// Makes frames of one model. Not for concurrent use. make() allocates nothing if the frame has been used
-// before.
+// Makes frames of one model. make() allocates nothing if the frame has been used before. Not for concurrent
+// use.
 class FrameMaker {
  public:
-  // Prepares the memory that frames need. The model must outlive it.
+  // Allocates the memory for frames. The model must outlive this object.
   explicit FrameMaker(const ReliefModel& model);
   FrameMaker(FrameMaker&&) noexcept;
   ~FrameMaker();
 
-  // Overwrites `frame` with the relief asked for. The same options give the same bits, for any number of
-  // threads and after any earlier frames. Only a frame with a locked height depends on earlier frames,
-  // because its search starts from the last u.
+  // Overwrites `frame` with the requested relief. The same options give the same bits, for any number of
+  // threads and any previous frames. Only frames with a locked height depend on previous frames, because the
+  // search starts with the last u.
   void make(const FrameOptions& options, Frame& frame);
 
-  // Makes frames one step ahead, as section 3.5 of the paper does: each stage has a thread of its own. While
-  // the heights of the frame asked for are solved, the frame of the last call is mapped to all points, and the
-  // one before gets its normals and is written to `frame`. Returns false, and no frame, for the first two
-  // calls, and for the first two after make(). Frames have the bits of make(). This is for models of
-  // Method::paper and options without a height; other frames are made at once.
+  // Makes frames in a pipeline, as in section 3.5 of the paper, with a thread per stage. At the same time the
+  // heights of the requested frame are solved, the previous frame is mapped to all points, and the frame
+  // before that gets its normals and is written to `frame`. Returns false, and no frame, in the first two
+  // calls and in the first two calls after make(). Frames have the same bits as those of make(). The pipeline
+  // is used for models of Method::paper and options without a height; other frames are made immediately.
   bool make_ahead(const FrameOptions& options, Frame& frame);
 
-  // Writes a gain for each point of the last frame: the change of the relief's slope per change of the scan
-  // normal's x and y. Gains apply to normals at a scale that the points do not resolve, see SurfaceDetail in
-  // render.h.
+  // Writes a gain for each point of the last frame: the derivative of the relief's slope with respect to the
+  // x and y of the scan's normal. Gains apply to normals at a scale that the points do not resolve, see
+  // SurfaceDetail in render.h.
   void write_gains(std::vector<float>& gains) const;
 
-  // Returns the memory used, in bytes, without the model's.
+  // Returns the number of bytes of memory in use, without the model.
   std::size_t memory() const;
 
  private:

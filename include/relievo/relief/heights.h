@@ -1,4 +1,4 @@
-// Heights (stage 8): computes the surface that fits given slopes. Paper, equation (9).
+// Heights (stage 8): computes the surface that fits given slopes. Equation (9) of the paper.
 #pragma once
 
 #include <memory>
@@ -13,46 +13,46 @@ namespace relievo {
 
 class SlicedEllMatrix;
 
-// Equation (9) for a fixed set of points. Over all edges pq of triangles inside the relief, it fits z_p - z_q
-// to (s_p + s_q) / 2 . (p - q) by least squares with cotangent weights; s is the slope (dz/dx, dz/dy). At
+// Equation (9) for a fixed set of points. It fits z_p - z_q to (s_p + s_q) / 2 . (p - q) for all edges pq of
+// triangles inside the relief, by least squares with cotangent weights; s is the slope (dz/dx, dz/dy). At
 // boundary points z is exactly 0. The matrix does not depend on the slopes and is factored once. Concurrent
 // solves are safe if each has its own workspace.
 class HeightSystem {
  public:
-  // Scratch memory of solves, so that they allocate nothing.
+  // Scratch memory, so that solves allocate nothing.
   using Workspace = solver::Cholesky::Workspace;
 
   HeightSystem(HeightSystem&&) noexcept;
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies the parts of its arguments that it needs. `weights` has a weight per point, in (0, 1], or is
-  // empty, which means 1. The weight of an edge is multiplied by the mean weight of its two ends. Errors:
-  // those of solver::Cholesky::factor(), which a Delaunay triangulation with its boundary does not cause.
+  // Copies the data that it needs from its arguments. `weights` has a weight per point, in (0, 1], or is
+  // empty for weights of 1. The weight of an edge is multiplied by the mean weight of its two ends. Fails
+  // only as solver::Cholesky::factor() fails, which does not happen for a Delaunay triangulation with its
+  // boundary.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
                                     const Boundary& boundary, std::span<const float> weights = {});
 
-  // Returns the number of points. Slopes and heights have one entry per point.
+  // Returns the number of points. Slopes and heights have an element per point.
   std::size_t size() const;
 
-  // Returns the memory used, in bytes.
+  // Returns the number of bytes of memory in use.
   std::size_t memory() const;
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Returns the matrix of the right-hand side. It has an entry for every pair of neighbours, and for every
+  // Returns the matrix of the right-hand side. It has an entry for every pair of neighbours and for every
   // point with itself. Other matrices over the same points reuse its pattern.
   const SlicedEllMatrix& divergence_matrix() const { return *edges_; }
 
   // Writes the height of every point above the base to `heights`; boundary points get 0. The solution is
-  // exact: its residual is at the level of rounding.
+  // exact up to rounding.
   void solve(std::span<const Vec2> slopes, std::span<double> heights) const;
 
-  // Solves in single precision, for frames. The error is about 1e-6 of the span of the heights.
+  // Solves in single precision, for frames. The error is about 1e-6 of the range of the heights.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
-  // Solve in place: the right-hand side that the caller wrote is replaced by the heights. Values at boundary
-  // points stay as they are.
+  // Solve in place: replace the right-hand side by the heights. Values at boundary points do not change.
   void solve_in_place(std::span<double> heights) const;
   void solve_in_place(std::span<float> heights, Workspace& workspace) const;
 

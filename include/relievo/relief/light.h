@@ -7,19 +7,20 @@
 
 namespace relievo {
 
-// The direction of the light, in degrees: azimuth in the plate's plane, 0 from the right, 90 from above and 135 from the
-// upper left, [-360, 360]; elevation over the plane, [5, 85].
+// The direction of the light in degrees. The azimuth is in the plate's plane, in [-360, 360]: 0 is from the
+// right, 90 from above, 135 from the upper left. The elevation is the angle above the plane, in [5, 85].
 struct LightDirection {
   double azimuth_deg = 135, elevation_deg = 30;
 
   bool operator==(const LightDirection&) const = default;
 };
 
-// Slopes along the light's azimuth are chosen so that the relief's shading under it is that of the plate plus `contrast`
-// times the local contrast of the model's shading under it; slopes across the azimuth stay.
+// Parameters of a relief for one light. Its slopes along the light's azimuth are chosen so that the shading
+// is that of the level plate plus `contrast` times the model's local contrast of shading; slopes across the
+// azimuth do not change.
 struct ReliefLight {
   LightDirection from;
-  double contrast = .8;  // [0, 1]; 0 is a relief for no light in particular
+  double contrast = .8;  // [0, 1]; with 0 the model's shading is ignored
 
   bool operator==(const ReliefLight&) const = default;
 };

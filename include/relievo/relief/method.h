@@ -1,5 +1,5 @@
-// The methods of making a relief, their names, and the number of points that they use. To add a baseline, add
-// an enumerator, a declaration and a row here, and implement it in src/relief/baselines/.
+// The methods for making a relief, their names, and the numbers of points that they use. To add a baseline,
+// add an enumerator, a declaration and a table entry here, and implement it in src/relief/baselines/.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ struct Shape;
 
 enum class Method { layered, paper, linear, equalise, gradient, base_detail };
 
-// Makes a relief by a published method, for comparison. The relief has exactly the height asked for, > 0, and
-// its boundary points are on the base. It is flat if the surface has no height to scale. Its Relief::shape
-// has no meaning.
+// Makes a relief by a published method, for comparison. The relief has exactly the requested height, > 0, and
+// its boundary points are on the base. It is flat if the surface has no height that could be scaled. Its
+// Relief::shape has no meaning.
 using Baseline = Relief(const ReliefModel& model, double height);
 
 // baselines.h declares variants with options.
@@ -30,9 +30,9 @@ Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relie
 struct MethodInfo {
   Method method;
   std::string_view name;  // the word that users type
-  // Makes the relief of a baseline; null for methods that shape a relief by Shape.
+  // Makes the relief of a baseline; null for methods whose reliefs have a Shape.
   Baseline* make = nullptr;
-  bool needs_all_points = false;  // if true, the method has no subspace mode
+  bool needs_all_points = false;  // whether the method has no subspace mode
 };
 
 inline constexpr std::array methods{
@@ -50,30 +50,30 @@ inline constexpr std::array methods{
     MethodInfo{Method::base_detail, "detail", base_and_detail_relief, true},
 };
 
-// Returns the method of that name. Errors: kind option for any other, naming `option`.
+// Returns the method with that name. Errors: kind option for any other name, naming `option`.
 Result<Method> parse_method(std::string_view name, std::string_view option = "method");
 std::string_view name_of(Method method);
 
-// Returns all names, for messages: "layered, paper, ...".
+// Returns all names, for messages, such as "layered, paper, ...".
 std::string method_names();
 
-// Returns whether the method shapes a relief by Shape; baselines have options of their own.
+// Returns whether the method's reliefs have a Shape; baselines have options of their own.
 bool has_shape(Method method);
 
-// Returns the default shape of a method with has_shape(), for reliefs of a requested height.
+// Returns the default shape of a method with has_shape(), for a requested height.
 Shape default_shape(Method method);
 
-// Makes a relief of that height by that method: by ReliefModel::make_at_height(), or by a baseline with its
+// Returns the relief of that height by that method: by ReliefModel::make_at_height(), or by a baseline with
 // default options, which ignores `shape`. Errors: those of make_at_height(); kind option if the method needs
-// the system of all points and the model has none.
+// the system of all points and the model does not have it.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
 
-// Selects the points for which the heights of a relief are solved.
+// The points for which the heights of a relief are solved.
 enum class Mode {
-  exact,     // solves for all visible points
-  subspace,  // solves for a few thousand control points, see SubspaceModel
-  automatic  // `exact`, or `subspace` above `most_exact_points` visible points
+  exact,     // all visible points
+  subspace,  // a few thousand control points, see SubspaceModel
+  automatic  // `exact`, or `subspace` for more than `most_exact_points` visible points
 };
 
 inline constexpr std::array<Choice<Mode>, 3> mode_choices{
@@ -81,7 +81,7 @@ inline constexpr std::array<Choice<Mode>, 3> mode_choices{
 
 inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of the paper's Table 1
 
-// The options of a model: they decide which reliefs can be made of it, and how fast.
+// The options of a model. They determine which reliefs can be made, and how fast.
 struct ModelOptions {
   Mode mode = Mode::exact;
   std::size_t control_points = usual_control_points;  // approximate number in subspace mode

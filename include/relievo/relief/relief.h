@@ -1,4 +1,4 @@
-// Reliefs of a surface. A model is prepared once and makes reliefs of many shapes. Stages 7 to 12 and 14.
+// Reliefs of a surface. A model is prepared once and makes reliefs with many shapes. Stages 7 to 12 and 14.
 #pragma once
 
 #include <cstddef>
@@ -26,29 +26,30 @@ struct View;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
-  double height = 0;            // h: highest minus lowest height, detail included; 0 counts as a height
-  Shape shape;                  // the shape that the relief was made with
+  double height = 0;            // h: highest minus lowest height, including detail; 0 counts as a height
+  Shape shape;                  // the shape of the relief
 };
 
-// Above this number of visible points Mode::automatic means subspace: exact frames would take more than 40 ms
+// With more visible points, Mode::automatic means subspace, because exact frames would take more than 40 ms
 // on two cores.
 inline constexpr std::size_t most_exact_points = 1'500'000;
 
-// Resolves `automatic` by the number of points; returns any other mode unchanged.
+// Returns exact or subspace for `automatic`, depending on the number of points; returns any other mode
+// unchanged.
 Mode resolve_mode(Mode mode, const Surface& surface);
 
-// A surface with its factored system, and with the height correction that compresses layered reliefs.
-// Movable. Const calls may run concurrently.
+// A surface with its factored system, and with the height correction for layered reliefs. Movable. Const
+// calls may run concurrently.
 class ReliefModel {
  public:
-  // Takes the surface, splits its normals into layers and factors its system; for layered reliefs, it tunes
-  // the height correction; in subspace mode it also builds the system of the control points. Errors: see
-  // HeightSystem::build(); kind cancelled.
+  // Splits the surface's normals into layers, factors its system, and prepares the height correction; in
+  // subspace mode also builds the system of the control points. Errors: those of HeightSystem::build(); kind
+  // cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr,
                                      const ModelOptions& options = {});
 
-  // Returns the model of the surface that the view shows. For a view of Method::paper it has the system of
-  // paper() and no other. Errors: those of find_surface() and prepare().
+  // Returns the model of the surface that the view shows. For a view of Method::paper it has only the system
+  // of paper(). Errors: those of find_surface() and prepare().
   static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view,
                                      const ModelOptions& options, Progress* progress = nullptr);
 
@@ -58,22 +59,22 @@ class ReliefModel {
 
   const Surface& surface() const;
 
-  // Returns the paper's own system; null for all other methods. If there is one, system() and subspace() are
-  // null, layers() is empty, and steps(), planes() and correction() must not be called.
+  // Returns the paper's own system; null for all other methods. With such a system, system() and subspace()
+  // are null, layers() is empty, and steps(), planes() and correction() must not be called.
   const PaperModel* paper() const;
 
-  // Returns whether the model was prepared for the method: Method::paper has models of its own, and all other
-  // methods share one.
+  // Returns whether the model was prepared for the method. Method::paper needs its own models; all other
+  // methods share models.
   bool serves(Method method) const;
 
-  // Returns the number of control points in subspace mode, 0 in exact mode.
+  // Returns the number of control points in subspace mode; 0 in exact mode.
   std::size_t control_points() const;
 
-  // Returns the layers of the surface's normals. They are empty in subspace mode, where the control points
-  // have their own layers.
+  // Returns the layers of the surface's normals; empty in subspace mode, whose control points have their own
+  // layers.
   std::span<const PointLayers> layers() const;
 
-  // Return the system of all points (exact mode) or the model of the control points (subspace mode); the
+  // Return the system of all points (exact mode) or the model of the control points (subspace mode). The
   // other pointer is null.
   const HeightSystem* system() const;
   const SubspaceModel* subspace() const;
@@ -84,24 +85,23 @@ class ReliefModel {
   // Returns the steps that Shape::planes adds in layered reliefs.
   const StepHeights& planes() const;
 
-  // Returns the models of a scene that have heights of their own.
+  // Returns the models of a scene that have a requested height of their own.
   const OwnHeights& own_heights() const;
 
-  // Returns the correction that compresses layered heights.
+  // Returns the correction that compresses the heights of layered reliefs.
   const HeightCorrection& correction() const;
 
-  // Returns the memory used, in bytes.
+  // Returns the number of bytes of memory in use.
   std::size_t memory() const;
 
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
 
-  // Returns the relief whose height, detail included, is `height`. To find it, u of the compression is
-  // changed, while beta, gamma and the slope limit stay as asked for (the intent of Algorithm 1, section
-  // 3.6). If no u gives that height, u is infinite, and depth jumps of at most their real depth supply the
-  // missing height; Shape::steps of the result is their share. Errors: kind geometry if that does not
-  // suffice; the message states the largest possible height in millimetres, computed with `unit_mm`
-  // millimetres per unit. Kind cancelled.
+  // Returns the relief whose height, including detail, is `height`. Searches u of the compression for that,
+  // while beta, gamma and the slope limit stay as requested (the intent of Algorithm 1, section 3.6). If no u
+  // gives that height, u is infinite, and depth jumps of at most their real depth supply the missing height;
+  // Shape::steps of the result is their share. Errors: kind geometry if that does not suffice; the message
+  // states the largest possible height in millimetres, for `unit_mm` millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 
@@ -113,8 +113,8 @@ class ReliefModel {
   std::unique_ptr<const State> state_;
 };
 
-// Gives the models of a scene that have heights of their own these heights, as a last step. ReliefModel does so;
-// baselines, which know no scenes, need this call.
+// Sets the heights of the models of a scene that have a requested height of their own, as a last step.
+// ReliefModel does this itself; baselines need this call.
 void give_own_heights(const ReliefModel& model, Relief& relief);
 
 }  // namespace relievo

@@ -12,10 +12,10 @@
 
 namespace relievo {
 
-// The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside of the
-// stroke, so no other height moves. The blurs are Gaussian, along the surface, and do not reach across depth jumps.
+// How a stroke changes the heights z under it. Every brush adds a field to z that is 0 outside of the stroke,
+// so other heights do not change. The blurs are Gaussian, along the surface, and do not cross depth jumps.
 enum class Brush {
-  strengthen,  // adds amount * (z - wide blur of z), so that shapes as wide as a finger or a brow grow
+  strengthen,  // adds amount * (z - wide blur of z), which emphasises shapes as wide as a finger or a brow
   sharpen,     // adds amount * (z - narrow blur of z)
   soften,      // subtracts amount * (z - narrow blur of z)
   raise,       // adds amount * height of the relief
@@ -33,16 +33,16 @@ inline constexpr std::array<Choice<Brush>, 6> brushes{{{"strengthen", Brush::str
 // Standard deviations of the two blurs, as shares of the longer side.
 inline constexpr double narrow_blur = .008, wide_blur = .03;
 
-// A line on the model and the change around it. It belongs to the model, so that it keeps its place in other views,
-// where it acts on the part of the model that is visible.
+// A line on the model, and the change around it. It belongs to the model, so it has the same position in
+// other views, where it affects the visible part of the model.
 struct Stroke {
   std::string name;
   Brush brush = Brush::soften;
   double amount = 1;           // [0, 1]; strengthen and sharpen: [0, 4]
   double radius = 0;           // largest distance from the line, in the units of the scan, > 0
-  double softness = 1;         // share of the radius over which the change fades, [0.05, 1]
+  double softness = 1;         // share of the radius over which the change fades out, [0.05, 1]
   bool is_muted = false;       // a muted stroke changes nothing
-  std::vector<Vec3> points{};  // corners of the line, in the coordinates of the scan; one is a dab
+  std::vector<Vec3> points{};  // corners of the line, in the coordinates of the scan; a single one is a dab
 
   bool operator==(const Stroke&) const = default;
 };
@@ -50,10 +50,10 @@ using Strokes = std::vector<Stroke>;
 
 inline constexpr std::size_t most_strokes = 10'000, most_stroke_points = 100'000;
 
-// Reads a JSON array of strokes, such as
+// Returns the strokes in a JSON array such as
 //   [{"brush": "soften", "amount": 0.5, "radius": 3, "points": [[0, 1, 2], [1, 1, 2]], "name": "cheek"}].
-// Amount, softness, name and muted may be missing. An empty text is no strokes. Errors: kind option, naming the stroke
-// and what was expected of it.
+// Amount, softness, name and muted are optional. An empty text means no strokes. Errors: kind option, naming
+// the stroke and what was expected.
 Result<Strokes> parse_strokes(std::string_view json);
 
 }  // namespace relievo

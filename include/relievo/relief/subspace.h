@@ -1,5 +1,5 @@
-// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. Most of the
-// work for a relief does not depend on the size of the cloud.
+// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. The time for a
+// relief depends little on the size of the cloud.
 #pragma once
 
 #include <memory>
@@ -16,32 +16,33 @@ namespace relievo {
 
 struct SubspaceOptions {
   ControlPointOptions control;
-  std::size_t normals_per_point = 8;  // number of samples whose mean slope a control point gets, > 0
-  double max_slope = 4;               // slope limit of the reference heights, see Shape
+  // Number of samples that determine the mean slope of a control point, > 0.
+  std::size_t normals_per_point = 8;
+  double max_slope = 4;  // slope limit of the reference heights, see Shape
 };
 
-// Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is the system of all points.
+// Returns z_ref: the heights of all points from (9) with w_k = 1. `system` is the system of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
-// Control points with their factored system. The height of any point is z = ratio z_ref + offset, where z_ref
-// is its reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by
-// the reference height, both solved on the control points. The offset is the part of the compressed height
-// that a smooth ratio cannot represent, above all where z_ref passes 0. Multilevel B-splines extend ratio and
-// offset to all points.
+// Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
+// the reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by the
+// reference height, both solved on the control points. The offset is the part of the compressed height that a
+// smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel B-splines extend ratio and offset
+// to all points.
 //
 // Reliefs differ from exact reliefs by about 1 % of the height (root mean square), layered reliefs by 1 to 4
-// %. Low reliefs differ most: see docs/decisions/subspace.md. Const calls may run concurrently if each has
-// its own workspace.
+// %. Low reliefs differ most (docs/decisions/subspace.md). Const calls may run concurrently if each has its
+// own workspace.
 class SubspaceModel {
  public:
-  // Scratch memory of a relief, so that frames allocate nothing.
+  // Scratch memory, so that frames allocate nothing.
   class Workspace {
    public:
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Returns the memory used, in bytes, without a few bytes per control point.
+    // Returns the number of bytes of memory in use, except for a few bytes per control point.
     std::size_t memory() const;
 
    private:
@@ -57,8 +58,8 @@ class SubspaceModel {
     std::span<const PointLayers> layers = {};  // normal_layers() of the surface
   };
 
-  // Copies the parts of the surface that it needs. The reference heights take most of the time and memory.
-  // Errors: see HeightSystem::build(); kind cancelled.
+  // Copies the data that it needs from the surface. The reference heights take most of the time and memory.
+  // Errors: those of HeightSystem::build(); kind cancelled.
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options,
                                        const Known& known, Progress* progress = nullptr);
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {}) {
@@ -70,12 +71,12 @@ class SubspaceModel {
 
   const ControlPoints& control_points() const { return control_; }
 
-  // Returns the memory used, in bytes.
+  // Returns the number of bytes of memory in use.
   std::size_t memory() const;
 
   Workspace make_workspace() const;
 
-  // Finds the heights of the control points. `boundary_weight` is w_b per point of the surface, for the
+  // Solves for the heights of the control points. `boundary_weight` is w_b per point of the surface, for the
   // shape's boundary width.
   void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
 
@@ -83,14 +84,14 @@ class SubspaceModel {
   void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
 
  private:
-  // Normals sampled from the regions of the control points, equally many from each.
+  // Normals sampled from the regions of the control points, the same number from each.
   struct Samples {
     std::vector<Vec3f> normals;
     std::vector<float> k;
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c * own + (the ratio of all control points) * overall.
+  // The ratio of a control point is z_c * own + (common ratio of all control points) * overall.
   struct RatioTerm {
     float own = 0, overall = 0;
   };

@@ -1,5 +1,5 @@
-// Normal space compression (stages 8 and 9): the share of each normal that the relief keeps. Paper, equations
-// (5) to (7).
+// Normal space compression (stages 8 and 9): the share of each normal in the relief. Equations (5) to (7) of
+// the paper.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace relievo {
 
-// Returns w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), equation (6), in [0,
-// 1]. Never overflows. If delta is 0 (no curvature anywhere), all points get the same weight, as for beta =
-// 0.
+// Returns w_k of equation (6), in [0, 1]: 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| /
+// delta)^beta). Never overflows. If delta is 0 (no curvature anywhere), all points get the same weight, as
+// for beta = 0.
 double curvature_weight(double k, double delta, const Compression& compression);
 
-// Returns w_b = 1 - exp(-(distance / (2 rho))^2), equation (7), in [0, 1].
+// Returns w_b of equation (7), in [0, 1]: 1 - exp(-(distance / (2 rho))^2).
 double boundary_weight(double distance, double rho);
 
-// Returns w_b for each distance to the boundary.
+// Returns w_b for each distance from the boundary.
 std::vector<float> boundary_weights(std::span<const float> distance, double rho);
 
 // Returns the slope (dz/dx, dz/dy) of the compressed normal w n + (1 - w) (0, 0, 1) of equation (5),
@@ -34,31 +34,31 @@ Eigen::Vector2<Real> compressed_slope(const std::type_identity_t<Eigen::Vector3<
   const Real length = std::sqrt(x * x + y * y);
   const auto scaled = [&](Real scale) { return Eigen::Vector2<Real>(x * scale, y * scale); };
   if (!(length <= max_slope * z)) return scaled(max_slope / length);
-  // Frames multiply by the reciprocal, because one division takes less time than two.
+  // Frames multiply by the reciprocal, because one division is faster than two.
   if constexpr (std::is_same_v<Real, float>) return scaled(1 / std::max(z, 1e-30F));
   return length > 0 ? Eigen::Vector2<Real>(x / z, y / z) : Eigen::Vector2<Real>(0, 0);
 }
 
-// The per-point inputs of slopes, one entry per point.
+// The inputs of slopes, one element per point.
 struct SlopeInput {
   std::span<const Vec3f> normals;
   std::span<const float> k;                  // normalised mean curvature
   std::span<const float> boundary_weight;    // w_b
   double delta = 0;                          // standard deviation of |k|
-  std::span<const PointLayers> layers = {};  // used only by the layered style
+  std::span<const PointLayers> layers = {};  // only for the layered style
   std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
 };
 
-// Writes the target slope of every point. With Style::paper_weights it is compressed_slope() with w = w_k
-// w_b. In the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied
-// by w_b and by the factor of the saturation, and the slopes are aimed at the shape's light.
+// Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.
+// For the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied by
+// w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // Returns the layer weights of a layered shape.
 LayerWeights layer_weights(const Shape& shape);
 
-// Splits the saturation off a compression c. The factor that saturation or tone curve apply to a layered
-// slope is saturation_scale(c) times w_k of saturation_alone(c). It is 1 everywhere for saturation 0.
+// Separate the saturation from a compression c. The factor of saturation or tone curve for a layered slope is
+// saturation_scale(c) times w_k of saturation_alone(c). It is 1 everywhere for saturation 0.
 Compression saturation_alone(const Compression& compression);
 double saturation_scale(const Compression& compression);
 

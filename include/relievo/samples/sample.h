@@ -1,4 +1,4 @@
-// Generated scans for trying the program; licences of real scans do not allow shipping them.
+// Generated scans for trying the program, because the licences of real scans forbid shipping them.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct SampleInfo {
   std::string_view description;
 };
 
-// Returns the names that make_sample() accepts, with descriptions.
+// Returns the names for make_sample(), with descriptions.
 std::span<const SampleInfo> samples();
 
-// Returns the sample `name` as a scanner would deliver it: scattered points with noise and outward normals,
-// +Y up, the front towards +Z. The same name and options give the same bits. Errors: kind option for an
-// unknown name, with a list of the known ones, or an option out of range.
+// Returns the sample `name`, similar to a cloud from a scanner: scattered points with noise and outward
+// normals, +Y up, with the front towards +Z. The same name and options give the same bits. Errors: kind
+// option for an unknown name, with a list of the known ones, or an option out of range.
 Result<Cloud> make_sample(std::string_view name, const SampleOptions& options = {});
 
 }  // namespace relievo

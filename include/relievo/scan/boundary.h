@@ -1,4 +1,5 @@
-// Boundary (stage 5): the triangles that belong to the relief, and the points where it meets the base.
+// Boundary (stage 5): the triangles that belong to the relief, and the points where the relief meets the
+// base.
 #pragma once
 
 #include <span>
@@ -12,11 +13,11 @@ enum class WallSide : std::uint8_t { none, front, back };
 
 struct Boundary {
   std::vector<std::uint8_t> is_inside;    // per triangle: whether it belongs to the relief
-  std::vector<std::uint8_t> is_boundary;  // per point: whether it is in P_b (silhouette, rims of holes)
-  // The distance of each point to the nearest point of P_b in the view plane: `dist` of equation (7).
+  std::vector<std::uint8_t> is_boundary;  // per point: whether it is in P_b (silhouette and rims of holes)
+  // The distance of each point from the nearest point of P_b in the view plane: `dist` of equation (7).
   std::vector<float> distance;
-  // For each point, whether it is on the front or the back edge of the wall at a depth jump, or on none;
-  // empty if there are no walls.
+  // Per point: whether it is on the front or the back edge of the wall at a depth jump, or on none; empty if
+  // there are no walls.
   std::vector<WallSide> wall_side;
 
   bool is_across_wall(Index a, Index b) const {
@@ -25,14 +26,15 @@ struct Boundary {
   }
 };
 
-// Returns for each triangle of points in the view plane whether it belongs to the relief, given the points'
-// Delaunay triangulation and sampling distance rho.
+// Returns for each triangle whether it belongs to the relief. The arguments are points in the view plane,
+// their Delaunay triangulation, and their sampling distance rho.
 //
-// A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds 3 rho, unless
-// it belongs to a narrow hole. A narrow hole is a connected set of such triangles that does not touch the
-// hull and has no radius above 5 rho. Where the local spacing of all corners exceeds 2 rho, this spacing
-// replaces rho, because the scan is sparse there. `spacing` is Spacing::local of each point, for clouds of
-// uneven density; in other clouds it would close gaps beside surfaces that are seen edge on.
+// A triangle is outside if the radius of its circumcircle, which contains no points, exceeds 3 rho, unless
+// the triangle belongs to a narrow hole. A narrow hole is a connected set of such triangles that does not
+// touch the hull and has no radius above 5 rho. If the local spacing of all corners exceeds 2 rho, the scan
+// is sparse there, and that spacing replaces rho. `spacing` is Spacing::local of each point, for clouds of
+// uneven density. It must be empty for other clouds, because it would close gaps beside surfaces that are
+// seen edge-on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 
@@ -45,7 +47,7 @@ Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triang
 std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,
                                           std::span<const std::uint8_t> is_inside);
 
-// Returns for each point its distance to the nearest boundary point, 0 for these; infinity if there is none.
+// Returns for each point its distance from the nearest boundary point; infinity if there is none.
 std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<std::uint8_t>& is_boundary);
 
 }  // namespace relievo

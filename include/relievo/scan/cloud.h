@@ -1,4 +1,4 @@
-// Scattered point clouds, and operations that need no view.
+// Clouds of scattered points, and operations that need no view.
 #pragma once
 
 #include <optional>
@@ -10,29 +10,28 @@
 
 namespace relievo {
 
-// A part of an outline. As seen by the viewer, the visible surface is on its left. On its right is nothing,
-// or at a jump a surface farther behind.
+// A part of an outline. Seen by the viewer, the visible surface is on its left. On its right there is nothing
+// or, at a jump, a surface farther behind.
 struct OutlineSegment {
   Vec3 from, to;
   bool is_jump = false;
 };
 
-// Points in the units of their source, in double precision, so that geo-referenced coordinates (1e6 and more)
-// keep all their digits. `normals` is empty or has one unit vector per point, `colours` is empty or has one
-// colour per point.
+// Points in the units of their source, in double precision, so that georeferenced coordinates (1e6 and more)
+// keep all digits. `normals` is empty or has a unit vector per point; `colours` is empty or has a colour per
+// point.
 struct Cloud {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
   std::vector<Colour> colours = {};
-  // If the points were sampled from a mesh, its exact outlines in the view of the sampling; else empty.
+  // If the points were sampled from a mesh: its exact outlines in the view of the sampling; else empty.
   std::vector<OutlineSegment> outlines = {};
-  // Seen from +Z, no point hides another, as in a depth image.
+  // Whether no point hides another seen from +Z, as in a depth image.
   bool is_height_field = false;
-  // For each point the height of its model in the scene, Pose::height, or 0 if that is not given; empty if no
-  // model's is.
+  // Per point: Pose::height of its model in the scene, or 0 if that is not given; empty if no model has it.
   std::vector<float> own_heights = {};
-  // If the points come from a depth image, the ratio of z to the image's values, seen from +Z. It is negative
-  // if values grow away from the viewer, and 0 if z is not proportional to them.
+  // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
+  // if values increase away from the viewer, and 0 if z is not proportional to them.
   std::optional<double> units_per_value = {};
 
   std::size_t size() const { return points.size(); }
@@ -40,22 +39,21 @@ struct Cloud {
   bool has_colours() const { return !colours.empty(); }
 };
 
-// Returns the box of all points; an empty box for an empty cloud.
+// Returns the bounding box of all points; an empty box for an empty cloud.
 Box bounds(const Cloud& cloud);
 
-// Returns the indices, ascending, of points that cannot belong to the model. Their distance from its middle
-// (the median of each coordinate) is more than 20 times the distance within which 90 % of the points lie. A
-// single outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its
-// own box.
+// Returns the indices, ascending, of points that cannot belong to the model: their distance from the median
+// of each coordinate is more than 20 times the distance within which 90 % of the points are. A single
+// outlier, for example at the origin of a georeferenced scan, would make the model tiny within its own box.
 std::vector<Index> outliers(const Cloud& cloud);
 
-// Returns the cloud with only the first point of each group of points that repeat one another, exactly or
-// nearly; the cloud is unchanged if hardly any points do. Points repeat one another if they are much closer
-// together than to all other points and their normals do not point apart: both sides of a thin sheet stay.
-// Normals and colours are the means of the group.
+// Returns the cloud with only the first point of each group of exact or near repeats; unchanged if hardly any
+// points are repeated. Points repeat each other if they are much closer to each other than to all other
+// points and their normals differ by at most 90 degrees, so that both sides of a thin sheet are kept. Normals
+// and colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
-// Returns the cloud without the points with the indices `erased`, which are ascending.
+// Returns the cloud without the points whose indices are in `erased`, in ascending order.
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased);
 
 }  // namespace relievo

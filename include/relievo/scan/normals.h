@@ -1,4 +1,4 @@
-// Normals of scattered clouds: estimating them and giving them the right sign.
+// Normals of scattered points: estimates them and determines their signs.
 #pragma once
 
 #include <span>
@@ -9,28 +9,28 @@
 
 namespace relievo {
 
-// Returns n with unit length, or zero if it has no direction (zero or not finite). A vector that is unit up
-// to float rounding is returned as it is, so that writing and reading again changes no bit.
+// Returns n with unit length; zero if n is zero or not finite. A vector that has unit length up to float
+// rounding is returned unchanged, so that writing and reading it changes no bit.
 Vec3f unit_normal(const Vec3& n);
 
-// Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
-// (principal component analysis). The sign is arbitrary until turn_to_viewer(). Does nothing to a cloud of
-// fewer than 3 points. Once the progress is cancelled, the remaining normals are 0.
+// Estimates the normal of every point from the plane through its `neighbours` nearest points, at most 64
+// (principal component analysis). Signs are arbitrary until turn_to_viewer(). Does nothing for fewer than 3
+// points. After cancellation, the remaining normals are 0.
 void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 
-// Reverses the normals of a cloud in view coordinates that face away from the viewer, so that z >= 0.
+// Reverses the normals of a cloud in view coordinates that face away from the viewer, so that all have z >=
+// 0.
 void turn_to_viewer(Cloud& viewed);
 
-// Gives consistent signs to the normals of a cloud after turn_to_viewer(). `seen` are the visible points.
-// Those whose normals are within 60 degrees of the viewer's direction keep their signs. From these points the
+// Makes the signs of the normals consistent after turn_to_viewer(). `seen` are the visible points; those
+// whose normals are within 60 degrees of the direction to the viewer keep their signs. From these points the
 // signs spread from neighbour to neighbour, so that the surface continues around edges instead of folding
 // back.
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen);
 
-// Returns whether the normals point into the model: whether, on average over the six sides along the axes,
-// less than a third of the front-most points have normals towards the viewer. For a cloud that was scanned
-// from one side only, this side and the opposite one cancel out and the other four sides decide. The result
-// is false without normals.
+// Returns whether the normals point into the model: on average over the six sides along the axes, less than a
+// third of the front-most points have normals towards the viewer. If a cloud was scanned from one side only,
+// this side and the opposite one cancel, and the other four sides decide. Returns false without normals.
 bool normals_point_inward(const Cloud& cloud);
 
 // Reverses every normal.

@@ -1,4 +1,4 @@
-// The plane on which or in front of which a scanned figure stands: a table, the ground, a wall.
+// The plane that supports a scanned figure or is behind it: a table, the ground or a wall.
 #pragma once
 
 #include <array>
@@ -18,22 +18,22 @@ inline constexpr std::array<Choice<PlaneKind>, 2> plane_kinds{
 // A plane in view coordinates: the points p with normal . p = offset.
 struct SupportPlane {
   PlaneKind kind = PlaneKind::background;
-  Vec3 normal = Vec3::UnitZ();  // unit length, towards the viewer and the figure
+  Vec3 normal = Vec3::UnitZ();  // unit vector towards the viewer and the figure
   double offset = 0;
-  double tolerance = 0;  // points at most this far from the plane belong to it, in the cloud's units
+  double tolerance = 0;  // points within this distance belong to the plane, in the cloud's units
   double share = 0;      // share of the visible points that belong to the plane
 
-  // Returns whether a point is not part of the figure, because it lies behind the plane, or on it with a
-  // normal that fits the plane.
+  // Returns whether a point is not part of the figure: it is behind the plane, or on it with a normal similar
+  // to the plane's.
   bool takes(const Vec3& point, const Vec3f& point_normal) const;
   bool operator==(const SupportPlane&) const = default;
 };
 
-// Returns the plane on which or in front of which the visible points of a cloud stand; nothing if there is
-// none. `viewed` is in view coordinates and has normals, `visible` are the indices of its visible points, and
-// rho is its sampling distance. A table is level from the left to the right and rises away from the viewer;
-// other planes that face the viewer are backgrounds. A face of a solid is no support plane: all but a few of
-// the other points have to lie in front of the plane and over it, and to rise far above it relative to their
+// Returns the plane that the visible points of a cloud stand on or in front of; nothing if there is none.
+// `viewed` is in view coordinates and has normals, `visible` are the indices of its visible points, and rho
+// is its sampling distance. A plane is a table if it is level from left to right and rises away from the
+// viewer; other planes that face the viewer are backgrounds. To exclude the faces of solids, nearly all other
+// points must be in front of the plane and above its points, and must rise far above it relative to their
 // extent. The result has the same bits for any number of threads.
 std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<const Index> visible,
                                                double rho);

@@ -1,5 +1,5 @@
-// Visible points (stage 3): finds the points of a scattered cloud that are not hidden by others, and points
-// that replace a front that was not scanned.
+// Visible points (stage 3): finds the points of a scattered cloud that no others hide, and points that
+// replace unscanned parts of the visible side.
 #pragma once
 
 #include <span>
@@ -13,12 +13,12 @@ namespace relievo {
 // Returns the indices of the visible points, ascending. `viewed` is in view coordinates and has normals;
 // without normals the result is empty.
 //
-// Every point that faces the viewer is drawn as a disc into a depth buffer, oriented by its normal and as
-// wide as the local spacing, so that there are no gaps to look through even if the density varies. A point is
-// visible if it faces the viewer and is not behind the buffer's depth by more than the tolerance. Small
+// Every point that faces the viewer is drawn into a depth buffer as a disc. The disc is oriented by the
+// normal, and its size follows from the local spacing, so that there are no gaps even if the density varies.
+// A point is visible if it faces the viewer and is at most the tolerance behind the buffer's depth. Small
 // connected sets of points are not visible and hide nothing. In a height field all points that face the
-// viewer are visible. This replaces the cells of 2 rho of the paper's section 3.2, through which hidden
-// points leak and which lose points on slopes.
+// viewer are visible. This replaces the cells of 2 rho in the paper's section 3.2, which let hidden points
+// through and lose points on slopes.
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing);
 
 struct VisiblePoints {
@@ -29,10 +29,10 @@ struct VisiblePoints {
 // Returns the result of visible_points(), and the number of removed points.
 VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing);
 
-// Returns the indices, ascending, of points that replace missing data. These points face away from the viewer
-// and have no visible point near them in the view plane: the scan shows the back of the model there but not
-// its front. With these points the relief has no hole there, only a flat spot. Any two of the returned points
-// are at least 0.7 rho apart.
+// Returns the indices, ascending, of points that replace missing data. They face away from the viewer and
+// have no visible point near them in the view plane: the scan contains the back of the model there, but not
+// its front. With these points the relief has a flat spot there instead of a hole. Any two of the returned
+// points are at least 0.7 rho apart.
 std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
                                     std::span<const Index> visible);
 

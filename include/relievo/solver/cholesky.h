@@ -1,5 +1,5 @@
-// Solves sparse symmetric positive definite systems whose graph is nearly planar. A matrix is factored once,
-// and systems with it are solved in every frame.
+// Solves sparse symmetric positive definite systems whose graph is nearly planar. A matrix is factored once;
+// every frame solves systems with it.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -11,14 +11,14 @@
 
 namespace relievo::solver {
 
-// Owns the factorisation of one matrix, in single precision, and a copy of the matrix.
-// docs/decisions/solver.md explains how it works. Concurrent solves are safe, each with a workspace of its
-// own. Results have the same bits for any number of threads.
+// Owns the factorisation of a matrix, in single precision, and a copy of the matrix
+// (docs/decisions/solver.md). Concurrent solves are safe if each has its own workspace. Results have the same
+// bits for any number of threads.
 class Cholesky {
  public:
   struct Factor;
 
-  // Scratch memory of solves: about 5 floats per unknown, and 2 doubles more from the first solve in double
+  // Scratch memory of solves: about 5 floats per unknown, plus 2 doubles from the first solve in double
   // precision on. A workspace belongs to the factorisation that made it, which must outlive it. Only one
   // solve at a time may use it.
   class Workspace {
@@ -27,7 +27,7 @@ class Cholesky {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Returns the memory used, in bytes.
+    // Returns the number of bytes of memory in use.
     std::size_t memory() const;
 
     struct Storage;
@@ -40,11 +40,11 @@ class Cholesky {
 
   // Factors A, reading only its lower triangle. A 0 x 0 matrix is allowed.
   //
-  // `positions` are the places of the unknowns in the plane if A belongs to a planar graph such as a
+  // `positions` are the positions of the unknowns in the plane if A belongs to a planar graph, such as a
   // triangulation: one point per unknown, or none. They only guide the elimination order; wrong positions
-  // cost memory and time, never correctness. Errors: kind geometry if A is not square, has an entry that is
-  // not finite, or is not positive definite (a pivot at most 1e-14 times its diagonal entry); kind option if
-  // there are positions, but not one per unknown.
+  // cost memory and time, but never correctness. Errors: kind geometry if A is not square, has an entry that
+  // is not finite, or is not positive definite (a pivot is at most 1e-14 times its diagonal entry); kind
+  // option if the number of positions is neither 0 nor the number of unknowns.
   static Result<Cholesky> factor(const Eigen::SparseMatrix<double>& A, std::span<const Vec2> positions = {});
 
   Cholesky(Cholesky&&) noexcept;
@@ -54,25 +54,25 @@ class Cholesky {
   // Returns the number of unknowns.
   std::size_t size() const;
 
-  // Renumbers the unknowns for later solves: unknown i is then element numbers[i] of b and x, whose other
-  // elements are neither read nor written. One number per unknown, all different.
+  // Renumbers the unknowns for later solves: unknown i becomes element numbers[i] of b and x; their other
+  // elements are neither read nor written. `numbers` has one number per unknown, all different.
   void renumber(std::span<const Index> numbers);
 
-  // Returns the memory used, in bytes, workspaces not counted.
+  // Returns the number of bytes of memory in use, without workspaces.
   std::size_t memory() const;
 
   Workspace make_workspace() const;
 
   // The following functions write the solution of A x = b to x. b and x have size() elements (but see
-  // renumber()) and may be the same storage. With a workspace they allocate nothing, except for the first
-  // solve in double precision.
+  // renumber()) and may be the same memory. With a workspace they allocate nothing, except in the first solve
+  // in double precision.
 
   // One substitution in single precision. For a well-shaped triangulation the error is about 1e-6 of the
   // largest |x|.
   void solve(std::span<const float> b, std::span<float> x, Workspace& workspace) const;
 
   // Substitution, then refinement in double precision until the largest element of the residual is 1e-13 of
-  // the largest element of b or stops falling; two substitutions are usually enough.
+  // the largest element of b or no longer decreases. Two substitutions are usually enough.
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 

@@ -1,4 +1,4 @@
-// Reads E57 1.0 (ASTM E2807-11): the points of all scans, each scan moved by its pose. Pictures and
+// Reads E57 1.0 (ASTM E2807-11): the points of all scans, transformed by the poses of the scans. Pictures and
 // intensities are not read.
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -28,18 +28,19 @@ struct E57Scan {
   Triple position = {};  // x, y and z, or range, azimuth and elevation
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
-  std::optional<std::size_t> invalid;    // column that is not 0 for points the scanner could not measure
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // rotation from scanner's to file's frame,
-  Vec3 origin = Vec3::Zero();                                // and the translation that follows it
+  std::optional<std::size_t> invalid;    // column that is not 0 for points that the scanner could not measure
+  // Rotation from the scanner's axes to the file's axes.
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  Vec3 origin = Vec3::Zero();  // translation after the rotation
 };
 
-// Returns the name without its prefix. Normals are an extension of the standard, and files may choose any
-// prefix for it.
+// Returns the name without its namespace prefix. Normals are an extension of the standard, for which files
+// may choose any prefix.
 std::string_view local_name(std::string_view name) {
   return name.substr(name.find(':') + 1);
 }
 
-// Parses the description of a scan in an element of data3D. Errors name the element.
+// Parses the description of a scan, a child of the element data3D. Errors name the element.
 class ScanParser {
  public:
   ScanParser(const Source& source, const XmlElements& elements, std::size_t scan)
@@ -163,8 +164,8 @@ class ScanParser {
     return elements_[element].text.empty() ? 0 : parse_number(elements_[element].text).value_or(unset);
   }
 
-  // Takes the range of colours from colorLimits or else from the columns' own limits. Floating-point columns
-  // without limits are in [0, 1].
+  // Takes the range of colours from colorLimits or, without that, from the columns' limits. Floating-point
+  // columns without limits are in [0, 1].
   void scale_colours() {
     if (!scan_.colour) return;
     const std::size_t limits = find_child(elements_, element_, "colorLimits");
@@ -213,7 +214,7 @@ Vec3 position_at(const E57Scan& scan, std::size_t row) {
   return p[0] * Vec3(std::cos(p[2]) * std::cos(p[1]), std::cos(p[2]) * std::sin(p[1]), std::sin(p[2]));
 }
 
-// Returns a colour value as a byte. Floats are scaled here; integers are already scaled.
+// Returns a colour value as a byte. Floats are scaled here; integers are scaled already.
 std::uint8_t as_byte(const PackedColumn& column, std::size_t row) {
   double value = column.value(row);
   if (column.kind != PackedColumn::Kind::integer) value = column.scale * value + column.shift;
@@ -234,14 +235,14 @@ void decode_rows(const E57Scan& scan, std::size_t begin, std::size_t end, Cloud&
   }
 }
 
-// Returns whether the description of a scan names coordinates of points. Some scans have intensities alone.
+// Returns whether the description of a scan names coordinates of points. Some scans have only intensities.
 bool has_coordinates(const XmlElements& elements, std::size_t scan) {
   for (std::size_t i = scan + 1; i < elements[scan].end; ++i)
     if (elements[i].name == "cartesianX" || elements[i].name == "sphericalRange") return true;
   return false;
 }
 
-// Returns the scans that have points. Of a file in which no scan has coordinates, the first one is refused.
+// Returns the scans that have points. If no scan has coordinates, returns the error about the first one.
 Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& pages, RawCloud& raw) {
   RELIEVO_TRY(const XmlElements elements, parse_xml(pages.xml, source));
   std::vector<std::size_t> with, without;
@@ -259,7 +260,7 @@ Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& p
   return scans;
 }
 
-// Returns whether all scans have that part, and says so if only some do.
+// Returns whether all scans have that part. Adds a remark if only some do.
 bool have_all(const std::vector<E57Scan>& scans, std::optional<E57Scan::Triple> E57Scan::*part,
               std::string_view name, RawCloud& raw) {
   const auto count = static_cast<std::size_t>(

@@ -17,8 +17,8 @@ constexpr std::size_t checksum_size = 4, header_size = 48;
 
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 
-// Makes tables that process eight bytes per step ("slicing by 8", Kounavis and Berry 2008). Table k is for a
-// byte that k bytes follow.
+// Makes tables for processing eight bytes per step ("slicing by 8", Kounavis and Berry 2008). Table k is for
+// a byte followed by k bytes.
 constexpr CrcTables make_crc_tables() {
   constexpr std::uint32_t polynomial = 0x82F63B78;  // Castagnoli's, reflected
   CrcTables tables{};
@@ -35,7 +35,7 @@ constexpr CrcTables make_crc_tables() {
 
 constexpr CrcTables crc_tables = make_crc_tables();
 
-// The checksum is the only number of the format with its highest byte first.
+// The checksum is the only big-endian number of the format.
 std::uint32_t stored_checksum(std::string_view page) {
   return std::byteswap(little<std::uint32_t>(page.data() + page.size() - checksum_size));
 }
@@ -60,7 +60,7 @@ Result<std::uint64_t> check_header(const Source& source) {
 }
 
 constexpr std::size_t section_header = 32, data_header = 6;
-constexpr std::size_t padding = 9;  // so that 64 bits can be read from any bit position
+constexpr std::size_t padding = 9;  // so that 64 bits can be read at any bit position
 
 std::uint64_t bits_at(const char* bytes, std::uint64_t bit, unsigned count) {
   const char* const first = bytes + bit / 8;

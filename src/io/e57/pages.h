@@ -1,6 +1,5 @@
-// The pages of an E57 file. A file is divided into pages of 1,024 bytes, of which the last four are a
-// checksum. Physical offsets, which the file states, include the checksums; logical offsets and lengths do
-// not.
+// The pages of an E57 file: blocks of 1,024 bytes, of which the last four are a checksum. Physical offsets,
+// which the file uses, count the checksums; logical offsets and lengths do not.
 #pragma once
 
 #include <cstddef>
@@ -19,24 +18,24 @@ std::uint32_t crc32c(std::string_view bytes);
 
 struct E57Pages {
   std::string bytes;          // the contents of all pages
-  std::size_t page_size = 0;  // in bytes, with the checksum
+  std::size_t page_size = 0;  // in bytes, including the checksum
   std::string_view xml;       // a part of `bytes`
 
   E57Pages() = default;
   E57Pages(E57Pages&&) = delete;  // `xml` points into `bytes`
 
-  // Convert between physical and logical offsets. A physical offset within a checksum becomes the end of all
+  // Convert between physical and logical offsets. A physical offset inside a checksum becomes the end of all
   // bytes.
   std::uint64_t logical(std::uint64_t physical) const;
   std::uint64_t physical(std::uint64_t logical) const;
 };
 
-// Reads the header, checks all checksums, and copies the contents of the pages. Errors name the byte, or the
-// page whose checksum differs.
+// Reads the header, verifies all checksums, and copies the contents of the pages. Errors name the byte, or
+// the page with a wrong checksum.
 Result<void> read_e57_pages(const Source& source, E57Pages& pages);
 
-// The numbers of an E57 file: a CompressedVector section is a sequence of packets. Each packet has a part of
-// every column, with numbers packed bit by bit.
+// The numbers of an E57 file. A CompressedVector section is a sequence of packets. Each packet has a part of
+// every column; its numbers are packed bit by bit.
 
 // A column of numbers, and how they are packed.
 struct PackedColumn {
@@ -44,11 +43,11 @@ struct PackedColumn {
 
   std::string_view name;  // name of the column, for messages
   Kind kind = Kind::integer;
-  unsigned bits = 0;            // bits per number; an integer of 0 bits is always the minimum
-  std::int64_t minimum = 0;     // added to integers
+  unsigned bits = 0;            // bits per number; an integer of 0 bits always equals the minimum
+  std::int64_t minimum = 0;     // added to the stored integers
   double scale = 1, shift = 0;  // the value is scale * number + shift
-  bool is_wanted = false;       // columns that are not wanted have no bytes
-  std::string bytes = {};       // bytes of all packets, in their order, followed by zeros
+  bool is_wanted = false;       // the bytes of unwanted columns are not collected
+  std::string bytes = {};       // bytes of all packets in order, followed by zeros
 
   double value(std::uint64_t row) const;
 };
@@ -59,8 +58,8 @@ struct E57Section {
   std::uint64_t rows = 0;
 };
 
-// Collects the bytes of the wanted columns. `columns` are all columns of the section, in the section's order.
-// Errors name the byte of the file, or the column that is too short.
+// Collects the bytes of the wanted columns. `columns` are all columns of the section, in order. Errors name
+// the byte of the file, or the column that is too short.
 Result<void> read_packed_columns(const Source& source, const E57Pages& pages, const E57Section& section,
                                  std::span<PackedColumn> columns);
 

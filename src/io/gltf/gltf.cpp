@@ -17,7 +17,7 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
-constexpr std::size_t most_vertices = 100'000'000;  // small files can repeat a mesh often
+constexpr std::size_t most_vertices = 100'000'000;  // limit, because small files can repeat a mesh many times
 
 constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of application
 
@@ -25,8 +25,8 @@ constexpr const char* draco = "KHR_draco_mesh_compression";
 
 constexpr std::size_t points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 
-// Returns whether a file that requires this extension can be read: the extension is supported, or it only
-// affects the look of surfaces.
+// Returns whether a file that requires this extension can be read: the extension is supported, or affects
+// only the look of surfaces.
 bool is_readable_with(std::string_view extension) {
   for (const char* const known :
        {"KHR_mesh_quantization", "KHR_meshopt_compression", "EXT_meshopt_compression",
@@ -38,10 +38,11 @@ bool is_readable_with(std::string_view extension) {
   return false;
 }
 
-// The vertices of a primitive. There is one for each position.
+// The vertices of a primitive, one per position.
 struct Vertices {
   AccessorValues positions, normals, colours;
-  std::vector<Colour> material_colours = {};  // if there are no colours; empty if the file has no textures
+  // Used if there are no colours; empty if the file has no textures.
+  std::vector<Colour> material_colours = {};
 
   std::size_t count() const { return positions.count(); }
 };
@@ -78,7 +79,8 @@ class GltfReader {
     if (has_lines_) raw.remarks.emplace_back("left out the lines");
   }
 
-  // The transforms of a mesh's copies, or the number of its skin, which then places the mesh alone.
+  // The transforms of a mesh's copies, or the number of the mesh's skin; a skin determines the position
+  // alone.
   struct Placement {
     std::vector<Transform> copies;
     std::size_t skin = no_index;
@@ -109,7 +111,7 @@ class GltfReader {
                          "Blender opens the file, and exports it without compression");
   }
 
-  // Returns whether the vertices are compressed only, without the plain copy that a file may have, too.
+  // Returns whether the vertices exist only in compressed form. A file may also contain an uncompressed copy.
   bool is_compressed(const Json& primitive, const Json& attributes) const {
     const Json* extensions = object_in(primitive, "extensions");
     if (!extensions || !object_in(*extensions, draco)) return false;
@@ -142,15 +144,15 @@ class GltfReader {
     return found;
   }
 
-  // A file without nodes is a library of meshes; all of them are shown where they are.
+  // A file without nodes is a library of meshes. All meshes are shown, without a transform.
   Result<void> add_all_meshes() {
     for (std::size_t i = 0; file_.element("meshes", i); ++i)
       RELIEVO_CHECK(add_mesh(i, {{Transform::Identity()}}));
     return {};
   }
 
-  // Visits each node once. In a valid file no node has two parents; in an invalid one this avoids endless
-  // cycles.
+  // Visits each node once. In a valid file each node has at most one parent; in an invalid file this prevents
+  // endless loops.
   Result<void> walk_nodes(const std::vector<std::size_t>& first) {
     std::vector<Visit> open;
     for (const std::size_t i : first) open.push_back({i, Transform::Identity()});
@@ -185,7 +187,7 @@ class GltfReader {
     return {};
   }
 
-  // Returns the transforms of the node's mesh: the node's own transform, or the transforms of its copies by
+  // Returns the transforms of the node's mesh: the transform of the node, or those of the copies by
   // EXT_mesh_gpu_instancing.
   Result<std::vector<Transform>> copies_of(const Json& node, const Transform& transform,
                                            const std::string& place) {
@@ -263,7 +265,7 @@ class GltfReader {
     return {};
   }
 
-  // Returns the vertex indices of the triangles' corners, one after the other.
+  // Returns the vertex indices of the triangles' corners in sequence.
   Result<std::vector<std::int64_t>> order_of(const Json& primitive, std::size_t vertices,
                                              const std::string& place) {
     std::vector<std::int64_t> order;
@@ -284,7 +286,7 @@ class GltfReader {
     return order;
   }
 
-  // Returns an attribute's vectors of `wanted` numbers; colours may have one more number, for transparency.
+  // Returns an attribute's vectors of `wanted` numbers. Colours may have one more number for opacity.
   Result<AccessorValues> attribute(const Json& attributes, const char* name, std::size_t wanted,
                                    const std::string& place) {
     const auto number = number_in(attributes, name, no_index);
@@ -314,7 +316,8 @@ class GltfReader {
     return all;
   }
 
-  // Adds the vertices, moved by the transform, or each by its own one in `posed` if there are any.
+  // Adds the vertices. Each is transformed by its own transform in `posed` or, if that is empty, by
+  // `transform`.
   void add_vertices(const Vertices& all, const Transform& transform, const std::vector<Transform>& posed) {
     const auto byte = [](double v) {
       return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, 255 * v + .5)) : std::uint8_t{0};
@@ -332,8 +335,8 @@ class GltfReader {
     }
   }
 
-  // Adds triangles among the vertices from number `first` on. Mirroring turns triangles inside out, so the
-  // order of their corners is reversed.
+  // Adds triangles; `first` is added to the indices of their vertices. If the transform mirrors, the order of
+  // their corners is reversed, because they would face inwards.
   void add_triangles(std::vector<std::int64_t> corners, std::size_t mode, std::size_t first,
                      bool is_mirrored) {
     const auto before = static_cast<std::ptrdiff_t>(triangles_.size());

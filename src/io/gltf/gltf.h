@@ -1,5 +1,5 @@
-// The parts of a glTF file that geometry needs: its JSON, and the numbers in its buffers.
-// Tested by tests/io/gltf_test.cpp and tests/io/mesh_formats_test.cpp.
+// The parts of a glTF file that determine geometry: its JSON, and the numbers in its buffers. Tested by
+// tests/io/gltf_test.cpp and tests/io/mesh_formats_test.cpp.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace relievo::io {
 
 using Json = nlohmann::json;
 
-// The numbers of an accessor: vectors of `components` numbers, one after the other.
+// The numbers of an accessor: consecutive vectors of `components` numbers.
 struct AccessorValues {
   std::size_t components = 1;
   std::vector<double> numbers;
@@ -29,15 +29,15 @@ struct BufferRows {
   std::size_t stride = 0;
 };
 
-// A glTF 2.0 file, as JSON or binary (GLB). Buffers are loaded when an accessor needs them, so that a buffer
-// that no mesh uses may be missing. The source must outlive the object.
+// A glTF 2.0 file, as JSON or binary (GLB). Buffers are loaded when an accessor first needs them, so unused
+// buffers may be missing. The source must outlive the object.
 class GltfFile {
  public:
   static Result<GltfFile> open(const Source& source);
 
   const Json& json() const { return json_; }
 
-  // Returns element i of an array in the file's root if it is an object, else null.
+  // Returns element i of an array in the file's root if that element is an object, else null.
   const Json* element(std::string_view array, std::size_t i) const;
 
   // Returns the numbers of accessor i. Errors: kind input, at `place`, if the accessor does not exist or does
@@ -48,7 +48,7 @@ class GltfFile {
   std::optional<std::string_view> image(std::size_t i);
 
  private:
-  // The layout of the numbers of an accessor, as its JSON states it.
+  // The layout of an accessor's numbers, according to its JSON.
   struct Layout {
     std::size_t count = 0, components = 0;
     NumberType type = NumberType::float32;
@@ -70,26 +70,26 @@ class GltfFile {
 
   const Source* source_;
   Json json_;
-  std::string_view binary_;                                // GLB's own buffer
+  std::string_view binary_;                                // the buffer inside a GLB
   std::map<std::string, std::vector<std::byte>> loaded_;   // contents of buffers, by URI
   std::map<std::size_t, std::vector<std::byte>> decoded_;  // bytes of compressed views, by the view's index
 };
 
-// Returns the value as a non-negative integer, also if it is written as 4.0; nothing for any other value.
+// Returns the value if it is a non-negative integer, also written as 4.0; nothing for any other value.
 std::optional<std::size_t> whole_number(const Json& value);
 
-// Returns a member that is a non-negative integer; `otherwise` if the member is missing; nothing if it is
-// anything else.
+// Returns the named member if it is a non-negative integer; `otherwise` if it is missing; nothing for any
+// other value.
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
 
-// Returns the object's members with these names, as text for a message: count -4, type "VEC3".
+// Returns the object's members with these names as a text for messages: count -4, type "VEC3".
 std::string shown_members(const Json& object, std::initializer_list<const char*> names);
 
-// Returns a member that is an object, else null.
+// Returns the named member if it is an object, else null.
 const Json* object_in(const Json& json, const char* name);
 
-// Returns the relative name of a file that a URI states, without escapes (%20). Nothing if it may lead out of
-// the folder: an absolute path, a scheme such as http:, or a part '..'.
+// Returns the relative file name in a URI, with escapes (%20) decoded. Returns nothing if the name may lead
+// out of the folder: an absolute path, a scheme such as http:, or a part '..'.
 std::optional<std::string> name_in_uri(std::string_view uri);
 
 }  // namespace relievo::io

@@ -1,5 +1,5 @@
-// Loads the buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it; and
-// their views, which may be compressed.
+// Loads the buffers of a glTF file (the bytes after the JSON of a GLB, base64 text, or files beside it) and
+// buffer views, which may be compressed.
 #include <algorithm>
 #include <charconv>
 #include <span>
@@ -12,8 +12,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns the bytes of a base64 text. For any other text it returns nothing, and `wrong` is the index of the
-// first bad character.
+// Returns the bytes of a base64 text. If the text is not base64, returns nothing and sets `wrong` to the
+// index of the first bad character.
 std::optional<std::vector<std::byte>> decode_base64(std::string_view text, std::size_t& wrong) {
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -33,7 +33,7 @@ std::optional<std::vector<std::byte>> decode_base64(std::string_view text, std::
   return bytes;
 }
 
-// Returns the text with each escape %XX replaced by its byte; an incomplete escape stays as it is.
+// Returns the text with each escape %XX replaced by its byte. An incomplete escape is not changed.
 std::string without_escapes(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -57,7 +57,7 @@ bool has_parent_part(std::string_view name) {
   return false;
 }
 
-// Returns a member if it is a text, else `otherwise`.
+// Returns the named member if it is a text, else `otherwise`.
 std::string text_in(const Json& object, const char* name, const char* otherwise) {
   const auto found = object.find(name);
   return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
@@ -76,13 +76,13 @@ std::optional<MeshoptLayout> meshopt_layout(const Json& json) {
 std::optional<std::string> name_in_uri(std::string_view uri) {
   std::string name = without_escapes(uri);
   const bool leads_out = name.starts_with('/') || name.starts_with('\\') || has_parent_part(name);
-  // A colon before the first slash follows a scheme or the letter of a drive.
+  // A colon before the first slash belongs to a scheme or a drive letter.
   const bool has_scheme = name.find(':') < name.find('/');
   if (name.empty() || leads_out || has_scheme || name.contains('\0')) return std::nullopt;
   return name;
 }
 
-// Returns the bytes after the first comma of a "data:" URI, which are base64 or plain text. Both may contain
+// Returns the bytes of a "data:" URI, after the first comma. They are base64 or plain text, possibly with
 // escapes.
 Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const std::string& place) const {
   const std::size_t comma = uri.find(',');
@@ -101,7 +101,7 @@ Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const
   return std::move(*decoded);
 }
 
-// Returns the bytes that a URI contains, or the bytes of the file to which it refers.
+// Returns the bytes in a URI, or the bytes of the file that it refers to.
 Result<std::string_view> GltfFile::load(const std::string& uri, const std::string& place) {
   const auto known = loaded_.find(uri);
   std::vector<std::byte> bytes;
@@ -162,7 +162,7 @@ Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::s
   return bytes.substr(*start, *length);
 }
 
-// The extension of a compressed view states the buffer of its bytes; the view's own buffer may be missing.
+// The extension of a compressed view names the buffer with its bytes; the view's own buffer may be missing.
 Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place) {
   const Json* json = element("bufferViews", i);
   if (!json) return source_->error(place, "expected a bufferView, found none");

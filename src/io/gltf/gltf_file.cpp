@@ -24,8 +24,8 @@ constexpr std::array<ComponentType, 6> component_types = {{{5120, NumberType::in
                                                            {5125, NumberType::uint32, 1},
                                                            {5126, NumberType::float32, 1}}};
 
-// Limits the zeros of an accessor without a buffer view. Its numbers are all 0 except for the sparse ones, so
-// a small file could ask for any number of zeros. No mesh has so many vertices at the origin.
+// Limits the accessors without a buffer view. All their numbers are 0 except sparse ones, so a small file
+// could ask for any number of zeros. No mesh has this many vertices at the origin.
 constexpr std::size_t most_zeros = 1 << 20;
 
 std::size_t components_of(const Json& accessor) {
@@ -145,7 +145,7 @@ Result<GltfFile::Layout> GltfFile::layout_of(const Json& json, const std::string
   return Layout{*count, components, type->type, is_normalised ? type->scale : 1};
 }
 
-// Returns the location of the vectors of `in_view`, which is an accessor, or a part of a sparse accessor.
+// Returns the location of the vectors of `in_view`: an accessor, or a part of a sparse accessor.
 Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, const std::string& place) {
   const auto fail = [&](std::string expected) { return source_->error(place, std::move(expected)); };
   const auto offset = number_in(in_view, "byteOffset", 0),
@@ -169,7 +169,7 @@ Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, con
   return found;
 }
 
-// Replaces the vectors whose indices a sparse accessor lists.
+// Replaces the vectors at the indices that a sparse accessor lists.
 Result<void> GltfFile::replace_sparse(const Json& sparse, const Layout& layout, const std::string& place,
                                       AccessorValues& out) {
   const Json *at = object_in(sparse, "indices"), *by = object_in(sparse, "values");

@@ -7,8 +7,8 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
-// Returns a member that is an array of `n` numbers; `otherwise` if the member is missing; nothing if it is
-// anything else.
+// Returns the named member if it is an array of `n` numbers; `otherwise` if it is missing; nothing for any
+// other value.
 std::optional<std::vector<double>> numbers_in(const Json& object, const char* name,
                                               std::vector<double> otherwise) {
   const auto found = object.find(name);
@@ -37,7 +37,7 @@ std::vector<std::size_t> parents_in(const GltfFile& file) {
   return parents;
 }
 
-// Returns the transform of a node in the scene; nothing for a node that is missing, wrong or its own ancestor.
+// Returns the transform of a node in the scene; nothing if the node is missing, invalid or its own ancestor.
 std::optional<Transform> global_transform(const GltfFile& file, const std::vector<std::size_t>& parents,
                                           std::size_t node) {
   Transform global = Transform::Identity();
@@ -51,7 +51,7 @@ std::optional<Transform> global_transform(const GltfFile& file, const std::vecto
   return global;
 }
 
-// Returns the transform of each joint, from the mesh as it was modelled to the scene.
+// Returns the transform of each joint, from the mesh's original pose to the scene.
 Result<std::vector<Transform>> joint_transforms(const Source& source, GltfFile& file, std::size_t skin,
                                                 const std::string& place) {
   const Json* json = file.element("skins", skin);

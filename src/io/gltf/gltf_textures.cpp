@@ -9,7 +9,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns a number in an array, such as the second one of "scale".
+// Returns a number of an array, such as the second one of "scale".
 double number_at_index(const Json& object, const char* name, std::size_t i, double otherwise) {
   const auto found = object.find(name);
   const bool is_there =
@@ -22,7 +22,7 @@ const Json* base_texture(const Json& material) {
   return pbr ? object_in(*pbr, "baseColorTexture") : nullptr;
 }
 
-// The place in the picture that the texture coordinates mean after KHR_texture_transform.
+// Returns the position in the picture for texture coordinates, after applying KHR_texture_transform.
 std::array<double, 2> transformed(const Json& use, double u, double v) {
   const Json* extensions = object_in(use, "extensions");
   const Json* by = extensions ? object_in(*extensions, "KHR_texture_transform") : nullptr;

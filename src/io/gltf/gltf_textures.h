@@ -1,4 +1,4 @@
-// The base colours of the materials of a glTF file: textures, sampled at the vertices, and plain colours.
+// The base colours of a glTF file's materials: textures, sampled at the vertices, and plain colours.
 #pragma once
 
 #include <map>
@@ -12,23 +12,23 @@ namespace relievo::io {
 
 class GltfTextures {
  public:
-  // Reads the base colour textures of all materials. Both arguments must outlive the object.
+  // Reads the base colour textures of all materials. `file` must outlive the object.
   explicit GltfTextures(GltfFile& file);
 
-  // Returns whether any texture can be read. If not, materials give no colours.
+  // Returns whether any texture can be read. If not, materials have no effect on colours.
   bool has_any() const { return !textures_.empty(); }
 
-  // Returns the colour of each of the `count` vertices of a primitive with those attributes.
+  // Returns the colours of the `count` vertices of a primitive with these attributes.
   std::vector<Colour> colours(const Json& primitive, const Json& attributes, std::size_t count) const;
 
-  // Returns remarks on textures that cannot be read.
+  // Returns remarks on textures that could not be read.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   void read_texture(std::size_t number);
 
   GltfFile& file_;
-  std::map<std::size_t, Texture> textures_;  // by their numbers
+  std::map<std::size_t, Texture> textures_;  // by texture index
   std::vector<std::string> remarks_;
 };
 

@@ -16,7 +16,7 @@ using Bytes = std::vector<std::byte>;
 constexpr std::size_t triangles_tail = 16, indices_tail = 4;
 constexpr unsigned char triangles_header = 0xE1, indices_header = 0xD1;
 
-// Returns the bytes between the header and the tail; nothing if the header differs or there are too few
+// Returns the bytes between the header and the tail; nothing if the header is wrong or there are too few
 // bytes.
 std::optional<std::string_view> body_of(std::string_view compressed, unsigned char header, std::size_t tail) {
   if (compressed.size() < 1 + tail || static_cast<unsigned char>(compressed[0]) != header)
@@ -24,7 +24,7 @@ std::optional<std::string_view> body_of(std::string_view compressed, unsigned ch
   return compressed.substr(1, compressed.size() - 1 - tail);
 }
 
-// Returns the indices in `stride` bytes each.
+// Returns the indices as bytes, `stride` bytes per index.
 Bytes in_bytes(const std::vector<std::uint32_t>& indices, std::size_t stride) {
   Bytes bytes(indices.size() * stride);
   for (std::size_t i = 0; i < indices.size(); ++i)
@@ -48,7 +48,7 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   const auto body = body_of(compressed, indices_header, indices_tail);
   if (!body || layout.count > body->size()) return std::nullopt;
   MeshoptBytes from(*body);
-  std::array<std::uint32_t, 2> last{};  // the lowest bit of a number selects which of the two it changes
+  std::array<std::uint32_t, 2> last{};  // the lowest bit of a number selects the one that it changes
   std::vector<std::uint32_t> indices(layout.count);
   for (std::uint32_t& index : indices) {
     const std::uint32_t number = from.next_number();
@@ -57,8 +57,8 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   return from.is_at_end() ? std::optional(in_bytes(indices, layout.stride)) : std::nullopt;
 }
 
-// Decodes octahedron-encoded unit vectors, in place. The third number of a vector stands for 1; the fourth
-// stays.
+// Decodes octahedron-encoded unit vectors in place. The third number of a vector represents 1; the fourth is
+// not changed.
 template <typename Integer>
 bool unfold_octahedron(Bytes& bytes) {
   constexpr float most = std::numeric_limits<Integer>::max();
@@ -80,7 +80,7 @@ bool unfold_octahedron(Bytes& bytes) {
   return true;
 }
 
-// Converts numbers with 8 bits of exponent and 24 bits of mantissa, both signed, to floats.
+// Converts numbers with an exponent of 8 bits and a mantissa of 24 bits, both signed, to floats.
 void expand_exponents(Bytes& bytes) {
   for (std::size_t at = 0; at + 4 <= bytes.size(); at += 4) {
     std::int32_t packed = 0;
@@ -93,7 +93,7 @@ void expand_exponents(Bytes& bytes) {
 }
 
 // Converts brightness, two colour differences and opacity to red, green, blue and opacity, in place. The
-// highest set bit of the last number gives the number of bits of all four.
+// highest set bit of the last number determines the number of bits of all four.
 template <typename Integer>
 bool mix_colours(Bytes& bytes) {
   using Signed = std::make_signed_t<Integer>;
@@ -134,7 +134,7 @@ bool apply(MeshoptFilter filter, std::size_t stride, Bytes& bytes) {
 
 using Index = std::uint32_t;
 
-// The last 16 values; index 0 is the newest.
+// The last 16 values; index 0 is the newest one.
 template <typename Value>
 class Recent {
  public:
@@ -150,8 +150,8 @@ struct Edge {
   Index a = 0, b = 0;
 };
 
-// Decodes mode 1 of EXT_meshopt_compression. Most triangles are stored in one byte, which names one of the
-// last edges and one of the last vertices.
+// Decodes mode 1 of EXT_meshopt_compression. Most triangles take one byte, which selects a recent edge and a
+// recent vertex.
 class TriangleDecoder {
  public:
   TriangleDecoder(MeshoptBytes data, std::string_view table) : data_(data), table_(table) {}
@@ -169,7 +169,7 @@ class TriangleDecoder {
  private:
   Index explicit_index() { return last_ += without_zigzag(data_.next_number()); }
 
-  // Decodes a triangle that consists of a recent edge and one vertex.
+  // Decodes a triangle that consists of a recent edge and another vertex.
   void follow_edge(unsigned number, unsigned what, Index* corners) {
     const Edge edge = edges_[number];
     Index c = 0;
@@ -187,7 +187,7 @@ class TriangleDecoder {
     corners[0] = edge.a, corners[1] = edge.b, corners[2] = c;
   }
 
-  // Decodes a triangle whose three corners are new, recent or explicit.
+  // Decodes a triangle from three corners that are new, recent or explicit.
   void take_three(unsigned what, Index* corners) {
     const bool is_in_table = what < 14;
     const unsigned pair = is_in_table ? static_cast<unsigned char>(table_[what]) : data_.next();
@@ -210,7 +210,7 @@ class TriangleDecoder {
   }
 
   MeshoptBytes data_;
-  std::string_view table_;  // frequent pairs of corners
+  std::string_view table_;  // frequent pairs of corner codes
   Index next_ = 0, last_ = 0;
   Recent<Edge> edges_;
   Recent<Index> vertices_;

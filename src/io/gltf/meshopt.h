@@ -1,6 +1,6 @@
 // Decodes buffer views that are compressed by the glTF extensions KHR_meshopt_compression and
-// EXT_meshopt_compression. Appendices A and B of KHR_meshopt_compression specify the format, which includes
-// all of EXT_meshopt_compression. Tested by tests/io/meshopt_test.cpp.
+// EXT_meshopt_compression. The format is specified in appendices A and B of KHR_meshopt_compression, which
+// includes all of EXT_meshopt_compression. Tested by tests/io/meshopt_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace relievo::io {
 
-// Reads compressed bytes one by one. Beyond the end it returns zeros, and is_beyond() becomes true.
+// Reads compressed bytes one by one. Reading beyond the end returns zeros, and sets is_beyond().
 class MeshoptBytes {
  public:
   explicit MeshoptBytes(std::string_view bytes) : bytes_(bytes) {}
@@ -22,7 +22,7 @@ class MeshoptBytes {
     return 0;
   }
 
-  // Returns a number that is stored with seven bits in each byte, the lowest first (LEB128).
+  // Returns a number stored with seven bits per byte, lowest bits first (LEB128).
   std::uint32_t next_number() {
     std::uint32_t number = 0;
     for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -36,7 +36,7 @@ class MeshoptBytes {
 
   bool is_beyond() const { return is_beyond_; }
 
-  // Returns true if all bytes have been read, and none beyond them.
+  // Returns whether exactly all bytes have been read.
   bool is_at_end() const { return at_ == bytes_.size() && !is_beyond_; }
 
  private:
@@ -45,8 +45,8 @@ class MeshoptBytes {
   bool is_beyond_ = false;
 };
 
-// Returns the signed number of a zigzag code: 0, -1, 1, -2, 2 are stored as 0, 1, 2, 3, 4. The result is
-// modulo 2^8, 2^16 or 2^32.
+// Returns the signed number of a zigzag code: 0, 1, 2, 3, 4 represent 0, -1, 1, -2, 2. The result is modulo
+// 2^8, 2^16 or 2^32.
 template <typename Unsigned>
 constexpr Unsigned without_zigzag(Unsigned stored) {
   const auto half = static_cast<Unsigned>(stored >> 1);
@@ -58,8 +58,8 @@ constexpr Unsigned without_zigzag(Unsigned stored) {
 std::optional<std::vector<std::byte>> decode_meshopt_attributes(std::string_view stream, std::size_t count,
                                                                 std::size_t stride);
 
-// Decodes three indices per triangle. `codes` has one byte per triangle, `table` has 16 bytes, and `data` has
-// the remaining bytes. Returns false if `data` does not end with the last triangle.
+// Decodes three indices per triangle. `codes` has one byte per triangle, `table` 16 bytes, and `data` the
+// remaining bytes. Returns false if `data` does not end exactly after the last triangle.
 bool decode_meshopt_triangles(MeshoptBytes codes, MeshoptBytes data, std::string_view table,
                               std::uint32_t* indices, std::size_t triangles);
 
@@ -67,22 +67,21 @@ enum class MeshoptMode { attributes, triangles, indices };
 
 enum class MeshoptFilter { none, octahedral, exponential, colour };
 
-// Describes how a view was compressed, as the JSON of the file states it. The view has `count` elements of
-// `stride` bytes.
+// How a view was compressed, according to the file's JSON. The view has `count` elements of `stride` bytes.
 struct MeshoptLayout {
   MeshoptMode mode = MeshoptMode::attributes;
   MeshoptFilter filter = MeshoptFilter::none;
   std::size_t count = 0, stride = 0;
 };
 
-// Returns the mode or filter of that name in JSON; nothing if it is unknown. The filter QUATERNION is unknown
-// here, because only animations use it.
+// Return the mode or filter with that name in JSON; nothing if it is unknown. The filter QUATERNION counts as
+// unknown, because only animations use it.
 std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
 // Returns the count * stride bytes of a view. Returns nothing if the compressed bytes do not have that many
-// elements, or if the extensions do not allow the layout. The memory taken is at most 1,024 times the size of
-// the compressed bytes.
+// elements, or if the extensions do not allow the layout. Needs at most 1,024 times as much memory as the
+// compressed bytes.
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout);
 

@@ -10,22 +10,22 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::size_t group_size = 16;  // elements whose differences have the same width
+constexpr std::size_t group_size = 16;  // number of elements whose differences have the same width
 constexpr std::size_t channel_size = 4, most_stride = 256, most_in_block = 256;
 constexpr unsigned char version_0 = 0xA0, version_1 = 0xA1;
 constexpr std::size_t least_tail_0 = 32, least_tail_1 = 24;
 
-// The number of bits of a difference, for each of the four codes of a group.
+// The number of bits of a difference for each of a group's four possible codes.
 using Widths = std::array<unsigned, 4>;
 constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// A code of two bits for the way in which version 1 stores the differences of one byte position in a block.
+// A two-bit code for how version 1 stores the differences of one byte position in a block.
 enum class Control : std::uint8_t { narrow, wide, all_zero, literal };
 
 using Group = std::array<std::uint8_t, group_size>;
 
-// Reads the differences of a group. If all bits of a difference are set, the difference follows in a byte of
-// its own.
+// Reads the differences of a group. If all bits of a difference are set, a separate byte follows with the
+// difference.
 Group next_differences(MeshoptBytes& from, unsigned bits) {
   Group differences{};
   if (bits == 0) return differences;
@@ -43,12 +43,12 @@ Group next_differences(MeshoptBytes& from, unsigned bits) {
   return differences;
 }
 
-// The differences of one byte of each element of a block.
+// The differences at one byte position, for all elements of a block.
 using Column = std::array<std::uint8_t, most_in_block>;
 
 void read_groups(MeshoptBytes& from, std::size_t elements, const Widths& widths, Column& to) {
   const std::size_t groups = (elements + group_size - 1) / group_size;
-  std::array<std::uint8_t, 4> codes{};  // codes of at most 16 groups, two bits each
+  std::array<std::uint8_t, 4> codes{};  // codes for up to 16 groups, two bits each
   for (std::size_t i = 0; i < (groups + 3) / 4; ++i) codes[i] = from.next();
   for (std::size_t group = 0; group < groups; ++group) {
     const Group differences = next_differences(from, widths[codes[group / 4] >> 2 * (group % 4) & 3U]);
@@ -64,7 +64,7 @@ void read_column(MeshoptBytes& from, std::size_t elements, Control control, Colu
   for (std::size_t i = 0; i < elements; ++i) to[i] = from.next();
 }
 
-// Four bytes of an element as a number, the lowest first.
+// Four bytes of an element as a little-endian number.
 using ChannelBytes = std::array<std::uint8_t, channel_size>;
 
 std::uint32_t number_of(const ChannelBytes& bytes) {
@@ -72,8 +72,9 @@ std::uint32_t number_of(const ChannelBytes& bytes) {
          std::uint32_t{bytes[3]} << 24;
 }
 
-// Changes a channel of one element to the channel of the next element. Depending on the mode, the differences
-// are between bytes or between words, or they are bits to flip, rotated by the upper half of the mode.
+// Computes a channel of the next element from the same channel of the last one. Depending on the mode,
+// differences are between bytes, between words, or bits to flip after a rotation by the upper half of the
+// mode.
 void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last) {
   if (mode == 0) {
     for (std::size_t i = 0; i < channel_size; ++i)
@@ -92,11 +93,11 @@ void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last
   for (std::size_t i = 0; i < channel_size; ++i) last[i] = static_cast<std::uint8_t>(now >> 8 * i);
 }
 
-// A stream of attributes: a header, blocks of elements, and a tail. The tail has an element that precedes the
-// first one and, in version 1, the mode of each channel.
+// A stream of attributes: a header, blocks of elements, and a tail. The tail contains an element that
+// precedes the first one and, in version 1, the mode of each channel.
 class Attributes {
  public:
-  // Returns nothing if the header or the modes are not in the specification, or if the tail is truncated.
+  // Returns nothing if the header or a mode is not in the specification, or if the tail is truncated.
   static std::optional<Attributes> open(std::string_view stream, std::size_t stride) {
     if (stream.empty() || stride == 0 || stride % channel_size != 0 || stride > most_stride)
       return std::nullopt;
@@ -117,7 +118,7 @@ class Attributes {
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
     const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // least size of a block
-    // Checks the sizes before memory is allocated. On 32-bit systems the product could overflow.
+    // Checks the sizes before allocating memory. On 32-bit systems the product could overflow.
     if (count / block > body_size_ / least_size || count > std::numeric_limits<std::size_t>::max() / stride_)
       return std::nullopt;
     std::vector<std::byte> decoded(count * stride_);
@@ -158,7 +159,7 @@ class Attributes {
 
   MeshoptBytes from_;
   std::size_t body_size_, stride_;
-  bool has_modes_;                                // true in version 1
+  bool has_modes_;                                // version 1
   std::array<std::uint8_t, most_stride> last_{};  // the previous element
   std::array<std::uint8_t, most_stride / channel_size> modes_{};
 };

@@ -3,7 +3,7 @@
 namespace relievo::io {
 namespace {
 
-constexpr unsigned symbol_bits = 15, bit_bits = 13;  // precision of the probabilities
+constexpr unsigned symbol_bits = 15, bit_bits = 13;  // bits of the probabilities
 
 constexpr std::uint32_t modelled_bits = 8;  // number of highest bits of a difference that have a model
 
@@ -11,7 +11,7 @@ constexpr std::uint32_t modelled_bits = 8;  // number of highest bits of a diffe
 
 SymbolModel::SymbolModel(std::uint32_t symbols)
     : symbols_(symbols), cycle_(symbols), starts_(symbols), counts_(symbols, 1) {
-  const std::uint32_t few = 16;  // so few symbols are found equally fast without a table
+  const std::uint32_t few = 16;  // up to this many symbols are found as fast without a table
   if (symbols > few) {
     unsigned bits = 3;
     while (symbols > 1U << (bits + 2)) ++bits;
@@ -70,7 +70,7 @@ std::uint32_t ArithmeticDecoder::bit(BitModel& model) {
 }
 
 std::uint32_t ArithmeticDecoder::bits(unsigned count) {
-  const unsigned most = 19;  // bits at a time, so that the interval stays long enough
+  const unsigned most = 19;  // limit for one step, so that the interval stays long enough
   if (count > most) {
     const std::uint32_t low = bits(16);
     return bits(count - 16) << 16 | low;
@@ -85,7 +85,8 @@ std::uint32_t ArithmeticDecoder::bits(unsigned count) {
 IntegerDecoder::IntegerDecoder(unsigned bits, std::uint32_t contexts)
     : bits_(bits), sizes_(contexts, SymbolModel(bits + 1)), high_bits_(bits + 1) {}
 
-// A difference of size k is in [-(2^k - 1), -2^(k - 1)] or [2^(k - 1) + 1, 2^k]; of size 0 it is 0 or 1.
+// A difference of size k > 0 is in [-(2^k - 1), -2^(k - 1)] or [2^(k - 1) + 1, 2^k]. A difference of size 0
+// is 0 or 1.
 std::uint32_t IntegerDecoder::difference(ArithmeticDecoder& decoder) {
   const std::uint32_t size = last_bits_;
   if (size == 0) return decoder.bit(small_);
@@ -112,8 +113,8 @@ void RunningMedian::add(std::int32_t value) {
   std::int32_t* const v = values_;
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
-    // Moves the values on the other side of the median by one, and inserts the new value on its own side. The
-    // next new value replaces the same end.
+    // Inserts the new value on its side of the median, and moves the values on the other side by one. The
+    // next new value replaces a value at the same end.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

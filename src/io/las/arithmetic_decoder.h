@@ -1,5 +1,5 @@
-// The adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding", HPL-2004-76):
-// it has 32-bit intervals, and models of symbol frequencies that are updated periodically.
+// The adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding", HPL-2004-76).
+// It has 32-bit intervals, and periodically updates its models of symbol frequencies.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace relievo::io {
 
-// The frequencies of `symbols` different symbols, 2 to 2048. Initially all are equal.
+// The frequencies of `symbols` different symbols, 2 to 2048. They are equal at first.
 class SymbolModel {
  public:
   explicit SymbolModel(std::uint32_t symbols);
@@ -24,7 +24,7 @@ class SymbolModel {
   std::vector<std::uint32_t> starts_;  // start of each symbol's part of the interval, in units of 2^-15
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t>
-      table_;  // the first symbol to try, by the highest bits of a number; empty for few symbols
+      table_;  // by the highest bits of a number: the first symbol to try; empty if there are few symbols
 };
 
 // The frequencies of 0 and 1.
@@ -44,9 +44,9 @@ class ArithmeticDecoder {
 
   std::uint32_t symbol(SymbolModel& model);
   std::uint32_t bit(BitModel& model);
-  std::uint32_t bits(unsigned count);  // returns 1 to 32 bits without a model
+  std::uint32_t bits(unsigned count);  // returns a number of 1 to 32 bits that has no model
 
-  // Returns true if decoding went beyond the end of the bytes. Missing bytes are read as zeros.
+  // Returns whether decoding went beyond the end of the bytes. Missing bytes are read as zeros.
   bool is_beyond_end() const { return at_ > bytes_.size() + 4; }
 
  private:
@@ -88,15 +88,15 @@ inline std::uint32_t ArithmeticDecoder::symbol(SymbolModel& model) {
   return low;
 }
 
-// Decodes integers of that many bits, 2 to 32. The caller states the context of a number; the sizes of the
-// differences have one model per context.
+// Decodes integers of `bits` bits, 2 to 32. The caller provides the context of a number. There is one model
+// per context for the sizes of differences.
 class IntegerDecoder {
  public:
   IntegerDecoder(unsigned bits, std::uint32_t contexts);
 
   std::int32_t next(ArithmeticDecoder& decoder, std::int32_t prediction, std::uint32_t context = 0);
 
-  // Returns the number of bits of the last difference.
+  // Returns the size of the last difference in bits.
   std::uint32_t last_bits() const { return last_bits_; }
 
  private:
@@ -104,9 +104,10 @@ class IntegerDecoder {
 
   unsigned bits_;
   std::uint32_t last_bits_ = 0;
-  std::vector<SymbolModel> sizes_;                     // model of the sizes, by context
-  BitModel small_;                                     // model of the differences 0 and 1
-  std::vector<std::optional<SymbolModel>> high_bits_;  // models of others, by size; made on first use
+  std::vector<SymbolModel> sizes_;  // by context: model of the sizes
+  BitModel small_;                  // model of the differences of size 0
+  // By size: model of the other differences, made on first use.
+  std::vector<std::optional<SymbolModel>> high_bits_;
 };
 
 // Returns a + b modulo 2^32.
@@ -114,14 +115,14 @@ inline std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
-// Returns the context of a difference, given the number of bits of the previous difference along another
-// axis. There is one context for every two bits, up to `most`.
+// Returns the context of a difference, given the size in bits of the previous difference along another axis.
+// There is one context per two bits, up to `most`.
 inline std::uint32_t size_context(std::uint32_t bits, std::uint32_t most) {
   return bits < most ? bits & ~1U : most;
 }
 
-// The median of the last five numbers, approximately: each new number replaces the highest or the lowest in
-// turn.
+// An approximate median of recent numbers, as LASzip computes it: the middle one of five sorted values. A new
+// number replaces the highest or the lowest value.
 class RunningMedian {
  public:
   std::int32_t get() const { return values_[2]; }

@@ -96,7 +96,7 @@ class LasHeaderReader {
     return {};
   }
 
-  // Up to format 5, the class shares a byte with the flags; later formats have two bytes.
+  // Up to format 5 the class shares a byte with flags; later formats have two bytes.
   void take_classes() {
     if (source_.keeps_doubtful) return;
     const auto in_one_byte = [](const char* row) {

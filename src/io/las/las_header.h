@@ -9,22 +9,24 @@
 namespace relievo::io {
 
 struct LasHeader {
-  Records records;         // for LAZ, the decompressed records, with the offset of the compressed points
-  int minor = 0;           // minor version, 1.0 to 1.5
+  Records records;  // for LAZ, the layout after decompression, with the offset of the compressed points
+  int minor = 0;    // minor version, 1.0 to 1.5
   std::size_t format = 0;  // point format, 0 to 10
   bool is_compressed = false;
   std::size_t header_size = 0;  // in bytes; variable-length records follow
   std::size_t variable_records = 0;
 };
 
-// Noise, low and high, and points that the file marks as withheld, which a reader should treat as deleted.
+// Points of the classes low noise and high noise, and points that the file marks as withheld, which readers
+// should treat as deleted.
 constexpr std::string_view what_las_leaves_out =
     "that the file marks as noise (classes 7 and 18) or withheld; --doubtful keep keeps them";
 constexpr bool is_left_out(unsigned classification, bool is_withheld) {
   return classification == 7 || classification == 18 || is_withheld;
 }
 
-// Reads the header. If the points are not compressed, the first ones show whether colours have 8 or 16 bits.
+// Reads the header. If the points are not compressed, the first points show whether colours have 8 or 16
+// bits.
 Result<LasHeader> read_las_header(const Source& source);
 
 }  // namespace relievo::io

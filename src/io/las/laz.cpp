@@ -19,7 +19,7 @@
 namespace relievo::io {
 namespace {
 
-// A part of each point. The numbers of the types are LASzip's.
+// A part of each point. The values of Type are LASzip's.
 struct LazItem {
   enum Type : std::uint16_t {
     bytes = 0,
@@ -47,13 +47,14 @@ struct LazLayout {
   std::vector<LazChunk> chunks;
 };
 
-constexpr std::size_t record_header = 54;   // size of the header of a variable-length record
-constexpr std::uint32_t chunks_vary = ~0U;  // stored instead of the points per chunk if these vary; or 0
+constexpr std::size_t record_header = 54;  // size of the header of a variable-length record
+// This (or 0) is stored as the number of points per chunk if that varies.
+constexpr std::uint32_t chunks_vary = ~0U;
 constexpr std::uint64_t most_points_a_byte =
-    256;  // limit; 40 points per byte were measured for a row at equal steps
+    256;  // limit; 40 points per byte were measured for a row with equal steps
 
-// Reads the variable-length record of LASzip and the table of chunks. All chunks lie within the file, and
-// together they have the number of points that the header promises. Errors name the byte.
+// Reads the variable-length record of LASzip and the table of chunks. Checks that all chunks are within the
+// file, and have as many points as the header promises. Errors name the byte.
 class LayoutReader {
  public:
   LayoutReader(const Source& source, const LasHeader& header) : source_(source), header_(header) {}
@@ -193,10 +194,10 @@ struct LazPoints {
   const Records& records;
   Cloud& cloud;
   std::vector<LazColour>& colours;     // empty, or one per point
-  std::atomic<std::size_t>& left_out;  // number of points that do not count
+  std::atomic<std::size_t>& left_out;  // number of points left out
   bool keeps_doubtful;
 
-  // Sets the point, to NaN if it does not count.
+  // Sets the point; to NaN if it is left out.
   template <typename Point>
   void set(std::size_t i, const Point& point) const {
     const bool counts = keeps_doubtful || !is_left_out(point.classification(), point.is_withheld());
@@ -225,7 +226,7 @@ std::unique_ptr<PointItem> make_item(const LazItem& item) {
   }
 }
 
-// Decodes a chunk point by point. Returns false if the chunk ends before its points.
+// Decodes a chunk point by point. Returns false if the chunk ends too early.
 bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoints& to) {
   auto position = std::make_unique<PositionItem>();
   auto colour = std::make_unique<ColourItem>();
@@ -251,8 +252,8 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   return true;
 }
 
-// The layers of a chunk. The first point is followed by the number of points, the size of each layer, and the
-// layers.
+// The layers of a chunk. After the first point there are the number of points, the size of each layer, and
+// the layers.
 class LayerSizes {
  public:
   LayerSizes(std::string_view bytes, std::size_t first_size, std::size_t layers)
@@ -260,7 +261,7 @@ class LayerSizes {
 
   bool has_sizes() const { return next_ <= bytes_.size(); }
 
-  // Returns the next layer; nothing if it does not lie within the chunk.
+  // Returns the next layer; nothing if it exceeds the chunk.
   std::optional<std::string_view> take() {
     const std::size_t size = little<std::uint32_t>(bytes_.data() + sizes_at_ + 4 * number_++);
     if (size > bytes_.size() - next_) return std::nullopt;
@@ -320,7 +321,7 @@ bool decode_layers(const LazLayout& layout, const LazChunk& chunk, const LazPoin
   return true;
 }
 
-// Sets the colours as bytes. Colours should be stored with 16 bits, but some programs write 8 bits.
+// Sets the colours as bytes. Colours should have 16 bits, but some programs write 8 bits.
 void set_colours(Cloud& cloud, const std::vector<LazColour>& colours) {
   std::uint16_t highest = 0;
   for (const LazColour& colour : colours) highest = std::max(highest, std::ranges::max(colour));

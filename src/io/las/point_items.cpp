@@ -8,8 +8,8 @@
 namespace relievo::io {
 namespace {
 
-// The context of a point's models, by the number of returns of its pulse (row) and the return's number
-// (column). Similar returns share a context.
+// The index of the models for a point in formats 0 to 5, by the number of returns of its pulse (row) and the
+// number of the return (column). Similar returns share models.
 constexpr std::uint8_t return_contexts[8][8] = {
     {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},   {13, 1, 2, 4, 7, 11, 11, 10},
     {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},  {10, 10, 11, 12, 13, 14, 14, 13},
@@ -26,8 +26,8 @@ int high(std::uint16_t value) {
   return value >> 8;
 }
 
-// The context of a point's models, by the number of returns of its pulse (row) and the return's number
-// (column). Similar returns share a context.
+// The index of the models for a point in formats 6 to 10, by the number of returns of its pulse (row) and the
+// number of the return (column). Similar returns share models.
 constexpr std::array<std::string_view, 16> layered_return_contexts = {
     "0123453445555555", "1013333333333333", "2124444444433333", "3345444444444444",
     "4344544444444444", "5344454444444444", "3344445444444444", "4344444544444444",
@@ -55,7 +55,7 @@ void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
   const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
   const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
   colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
-  if (!has(6)) {  // the colour is grey
+  if (!has(6)) {  // otherwise the colour is grey
     colour[1] = colour[2] = colour[0];
     return;
   }
@@ -143,7 +143,8 @@ void TimeItem::decode_whole(ArithmeticDecoder& decoder) {
   now_ = newest_;
 }
 
-// Returns false if the time belongs to another sequence, which becomes the current one.
+// Decodes the first step of a sequence. Returns false if the time belongs to another sequence, which becomes
+// the current one.
 bool TimeItem::decode_first_step(ArithmeticDecoder& decoder) {
   const std::uint32_t kind = decoder.symbol(first_steps_);
   Sequence& now = sequences_[now_];
@@ -160,8 +161,7 @@ bool TimeItem::decode_first_step(ArithmeticDecoder& decoder) {
   return true;
 }
 
-// Decodes a step as a multiple of the usual step. After several steps that differ much, the usual step is
-// replaced.
+// Decodes a step as a multiple of the usual step. After several extreme steps the usual step is replaced.
 bool TimeItem::decode_multiple(ArithmeticDecoder& decoder) {
   constexpr std::int32_t most = 500, least = -10, unchanged = most - least + 1, whole = unchanged + 1;
   const auto kind = static_cast<std::int32_t>(decoder.symbol(multiples_));
@@ -225,7 +225,7 @@ LayeredPoint::LayeredPoint(const PointLayers& layers, const char* first, const c
   start->return_number = little<std::uint8_t>(first + 14) & 15;
   start->return_count = little<std::uint8_t>(first + 14) >> 4;
   const std::uint32_t flags = little<std::uint8_t>(first + 15);
-  start->flags = (flags & 15U) | (flags >> 6 << 4);  // without the number of the scanner
+  start->flags = (flags & 15U) | (flags >> 6 << 4);  // without the scanner's number
   start->classification = little<std::uint8_t>(first + 16);
   start->heights.fill(start->position[2]);
   channels_[channel_] = std::move(start);
@@ -235,7 +235,7 @@ LayeredPoint::LayeredPoint(const PointLayers& layers, const char* first, const c
   colour_channels_[channel_] = std::make_unique<ColourChannel>(ColourChannel{colour_, {}});
 }
 
-// Decodes the changes relative to the previous point, and switches to the point's scanner.
+// Decodes what changes relative to the previous point, and switches to the point's scanner.
 std::uint32_t LayeredPoint::decode_changes() {
   Channel& last = *channels_[channel_];
   const std::size_t context = (last.return_number == 1 ? 1U : 0U) +
@@ -297,9 +297,9 @@ void LayeredPoint::decode_class(Channel& channel) {
   if (flags_) channel.flags = symbol_of(channel.flag_sets[channel.flags], *flags_, 64);
 }
 
-// Writers of version 3 store a point's colour under scanner 0 unless the scanner changes with this point. If
-// the new scanner already had colours, they store the difference to the last colour of the previous scanner,
-// and this last colour is then replaced.
+// Writers of version 3 store a point's colour under scanner 0, unless the scanner changes at this point. If
+// the new scanner already has colours, they store the difference from the last colour of the previous
+// scanner, and then replace that colour.
 void LayeredPoint::decode_colour(bool changes_scanner) {
   const std::size_t scanner = are_colours_mixed_ && !changes_scanner ? 0 : channel_;
   LazColour* last = &colour_channels_[colour_channel_]->last;

@@ -1,5 +1,5 @@
-// Decodes the parts of points in the point formats 0 to 5. One arithmetic decoder reads the parts in turn,
-// point by point.
+// Decodes the parts of points in the point formats 0 to 5. One arithmetic decoder reads all parts, point by
+// point.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace relievo::io {
 
-// Decodes one part of each point. Unused parts are decoded, too, because other parts follow them in the same
-// stream.
+// Decodes one part of each point. Unused parts must be decoded, too, because other parts follow them in the
+// same stream.
 class PointItem {
  public:
   PointItem() = default;
@@ -30,8 +30,8 @@ class PointItem {
 
 using LazColour = std::array<std::uint16_t, 3>;
 
-// Decodes colours, each stored as its difference to the colour of the point before. Layers store colours in
-// the same form.
+// Decodes colours, which are stored as differences from the previous colour. Layers store them in the same
+// form.
 class ColourModels {
  public:
   ColourModels() : bytes_(6, SymbolModel(256)) {}
@@ -55,7 +55,7 @@ class ColourItem : public PointItem {
   ColourModels models_;
 };
 
-// Decodes the first 20 bytes of a point: coordinates, intensity, returns and more.
+// Decodes the first 20 bytes of a point, such as coordinates, intensity and returns.
 class PositionItem : public PointItem {
  public:
   void start(const char* raw) override;
@@ -65,7 +65,7 @@ class PositionItem : public PointItem {
   bool is_withheld() const { return (classification_ & 128U) != 0; }
 
  private:
-  // Models for a byte that changes: one for each previous value.
+  // Models of a byte that changes: one model per previous value.
   class ByteModels {
    public:
     void next(ArithmeticDecoder& decoder, std::uint8_t& value);
@@ -97,7 +97,7 @@ class TimeItem : public PointItem {
   void next(ArithmeticDecoder& decoder) override;
 
  private:
-  // Times belong to up to four sequences, each with its usual step.
+  // Times belong to up to four sequences. Each has a usual step.
   struct Sequence {
     std::uint64_t time = 0;
     std::int32_t step = 0;
@@ -140,21 +140,22 @@ class ExtraBytesItem : public PointItem {
   std::vector<SymbolModel> models_;
 };
 
-// Points of the formats 6 to 10: coordinates and colours of a chunk are in separate layers, each with its own
+// Points of the formats 6 to 10. Coordinates and colours of a chunk are in separate layers, each with its own
 // decoder. Unused layers are skipped.
 
-// The layers that are read. A layer other than that of x and y is empty if the whole chunk has the value of
-// its first point.
+// The layers that are read. Each layer except xy is empty if all points of the chunk have the value of the
+// first point.
 struct PointLayers {
   std::string_view xy, z, classes, flags, colours;
-  // In version 3, some colours of a scanner are stored as differences to another scanner's; later versions
-  // have corrected this.
+  // In version 3, some colours of a scanner are stored as differences from those of another scanner; later
+  // versions corrected that.
   bool are_colours_mixed = false;
 };
 
 class LayeredPoint {
  public:
-  // `first` are the 30 bytes of the first point, which is not compressed. `colour` is its colour, or null.
+  // `first` points to the 30 bytes of the first point, which is not compressed. `colour` points to its
+  // colour, or is null.
   LayeredPoint(const PointLayers& layers, const char* first, const char* colour);
   void next();
 
@@ -169,7 +170,7 @@ class LayeredPoint {
   }
 
  private:
-  // The points of a file come from up to four scanners, which have separate models.
+  // The points of a file are from up to four scanners, which have separate models.
   struct Channel {
     std::array<std::int32_t, 3> position{};
     std::uint32_t return_number = 0, return_count = 0;

@@ -1,4 +1,4 @@
-// Reads BMP pictures of Windows that are not compressed: palettes of 1, 4 and 8 bits, and colours of 24 and 32.
+// Reads uncompressed Windows BMP pictures: palettes of 1, 4 and 8 bits, colours of 24 and 32 bits.
 #include <algorithm>
 #include <cstdlib>
 
@@ -12,7 +12,7 @@ constexpr std::size_t file_header_bytes = 14, info_header_bytes = 40;
 
 struct BmpHeader {
   std::uint64_t pixels = 0, palette = 0;  // offsets in the file
-  std::int64_t width = 0, height = 0;     // a negative height means that the first row is the top one
+  std::int64_t width = 0, height = 0;     // a negative height means that the first row is at the top
   std::uint64_t bits = 0, compression = 0, row_bytes = 0;
 
   bool has_palette() const { return bits <= 8; }
@@ -50,8 +50,8 @@ Result<void> check_header(const Source& source, const BmpHeader& header) {
   return check_room(source, {1, 1, header.row_bytes * rows, header.pixels});
 }
 
-// Returns the colour of a pixel in the row at `row`. The order in the file is blue, green, red. Colours that a
-// palette lacks are black.
+// Returns the colour of a pixel; `row` is the offset of its row. The file has the order blue, green, red.
+// Colours missing in a palette are black.
 PixelColour bmp_colour(const Source& source, const BmpHeader& header, std::uint64_t row,
                        std::uint64_t column) {
   const std::uint64_t bit = column * header.bits;

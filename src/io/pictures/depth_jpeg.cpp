@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-// jpeglib.h needs FILE and std::size_t, and jerror.h the macros of jpeglib.h.
+// jpeglib.h needs FILE and std::size_t; jerror.h needs the macros of jpeglib.h.
 #include <jpeglib.h>
 
 #include <jerror.h>
@@ -17,13 +17,14 @@
 namespace relievo::io {
 namespace {
 
-// Files of cameras and programs have at most a few tens of scans. Broken ones may have thousands, each of
-// which takes as long as the whole picture.
+// Cameras and programs write at most some tens of scans. Broken files may have thousands, each of which takes
+// as much time as the whole picture.
 constexpr int most_scans = 100;
 
-// libjpeg cannot return after an error. It jumps back into decode(), where nothing has a destructor.
+// After an error, libjpeg must not return. It jumps back into decode(), where no object has a destructor.
 struct Decoder {
-  jpeg_decompress_struct jpeg;  // the first member, so that libjpeg's pointers to it are pointers to this
+  // Must be the first member, so that libjpeg's pointers to it are pointers to the Decoder.
+  jpeg_decompress_struct jpeg;
   jpeg_error_mgr errors;
   jpeg_progress_mgr progress;
   jmp_buf begin;
@@ -46,7 +47,7 @@ Decoder& decoder_of(j_common_ptr jpeg) {
   leave(decoder);
 }
 
-// Pixels that are missing or wrong are warnings to libjpeg (level -1), and errors here.
+// Missing or wrong pixels are warnings in libjpeg (level -1), but errors here.
 void take_message(j_common_ptr jpeg, int level) {
   const int code = jpeg->err->msg_code;
   const bool is_harmless =
@@ -61,8 +62,8 @@ void check_scans(j_common_ptr jpeg) {
   leave(decoder);
 }
 
-// Fills `pixels`, which has room for the header's width, height and channels. Returns whether it could; the
-// decoder then has the reason.
+// Fills `pixels`, which has the size for the header's width, height and channels. Returns whether that
+// succeeded; if not, `decoder` has the reason.
 bool decode(std::string_view bytes, const JpegHeader& header, std::uint8_t* pixels, Decoder& decoder) {
   jpeg_decompress_struct& jpeg = decoder.jpeg;
   jpeg.err = jpeg_std_error(&decoder.errors);

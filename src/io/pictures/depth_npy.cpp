@@ -1,5 +1,5 @@
-// Reads arrays that NumPy has saved (NPY, versions 1 to 3). Only arrays of numbers in two dimensions are
-// pictures; further dimensions of length 1 do not count.
+// Reads arrays saved by NumPy (NPY, versions 1 to 3). Only two-dimensional arrays of numbers are pictures;
+// dimensions of length 1 are ignored.
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -15,14 +15,14 @@ namespace {
 constexpr std::string_view npy_mark = "\x93NUMPY";
 
 struct NpyHeader {
-  std::string_view type, shape;  // as in the file: "<f4", "160, 160"
+  std::string_view type, shape;  // as written in the file: "<f4", "160, 160"
   bool is_by_columns = false, is_big_endian = false;
   SampleFormat samples = {};
-  std::vector<std::size_t> sizes;  // of the dimensions, without those of length 1
+  std::vector<std::size_t> sizes;  // lengths of the dimensions, except those of length 1
   std::size_t data = 0;            // offset of the first number
 };
 
-// Returns the text behind "'key':", without blanks before it.
+// Returns the text after "'key':" and blanks.
 std::string_view text_behind(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(cat("'", key, "':"));
   if (at == std::string_view::npos) return {};
@@ -30,14 +30,14 @@ std::string_view text_behind(std::string_view header, std::string_view key) {
   return trim(header);
 }
 
-// Returns the text between the first character, which must be `open`, and the next `close`.
+// Returns the text between `open`, which must be the first character, and the next `close`.
 std::string_view text_between(std::string_view text, char open, char close) {
   if (!text.starts_with(open)) return {};
   const std::size_t end = text.find(close, 1);
   return end == std::string_view::npos ? std::string_view() : text.substr(1, end - 1);
 }
 
-// Returns the format of a type such as "<f4": byte order, kind of number, and number of bytes.
+// Returns the format of a type such as "<f4": byte order, kind of number, number of bytes.
 std::optional<SampleFormat> sample_format_of(std::string_view type) {
   if (type.size() != 3 || !std::string_view("<>=|").contains(type[0])) return std::nullopt;
   const unsigned bits = 8 * static_cast<unsigned>(type[2] - '0');
@@ -48,7 +48,7 @@ std::optional<SampleFormat> sample_format_of(std::string_view type) {
   return std::nullopt;
 }
 
-// Returns the numbers in "160, 160" that are not 1; nothing if something else is among them.
+// Returns the numbers in a text such as "160, 160" except 1; nothing if the text contains anything else.
 std::optional<std::vector<std::size_t>> sizes_of(std::string_view shape) {
   std::vector<std::size_t> sizes;
   while (!trim(shape).empty()) {
@@ -79,7 +79,7 @@ Result<NpyHeader> read_npy_header(const Source& source) {
   return header;
 }
 
-// Fills in what the texts of the header mean, or returns an error that says why they are no picture.
+// Interprets the texts of the header. Returns an error that explains why the array is not a picture.
 Result<void> interpret_header(const Source& source, NpyHeader& header) {
   const auto samples = sample_format_of(header.type);
   if (!samples)

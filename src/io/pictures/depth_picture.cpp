@@ -14,7 +14,7 @@ io::Source source_of(std::span<const std::byte> bytes, std::string_view name = {
   return {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name};
 }
 
-// Removes a size of pixels that is no size, or whose proportions only a mistake explains.
+// Removes the pixel size if it is invalid, or if its proportions are so extreme that they must be a mistake.
 void check_pixel_size(DepthImage& image) {
   constexpr double least_share = .01;
   const bool is_size = image.pixel_size.allFinite() && image.pixel_size.minCoeff() > 0;

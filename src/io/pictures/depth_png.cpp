@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::uint32_t longest_side_px = 1'000'000;
 
-// Gives libspng the bytes of a file without its ancillary chunks, except transparent colours. Ancillary chunks
-// may be large or broken, and libspng would allocate as much memory as their lengths promise.
+// Passes the bytes of a file to libspng without ancillary chunks, except transparent colours. Ancillary
+// chunks may be large or broken, and libspng would allocate the memory that they claim to need.
 class NeededChunks {
  public:
   explicit NeededChunks(std::string_view bytes) : bytes_(bytes) {}
@@ -40,8 +40,8 @@ class NeededChunks {
     return 0;
   }
 
-  // Moves to the next critical chunk, or to transparent colours, which need at most a byte for each colour of a
-  // palette. The names of ancillary chunks begin with a small letter.
+  // Moves to the next critical chunk, or to the chunk of transparent colours, which has at most a byte per
+  // palette entry. Names of ancillary chunks begin with a lower-case letter.
   void find_needed() {
     constexpr std::size_t head = 8, around_data = 12;
     while (bytes_.size() - at_ >= head) {
@@ -86,8 +86,8 @@ class Reader {
   }
 
  private:
-  // Palettes are converted to colours, and grey of fewer than 8 bits to 8 bits. A transparent colour that the
-  // file names becomes alpha.
+  // Palettes are converted to colours, and grey of less than 8 bits to 8 bits. A transparent colour in the
+  // file becomes alpha.
   void choose_format() {
     const int type = header_.color_type;
     const bool has_palette = type == SPNG_COLOR_TYPE_INDEXED, is_narrow = header_.bit_depth < 8;

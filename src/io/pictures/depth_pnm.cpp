@@ -1,5 +1,5 @@
-// Reads portable pictures: PFM (fractions) and PGM or PPM (whole numbers of 8 or 16 bits, or in text), grey or in
-// colours.
+// Reads portable pictures: PFM (fractions) and PGM or PPM (integers of 8 or 16 bits, or text), grey or
+// coloured.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +16,11 @@ namespace {
 
 struct PnmHeader {
   std::size_t width = 0, height = 0;
-  double last = 0;  // PFM: its sign is the byte order; PGM and PPM: the largest value
+  double last = 0;  // PFM: its sign is the byte order; PGM, PPM: the largest value
   std::size_t data = 0;
 };
 
-// Reads the three numbers after the mark. One character separates them from the data.
+// Reads the three numbers after the mark. A single character separates them from the data.
 Result<PnmHeader> read_pnm_header(const Source& source) {
   const std::string_view bytes = source.bytes;
   std::array<double, 3> numbers{};
@@ -48,7 +48,7 @@ Result<PnmHeader> read_pnm_header(const Source& source) {
                    at + 1};
 }
 
-// The format in which a file stores the values of a picture.
+// How a file stores the values of a picture.
 struct PnmValues {
   SampleFormat format;
   std::size_t channels = 1;
@@ -81,7 +81,7 @@ Result<void> fill_from_bytes(const Source& source, const PnmHeader& header, cons
   });
 }
 
-// Returns the numbers of a picture in text, which may have comments and line breaks anywhere.
+// Returns the numbers of a text picture, which may have comments and line breaks anywhere.
 Result<std::vector<float>> read_numbers(const Source& source, const PnmHeader& header, std::size_t wanted) {
   std::vector<float> numbers;
   numbers.reserve(wanted);
@@ -113,7 +113,7 @@ Result<void> fill_from_text(const Source& source, const PnmHeader& header, const
   });
 }
 
-// Returns whether the first line is the mark alone, and a number is next.
+// Returns whether the first line consists of the mark, and a number follows.
 bool is_text_picture(std::string_view bytes) {
   if (bytes.size() < 3 || bytes[0] != 'P' || (bytes[1] != '2' && bytes[1] != '3')) return false;
   Lines lines(bytes);
@@ -127,7 +127,7 @@ bool is_text_picture(std::string_view bytes) {
 
 }  // namespace
 
-// Text with the name of a point in its first column may begin with the mark, too.
+// A text file with names of points in its first column may begin with the mark, too.
 bool is_pnm(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (is_text_picture(bytes)) return true;

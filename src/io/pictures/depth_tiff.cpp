@@ -17,17 +17,18 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::uint32_t gdal_no_data = 42113;  // tag of the value for missing depths, as text
+constexpr std::uint32_t gdal_no_data = 42113;  // tag with the value for missing depths, as a text
 
 struct Layout {
   std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;
   std::uint16_t bits = 1, kind = SAMPLEFORMAT_UINT, channels = 1, colours = PHOTOMETRIC_MINISBLACK,
                 planes = PLANARCONFIG_CONTIG, orientation = ORIENTATION_TOPLEFT;
   SampleFormat samples = {};
-  std::optional<std::uint16_t> alpha;  // the channel of transparency
+  std::optional<std::uint16_t> alpha;  // index of the channel of opacity
 };
 
-// Returns the first of the extra channels that the file calls transparency. They are the last channels.
+// Returns the first of the extra channels that the file declares as opacity. Extra channels are the last
+// ones.
 std::optional<std::uint16_t> alpha_of(TIFF* tiff, std::uint16_t channels) {
   std::uint16_t count = 0;
   const std::uint16_t* kinds = nullptr;
@@ -81,7 +82,7 @@ bool takes_luminance(const Layout& layout, const PictureChannels& wanted) {
          layout.channels >= 3;
 }
 
-// Sets the format of the samples, or returns an error that explains why they are not depths.
+// Sets the format of the samples. Returns an error that explains why they are not depths.
 Result<void> check_samples(const Source& source, Layout& layout, const PictureChannels& wanted) {
   const bool is_grey = layout.colours <= PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_RGB;
   if (!is_grey)
@@ -103,7 +104,7 @@ Result<void> check_samples(const Source& source, Layout& layout, const PictureCh
   return {};
 }
 
-// Returns the number of samples per pixel in a row.
+// Returns the number of samples per pixel within a row.
 std::size_t samples_per_pixel(const Layout& layout) {
   return layout.planes == PLANARCONFIG_CONTIG ? layout.channels : 1;
 }
@@ -112,13 +113,13 @@ std::size_t row_size(const Layout& layout, std::size_t pixels) {
   return (pixels * samples_per_pixel(layout) * layout.bits + 7) / 8;
 }
 
-// Returns a row of the channel; in separate planes, a row contains only that channel.
+// Returns a row of the channel. With separate planes, a row contains only that channel.
 SampleRow row_of(const Layout& layout, const unsigned char* bytes, std::uint16_t channel) {
   const bool has_all = layout.planes == PLANARCONFIG_CONTIG;
   return {bytes, has_all ? std::size_t{channel} : 0, samples_per_pixel(layout)};
 }
 
-// The number of a strip or tile that cannot be read.
+// The index of a strip or tile that cannot be read.
 using Broken = std::optional<std::uint32_t>;
 
 Broken read_lines(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
@@ -166,7 +167,7 @@ Broken read_luminance(TIFF* tiff, const Layout& layout, Image<float>& to) {
   return {};
 }
 
-// Removes the values of pixels that are more transparent than opaque.
+// Removes the values of pixels that are less than half opaque.
 Broken remove_transparent(TIFF* tiff, const Layout& layout, Image<float>& image) {
   Image<float> alpha;
   if (const Broken broken = read_channel(tiff, layout, *layout.alpha, alpha)) return broken;
@@ -176,10 +177,10 @@ Broken remove_transparent(TIFF* tiff, const Layout& layout, Image<float>& image)
   return {};
 }
 
-// Chooses the first picture that is neither a smaller version of another nor its mask. Without such a
-// picture, the first one stays chosen.
+// Selects the first picture that is neither a smaller version nor a mask of another one. If there is none,
+// the first picture stays selected.
 void choose_directory(TIFF* tiff) {
-  constexpr tdir_t most_directories = 1000;  // each is read, so a file with more would take long
+  constexpr tdir_t most_directories = 1000;  // limit, because each directory is read
   for (tdir_t i = 0; i < most_directories && (i == 0 || TIFFReadDirectory(tiff)); ++i) {
     std::uint32_t kind = 0;
     TIFFGetField(tiff, TIFFTAG_SUBFILETYPE, &kind);
@@ -193,7 +194,7 @@ std::string in_words_of_libtiff(const TiffBytes& file) {
 }
 
 // Returns an error that explains why a strip or tile cannot be read. Usually the file is truncated, which
-// libtiff's own messages do not state.
+// libtiff's own messages do not say.
 std::unexpected<Error> broken_part(const Source& source, const TiffBytes& file, std::uint32_t number) {
   const std::string place = cat(TIFFIsTiled(file.handle()) ? "tile " : "strip ", number);
   const std::uint64_t first = TIFFGetStrileOffset(file.handle(), number),
@@ -224,7 +225,7 @@ std::unexpected<Error> no_directory(const Source& source, const TiffBytes& file)
                                   ", the size of the file, found ", first, "; the file is cut, get it anew"));
 }
 
-// Returns the value that marks missing depths, if the file states one as GDAL does.
+// Returns the value for missing depths, if the file has GDAL's tag for it.
 std::optional<float> no_data(TIFF* tiff) {
   std::uint32_t size = 0;
   const char* text = nullptr;
@@ -234,11 +235,11 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-// Terrain models store the lowest single-precision number where the height is unknown. Not every such file
-// names that number in a tag.
+// Terrain models store the lowest single-precision number where the height is unknown. Not all of them have
+// the tag.
 constexpr float lowest_height = -1e38F;
 
-// Inverts the values if the file stores white as 0, and replaces missing values by NaN.
+// Inverts the values if 0 is white in this file, and replaces missing values by NaN.
 void interpret(const Layout& layout, std::optional<float> missing, DepthImage& image) {
   const bool is_inverted = layout.colours == PHOTOMETRIC_MINISWHITE &&
                            layout.samples.kind == SampleKind::whole && layout.bits <= 32;
@@ -254,7 +255,7 @@ void interpret(const Layout& layout, std::optional<float> missing, DepthImage& i
 
 }  // namespace
 
-// Classic TIFF has version 42, BigTIFF version 43, each in either byte order.
+// Classic TIFF has version 42 and BigTIFF version 43, each in either byte order.
 bool is_tiff(const Source& source) {
   using namespace std::string_view_literals;
   return std::ranges::any_of(std::array{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv},

@@ -1,5 +1,5 @@
-// Reads the text grids of terrain models that GIS programs write (Esri ASCII grid). Lines with a name and a
-// number come first, then the heights, row by row from the north; lines may break them anywhere.
+// Reads text grids of terrain models, as GIS programs write them (Esri ASCII grid). Lines with a name and a
+// number are followed by the heights, row by row from the north, with line breaks anywhere.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,12 +15,12 @@ namespace {
 
 struct GridHeader {
   double columns = 0, rows = 0;
-  Vec2 corner = Vec2::Zero();  // lower left corner, or the middle of the cell there
+  Vec2 corner = Vec2::Zero();  // lower left corner, or centre of the cell there
   Vec2 cell = Vec2::Zero();
-  double no_data = -9999;  // the value for missing heights, with the default of the format
+  double no_data = -9999;  // value for missing heights; the format's default
 };
 
-// Returns the number of the header that a name stands for; null for other names. A cell size has both sides.
+// Returns the header entry with that name; null for other names. A cell size applies to both sides.
 double* find_entry(GridHeader& header, std::string_view name) {
   const std::array<std::pair<std::string_view, double*>, 10> entries = {{{"ncols", &header.columns},
                                                                          {"nrows", &header.rows},
@@ -37,7 +37,7 @@ double* find_entry(GridHeader& header, std::string_view name) {
   return found == entries.end() ? nullptr : found->second;
 }
 
-// Reads the lines up to the first that begins with a number, and returns that line.
+// Reads the lines up to the first one that begins with a number. Returns that line.
 Result<std::string_view> read_grid_header(SourceLines& lines, GridHeader& header) {
   while (const auto line = lines.next()) {
     Words words(*line);
@@ -61,7 +61,7 @@ Result<void> check_header(const Source& source, GridHeader& header) {
   if (!is_count(header.columns) || !is_count(header.rows))
     return source.error(
         {}, cat("expected ncols and nrows of an Esri grid, found ", header.columns, " and ", header.rows));
-  constexpr std::uint64_t least_bytes = 2;  // a height has at least a digit and a blank or line end
+  constexpr std::uint64_t least_bytes = 2;  // a height has at least a digit and a separator
   const auto columns = static_cast<std::uint64_t>(header.columns),
              rows = static_cast<std::uint64_t>(header.rows);
   RELIEVO_CHECK(check_room(source, {columns, rows, 0, 0}));
@@ -70,8 +70,8 @@ Result<void> check_header(const Source& source, GridHeader& header) {
                               " bytes; the file is cut, get it anew"));
 }
 
-// Returns true if the cells are given in degrees: the corner lies on the globe, and the heights, in metres,
-// are out of all proportion to the grid's width. The format itself has no entry for units.
+// Returns whether the cells are given in degrees: the corner is a position on the globe, and the heights, in
+// metres, would be far too large for the grid's width. The format has no entry for units.
 bool has_degrees(const GridHeader& header, const Image<float>& heights) {
   const bool is_on_globe = std::abs(header.corner.x()) <= 360 && std::abs(header.corner.y()) <= 90 &&
                            header.corner.y() + header.rows * header.cell.y() <= 90;

@@ -25,8 +25,8 @@ std::span<const T> numbers_of(TIFF* tiff, std::uint32_t tag, TIFFDataType type) 
   return {numbers, count};
 }
 
-// Returns the value of a key of the directory of keys, which begins with a row of four numbers and has four
-// numbers per key: its name, the tag with its value, the count of values, and the value if there is no tag.
+// Returns the value of a key. The key directory begins with four numbers; then there are four numbers per
+// key: its number, the tag with its value, the number of values, and the value if there is no tag.
 std::uint16_t value_of_key(TIFF* tiff, std::uint16_t key) {
   const auto keys = numbers_of<std::uint16_t>(tiff, keys_tag, TIFF_SHORT);
   for (std::size_t i = 4; i + 4 <= keys.size(); i += 4)
@@ -34,7 +34,7 @@ std::uint16_t value_of_key(TIFF* tiff, std::uint16_t key) {
   return 0;
 }
 
-// The size of a pixel in the unit of the file, and the second coordinate of the middle row.
+// The size of a pixel in the file's unit, and the second coordinate of the middle row.
 struct PixelPlace {
   Vec2 size;
   double middle_row = 0;
@@ -57,7 +57,8 @@ std::optional<PixelPlace> find_place(TIFF* tiff, std::uint32_t rows) {
 }  // namespace
 
 Vec2 metres_of_degrees(const Vec2& degrees, double latitude_deg) {
-  constexpr double earth_radius_m = 6371008.8, steepest_deg = 89;  // a mean radius, as the earth is no sphere
+  // A mean radius, because the earth is not a sphere.
+  constexpr double earth_radius_m = 6371008.8, steepest_deg = 89;
   constexpr double radians = std::numbers::pi / 180;
   const double latitude = radians * std::clamp(latitude_deg, -steepest_deg, steepest_deg);
   return earth_radius_m * radians * Vec2(degrees.x() * std::cos(latitude), degrees.y());

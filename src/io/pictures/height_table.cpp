@@ -1,5 +1,5 @@
-// Reads tables of heights, as microscopes, profilers and spreadsheets write them, and surface() of OpenSCAD
-// reads them: a line is a row of the picture, from the top.
+// Reads tables of heights, as written by microscopes, profilers and spreadsheets, and read by OpenSCAD's
+// surface(). A line is a row of the picture, from the top.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,14 +13,14 @@
 namespace relievo::io {
 namespace {
 
-// Clouds have fewer columns than `least_columns`, or at least do not have `most_of_cloud` columns. Between
-// them the values decide.
+// With fewer than `least_columns` columns the text is a cloud; with at least `most_of_cloud` columns it is a
+// table. In between, the values decide.
 constexpr std::size_t least_columns = 8, most_of_cloud = 32;
 
 using NumberRows = std::vector<std::vector<double>>;
 
-// Returns the correlation of a column with the next one; nothing if one of them is constant. Neighbours on a
-// surface are alike, unlike x and y of a cloud.
+// Returns the correlation of a column with the next one; nothing if one of them is constant. Neighbouring
+// heights of a surface correlate, x and y of a cloud do not.
 std::optional<double> correlation(const NumberRows& rows, std::size_t column) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   for (const auto& row : rows) {
@@ -33,7 +33,8 @@ std::optional<double> correlation(const NumberRows& rows, std::size_t column) {
   return (n * ab - a * b) / std::sqrt(spread);
 }
 
-// Returns true if three quarters of the columns that vary correlate with their neighbours, and half of all.
+// Returns whether three quarters of the non-constant columns, and half of all columns, correlate with their
+// neighbours.
 bool are_neighbours_alike(const NumberRows& rows, std::size_t columns) {
   std::size_t alike = 0, varying = 0;
   for (std::size_t i = 0; i + 1 < columns; ++i) {
@@ -51,7 +52,7 @@ bool is_table(const Source& source, const XyzLayout& layout) {
   return are_neighbours_alike(sample_rows(source.bytes.substr(layout.data_offset), layout), layout.columns);
 }
 
-// Appends a line of the table. What is not a number is missing.
+// Appends a line of the table. Texts that are not numbers become missing values.
 void take_row(std::string_view line, const XyzLayout& layout, std::vector<float>& values) {
   Fields fields(line, layout.separator);
   while (const auto field = fields.next()) {

@@ -14,7 +14,7 @@ std::optional<std::uint64_t> number_at(std::string_view bytes, std::uint64_t at,
   return whole_number(bytes.data() + at, size, is_big_endian);
 }
 
-// Returns the tag Orientation in the first directory of a segment of Exif, which is a TIFF behind a mark.
+// Returns the tag Orientation in the first directory of an Exif segment, which is a TIFF after a mark.
 std::optional<int> exif_orientation(std::string_view segment) {
   constexpr std::string_view mark{"Exif\0\0", 6};
   constexpr std::uint64_t orientation_tag = 274, entry_bytes = 12, value_at = 8;
@@ -33,7 +33,7 @@ std::optional<int> exif_orientation(std::string_view segment) {
   return std::nullopt;
 }
 
-// Segments begin with a marker of two bytes. All but C4, C8 and CC of C0 to CF begin frames.
+// Segments begin with a marker of two bytes. Markers C0 to CF begin frames, except C4, C8 and CC.
 constexpr std::uint64_t first_frame = 0xC0, last_frame = 0xCF, exif = 0xE1, begin_of_pixels = 0xDA;
 
 bool is_frame(std::uint64_t marker) {
@@ -46,7 +46,7 @@ JpegHeader find_jpeg_header(std::string_view bytes) {
   JpegHeader header;
   std::uint64_t at = 2;
   while (true) {
-    at = std::min(bytes.find('\xFF', at), bytes.size());  // libjpeg, too, skips what stands between
+    at = std::min(bytes.find('\xFF', at), bytes.size());  // libjpeg also skips bytes between segments
     while (at + 1 < bytes.size() && bytes[at + 1] == '\xFF') ++at;
     const auto marker = number_at(bytes, at + 1, 1), length = number_at(bytes, at + 2, 2);
     if (!marker || !length || *length < 2 || *marker == begin_of_pixels) return header;

@@ -10,15 +10,15 @@
 
 namespace relievo::io {
 
-// 2^27 depths take 512 MB of memory; a picture that promises more is treated as broken.
+// 2^27 depths take 512 MB of memory. A picture that promises more is treated as broken.
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
-// A picture that promises more than this factor times the bytes of its file is treated as broken: a PNG more
-// bytes, a TIFF or JPEG more pixels. The factor is a little above 1032, the best that deflate can reach, and far
-// above the 256 pixels that a scan of a JPEG has in a byte.
+// A picture that promises more than this many times the bytes of its file is treated as broken: a PNG with
+// more bytes, a TIFF or JPEG with more pixels. The factor is slightly above 1032, the best compression of
+// deflate, and far above 256, the largest number of pixels per byte of a JPEG scan.
 inline constexpr std::size_t best_packing = 1100;
 
-// Return true if the content begins like a file of this format.
+// Return whether the content begins like a file of this format.
 bool is_png(const Source& source);
 bool is_tiff(const Source& source);
 bool is_jpeg(const Source& source);
@@ -26,7 +26,7 @@ bool is_npy(const Source& source);
 bool is_pnm(const Source& source);
 bool is_bmp(const Source& source);
 bool is_esri_grid(const Source& source);
-bool is_height_table(const Source& source);  // lines of numbers in which neighbours are alike
+bool is_height_table(const Source& source);  // lines of numbers whose neighbours correlate
 
 // Return the depths of a picture. Errors: kind input.
 Result<DepthImage> read_depth_png(const Source& source, const PictureChannels& channels);
@@ -42,24 +42,24 @@ Result<DepthImage> read_height_table(const Source& source, const PictureChannels
 inline constexpr std::string_view way_out_of_colours =
     "; the option channel takes one of them, and depth-values luminance their brightness";
 
-// The shares of red, green and blue in the luminance of Rec. 709.
+// The weights of red, green and blue in the luminance of Rec. 709.
 inline constexpr std::array luminance_shares = {.2126F, .7152F, .0722F};
 
-// The values of a picture that is stored without compression.
+// The values of an uncompressed picture.
 struct StoredPixels {
   std::uint64_t width = 0, height = 0;
-  std::uint64_t bytes = 1;   // per pixel
-  std::uint64_t offset = 0;  // of the first pixel in the file
+  std::uint64_t bytes = 1;   // bytes per pixel
+  std::uint64_t offset = 0;  // offset of the first pixel in the file
 };
 
 // Returns an error if there are too many pixels, or more than the file contains.
 Result<void> check_room(const Source& source, const StoredPixels& stored);
 
-// Red, green and blue of a pixel; only the first counts in a grey picture.
+// Red, green and blue of a pixel; in a grey picture only the first counts.
 using PixelColour = std::array<float, 3>;
 
-// Returns the value of a pixel of `channels` channels; nothing if they differ, as in a photograph or in depths
-// that are shown in colours, and neither one channel nor luminance is wanted.
+// Returns the value of a pixel with `channels` channels. Returns nothing if the channels differ, as in a
+// photograph, and neither a channel nor luminance is requested.
 inline std::optional<float> pixel_value(const PixelColour& colour, std::size_t channels,
                                         const PictureChannels& wanted) {
   if (wanted.channel > 0) return colour[static_cast<std::size_t>(wanted.channel) - 1];
@@ -69,10 +69,10 @@ inline std::optional<float> pixel_value(const PixelColour& colour, std::size_t c
   return luminance_shares[0] * colour[0] + luminance_shares[1] * colour[1] + luminance_shares[2] * colour[2];
 }
 
-// Returns an error if the wanted channel does not exist.
+// Returns an error if the requested channel does not exist.
 Result<void> check_channel(const Source& source, const PictureChannels& wanted, std::size_t channels);
 
-// Returns the error about a pixel of which pixel_value() finds none.
+// Returns the error for a pixel for which pixel_value() returns nothing.
 std::unexpected<Error> colours_found(const Source& source, std::size_t column, std::size_t row);
 
 // Sets all values from colour_at(i), the colour of pixel i.
@@ -89,21 +89,21 @@ Result<void> fill_values(const Source& source, const PictureChannels& wanted, st
   return {};
 }
 
-// Returns the difference between possible values: 1 if all are whole numbers, else 0.
+// Returns the step between possible values: 1 if all are integers, else 0.
 double step_of(const Image<float>& values);
 
-// Turns a picture by the tag Orientation of TIFF and Exif, from 1 to 8, so that its first row is at the top and
-// its first column at the left. Other values change nothing.
+// Turns a picture according to the tag Orientation of TIFF and Exif, 1 to 8, so that its first row is at the
+// top and its first column on the left. Other values change nothing.
 void turn_upright(DepthImage& image, int orientation);
 
 struct PictureFormat {
-  std::string_view name;     // shown to people
+  std::string_view name;     // for messages
   std::string_view endings;  // endings of file names, separated by blanks
   bool (*is_format)(const Source&);
   Result<DepthImage> (*read)(const Source&, const PictureChannels&);
 };
 
-// Text comes last, as for the formats of clouds. Its endings are those of clouds in text, too.
+// Text comes last, as in the formats of clouds, and has the endings of text clouds.
 inline constexpr std::array picture_formats = {
     PictureFormat{"PNG", ".png", is_png, read_depth_png},
     PictureFormat{"TIFF", ".tif .tiff", is_tiff, read_depth_tiff},

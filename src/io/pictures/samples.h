@@ -1,4 +1,4 @@
-// The numbers of which a picture's values consist, as TIFF, NPY and PFM store them.
+// The numbers that encode a picture's values in TIFF, NPY and PFM.
 #pragma once
 
 #include <bit>
@@ -16,8 +16,8 @@ struct SampleFormat {
 // Returns the number that 16 bits represent (IEEE 754 half precision).
 float half_precision(std::uint64_t bits);
 
-// Returns the number that the lowest bits represent: whole numbers of 1 to 64 bits, in two's complement if
-// signed, or fractions of 16, 32 and 64 bits (IEEE 754).
+// Returns the number that the lowest bits represent: integers of 1 to 64 bits, in two's complement if signed,
+// or floating-point numbers of 16, 32 and 64 bits (IEEE 754).
 inline float decode_sample(const SampleFormat& format, std::uint64_t bits) {
   const unsigned unused = 64 - format.bits;
   if (format.kind == SampleKind::whole) return static_cast<float>(bits);
@@ -28,7 +28,7 @@ inline float decode_sample(const SampleFormat& format, std::uint64_t bits) {
   return static_cast<float>(std::bit_cast<double>(bits));
 }
 
-// Returns the number of `bytes` bytes, at most 8, in that byte order.
+// Returns the integer in `bytes` bytes, at most 8, with that byte order.
 inline std::uint64_t whole_number(const char* first, unsigned bytes, bool is_big_endian) {
   std::uint64_t value = 0;
   for (unsigned i = 0; i < bytes; ++i) {

@@ -38,7 +38,7 @@ int TiffBytes::keep_message(TIFF*, void* self, const char*, const char* format, 
   if (!message.empty()) return 1;
   char text[160];
   std::vsnprintf(text, sizeof text, format, arguments);
-  // libtiff begins some messages with the name that open() gave.
+  // libtiff begins some messages with the name passed to open().
   const std::string_view line(text), name = "picture: ";
   message = line.substr(line.starts_with(name) ? name.size() : 0);
   return 1;
@@ -55,7 +55,7 @@ tmsize_t TiffBytes::read(thandle_t self, void* to, tmsize_t wanted) {
 
 tmsize_t TiffBytes::write(thandle_t self, void* from, tmsize_t wanted) {
   auto& it = *static_cast<TiffBytes*>(self);
-  if (!it.out_ || !from) return 0;  // libtiff passes null if it had no memory to copy a text
+  if (!it.out_ || !from) return 0;  // libtiff passes null if it had no memory for a copy of a text
   const std::size_t end = it.at_ + static_cast<std::size_t>(wanted);
   if (end > it.out_->size()) it.out_->resize(end);
   std::memcpy(it.out_->data() + it.at_, from, static_cast<std::size_t>(wanted));

@@ -9,11 +9,11 @@
 
 namespace relievo::io {
 
-// A TIFF over bytes in memory. libtiff's first error message is stored instead of printed.
+// A TIFF in memory. The first error message of libtiff is stored instead of printed.
 class TiffBytes {
  public:
-  explicit TiffBytes(std::string_view bytes);       // to read
-  explicit TiffBytes(std::vector<std::byte>& out);  // to write
+  explicit TiffBytes(std::string_view bytes);       // for reading
+  explicit TiffBytes(std::vector<std::byte>& out);  // for writing
   TiffBytes(const TiffBytes&) = delete;
   TiffBytes& operator=(const TiffBytes&) = delete;
   ~TiffBytes() { close(); }
@@ -21,8 +21,8 @@ class TiffBytes {
   TIFF* handle() const { return tiff_; }  // null if the bytes are not a TIFF
   const std::string& message() const { return message_; }
   void close();
-  // Abandons the handle without closing it, because libtiff crashes when it closes a file whose tags could
-  // not be stored for lack of memory.
+  // Abandons the handle without closing it. libtiff crashes when it closes a file whose tags could not be
+  // stored for lack of memory.
   void abandon() { tiff_ = nullptr; }
 
  private:

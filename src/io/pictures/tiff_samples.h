@@ -9,22 +9,22 @@
 
 namespace relievo::io {
 
-// A row as libtiff returns it. Every `step`-th sample is read, from the sample `first` on.
+// A row from libtiff. Every `step`-th sample is used, starting with sample `first`.
 struct SampleRow {
   const unsigned char* bytes = nullptr;
   std::size_t first = 0, step = 1;
 };
 
-// Returns the format of the tags SampleFormat and BitsPerSample if it is supported: whole numbers of 1 to 32
-// and of 64 bits, signed whole numbers of 8, 16, 32 and 64 bits, and floating-point numbers of 16, 32 and 64
-// bits, which messages call fractions. Undefined samples are taken as whole numbers.
+// Returns the format for the tags SampleFormat and BitsPerSample, if it is supported: unsigned integers of 1
+// to 32 and of 64 bits, signed integers of 8, 16, 32 and 64 bits, and floating-point numbers of 16, 32 and 64
+// bits, which messages call fractions. Undefined samples count as unsigned integers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits);
 
 // Returns a description of the samples for messages: "4-bit whole numbers".
 std::string describe_samples(unsigned sample_format, unsigned bits);
 
 // Decodes n samples of a row. Numbers of 8, 16, 24, 32 and 64 bits are in the machine's byte order, which is
-// little-endian. All other widths are packed, the most significant bit first.
+// little-endian. Other widths are packed, most significant bit first.
 void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to);
 
 }  // namespace relievo::io

@@ -1,4 +1,4 @@
-// Writes numbers as little-endian bytes, for all writers of meshes.
+// Writes numbers as little-endian bytes, for all mesh writers.
 #pragma once
 
 #include <bit>

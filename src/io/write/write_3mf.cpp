@@ -28,7 +28,7 @@ void append_number(std::string& to, T value) {
   to.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-// Returns the text of n elements. Blocks of the text are made concurrently.
+// Returns the text of n elements. Blocks of it are made concurrently.
 template <typename Append>
 std::string in_blocks(std::size_t n, Append&& append_element) {
   std::vector<std::string> parts((n + grain - 1) / grain);
@@ -67,9 +67,9 @@ bool add_entry(zip_t* archive, const ZipEntry& entry, unsigned level) {
   ZipSource source(zip_source_buffer(archive, entry.content.data(), entry.content.size(), 0));
   const zip_int64_t added = zip_file_add(archive, entry.name.c_str(), source.get(), ZIP_FL_ENC_UTF_8);
   if (added < 0) return false;
-  (void)source.release();  // the source now belongs to the archive
+  (void)source.release();  // the archive owns the source now
   const auto index = static_cast<zip_uint64_t>(added);
-  const zip_uint16_t midnight = 0, first_day = 0x21;  // the first date that ZIP can store
+  const zip_uint16_t midnight = 0, first_day = 0x21;  // the earliest date that ZIP can represent
   return zip_set_file_compression(archive, index, level == 0 ? ZIP_CM_DEFAULT : ZIP_CM_DEFLATE, level) == 0 &&
          zip_file_set_dostime(archive, index, midnight, first_day, 0) == 0;
 }
@@ -108,7 +108,7 @@ std::vector<std::byte> write_zip(std::span<const ZipEntry> entries, unsigned lev
   const ZipSource memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
   ZipArchive archive(memory ? zip_open_from_source(memory.get(), ZIP_TRUNCATE, nullptr) : nullptr);
   if (!archive) return {};
-  zip_source_keep(memory.get());  // the archive frees this memory, too
+  zip_source_keep(memory.get());  // the archive owns the memory, too
   for (const ZipEntry& entry : entries)
     if (!add_entry(archive.get(), entry, level)) return {};
   if (zip_close(archive.get()) != 0) return {};

@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// Space for a number and the separator before it: the shortest text of a float has up to 15 characters, an
-// index 10.
+// Space for a number and the separator before it. The shortest text of a float has up to 15 characters, an
+// index up to 10.
 constexpr std::size_t most_per_number = 16, most_per_line = 2 + 3 * most_per_number;
 
 template <typename T>

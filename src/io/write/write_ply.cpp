@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// Returns whether float is too imprecise for the coordinates. Its seven digits suffice unless most of them
-// are needed for the cloud's position rather than its shape.
+// Returns whether float is too imprecise for the coordinates. Its seven digits suffice, unless the cloud is
+// so far from the origin that most digits only describe its position.
 bool needs_double(const Cloud& cloud) {
   const Box box = bounds(cloud);
   if (box.is_empty()) return false;

@@ -16,7 +16,7 @@ namespace {
 using Encoder = std::unique_ptr<spng_ctx, decltype([](spng_ctx* spng) { spng_ctx_free(spng); })>;
 using Encoded = std::unique_ptr<void, decltype([](void* bytes) { std::free(bytes); })>;
 
-constexpr std::uint32_t longest_side_px = 1'000'000;  // read_depth_image() accepts no longer sides
+constexpr std::uint32_t longest_side_px = 1'000'000;  // read_depth_image() accepts no longer side
 
 template <typename T>
 bool has_pixels(const Image<T>& image) {
@@ -31,7 +31,7 @@ spng_color_type colour_type(int channels) {
                          : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
 }
 
-// Functions of libspng return 0, or the number of an error.
+// Functions of libspng return 0 or an error code.
 template <typename T>
 bool set_header(spng_ctx* spng, const Image<T>& image) {
   spng_ihdr header{};
@@ -54,7 +54,7 @@ bool set_texts(spng_ctx* spng, PngTexts texts) {
     if (key.size() >= sizeof chunk.keyword) return false;
     std::ranges::copy(key, chunk.keyword);
     chunk.type = SPNG_TEXT;
-    chunk.text = const_cast<char*>(value.c_str());  // libspng does not write through it
+    chunk.text = const_cast<char*>(value.c_str());  // libspng does not write to it
     chunk.length = value.size();
   }
   return chunks.empty() || spng_set_text(spng, chunks.data(), static_cast<std::uint32_t>(chunks.size())) == 0;

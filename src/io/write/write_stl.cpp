@@ -20,8 +20,7 @@ std::byte* put_vector(std::byte* to, const Vec3f& v) {
 }
 
 void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  // The normal is computed from the rounded corners, because some readers compute it from them, too, and
-  // compare.
+  // The normal is computed from the rounded corners, because some readers compute it from them and compare.
   const Vec3 normal = (b - a).cast<double>().cross((c - a).cast<double>());
   to = put_vector(to, normal.stableNormalized().cast<float>());
   for (const Vec3f& corner : {a, b, c}) to = put_vector(to, corner);
@@ -33,7 +32,7 @@ void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c)
 std::vector<std::byte> write_stl(const Solid& solid) {
   const std::size_t n = solid.triangles.size();
   std::vector<std::byte> bytes(header_size + 4 + n * triangle_size);
-  // The header must not begin with "solid", or readers would treat the file as text.
+  // The header must not begin with "solid", because readers would treat the file as text.
   detail::put_text(bytes.data(), cat("relievo ", version, " binary STL, unit ", name_of(solid.unit)));
   detail::put(bytes.data() + header_size, static_cast<std::uint32_t>(n));
   std::byte* const triangles = bytes.data() + header_size + 4;

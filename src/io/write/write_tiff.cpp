@@ -11,13 +11,13 @@
 namespace relievo {
 namespace {
 
-// The tags that differ between pictures.
+// The tags that depend on the picture.
 struct Tags {
   double mm_per_pixel = 0;
   std::string description;
 };
 
-// Returns whether there was memory for all tags.
+// Returns whether there was enough memory for all tags.
 template <typename T>
 bool set_tags(TIFF* tiff, const Image<T>& image, const Tags& tags) {
   constexpr bool is_float = std::is_floating_point_v<T>;
@@ -45,13 +45,13 @@ std::vector<std::byte> encode(const Image<T>& image, const Tags& tags) {
     return {};
   std::vector<std::byte> bytes;
   io::TiffBytes file(bytes);
-  const auto check = [&](bool is_done) {  // writing to memory, libtiff fails only if memory runs out
+  const auto check = [&](bool is_done) {  // when writing to memory, libtiff fails only if memory runs out
     if (is_done) return;
     file.abandon();
     throw std::bad_alloc();
   };
   check(file.handle() && set_tags(file.handle(), image, tags));
-  std::vector<T> row(width);  // libtiff's predictor changes the row in place
+  std::vector<T> row(width);  // a copy, because libtiff's predictor changes the row in place
   for (int r = 0; r < image.height; ++r) {
     std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, r)), width, row.begin());
     check(TIFFWriteScanline(file.handle(), row.data(), static_cast<std::uint32_t>(r), 0) == 1);

@@ -18,7 +18,7 @@ bool Approximation::start() {
   return true;
 }
 
-// Walks from triangle to triangle. Successive points of a scan are close to each other, so that walks are short.
+// Walks from triangle to triangle. Successive points of a scan are close to each other, so walks are short.
 Index Approximation::find(const Vec2& place, Index start) const {
   Index t = start == no_index || mesh_->is_outside(start) ? mesh_->newest() : start, from = no_index;
   for (Index steps = 0; steps <= mesh_->size(); ++steps) {
@@ -53,7 +53,7 @@ double Approximation::height(Index t, const Vec2& place) const {
          (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
 }
 
-// Returns the neighbour across an edge that separates t from the place; t itself if t contains the place.
+// Returns the neighbour across an edge that separates t from `place`; t itself if t contains `place`.
 Index Approximation::towards(const Vec2& place, Index t, Index from) const {
   const Triangle corners = mesh_->corners(t);
   for (Index i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ Index Approximation::towards(const Vec2& place, Index t, Index from) const {
   return t;
 }
 
-// Returns the edge by which the segment from a to b leaves the triangle; nothing if b lies in it.
+// Returns the edge through which the segment from a to b leaves triangle t; nothing if b lies in t.
 std::optional<Index> Approximation::exit_of(const Vec2& a, const Vec2& b, Index t, Index from) const {
   const Triangle corners = mesh_->corners(t);
   for (Index i = 0; i < 3; ++i) {

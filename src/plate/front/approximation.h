@@ -15,8 +15,8 @@ class Approximation {
   Approximation(const Approximation&) = delete;  // the triangulation refers to the points
   Approximation& operator=(const Approximation&) = delete;
 
-  // Adds a point above or below a place near a triangle. Calls changed(triangle) for the triangles that are new
-  // or have other corners now.
+  // Adds a point. `triangle` is a triangle near it in the plane. Calls changed(triangle) for all triangles
+  // that are new or have changed corners.
   template <typename Changed>
   void add(const Vec3& point, Index triangle, Changed&& changed) {
     points_.push_back(point);
@@ -25,29 +25,30 @@ class Approximation {
       mesh_->each_around_newest(changed);
   }
 
-  // Triangulates the points that were added up to now, and from now on each point that is added. Returns false
-  // if they span no triangle.
+  // Triangulates the points added so far; later points are triangulated as they are added. Returns false if
+  // all points are collinear.
   bool start();
 
   const DelaunayBuilder& mesh() const { return *mesh_; }
   const std::vector<Vec3>& points() const { return points_; }
 
-  // Returns a triangle that contains the place, looked for from triangle `start`; no_index if the place is
-  // beyond the hull.
+  // Returns a triangle that contains `place`; no_index if `place` is outside the hull. The search begins at
+  // triangle `start`.
   Index find(const Vec2& place, Index start) const;
 
-  // Returns the other triangle of the edge on which the place lies; no_index if the place is inside t or on
-  // the hull.
+  // Returns the other triangle of the edge that contains `place`; no_index if `place` is inside t or on the
+  // hull.
   Index across(const Vec2& place, Index t) const;
 
   // Returns the squared slope of a triangle.
   double slope_sq(Index t) const;
 
-  // Returns the height of the plane of a triangle at a place.
+  // Returns the height of a triangle's plane at `place`.
   double height(Index t, const Vec2& place) const;
 
-  // Calls f(triangles left and entered, share of the way, height of the approximation) wherever the segment
-  // from a to b, which begins in triangle t, crosses an edge.
+  // Calls f wherever the segment from a to b crosses an edge; a must lie in triangle t. Arguments: the
+  // triangles before and after the crossing, its position as a share of the segment, and the approximation's
+  // height there.
   template <typename F>
   void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
     Index from = no_index;

@@ -26,7 +26,7 @@ struct SampleGrid {
   double step = 0;
   Vec2 corner;  // upper left corner of the grid
   RasterInput input;
-  Image<Index> triangle;  // no_index beside the front
+  Image<Index> triangle;  // no_index where there is no front
 
   Vec2 place(int x, int y) const { return {corner.x() + (x + .5) * step, corner.y() - (y + .5) * step}; }
   Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
@@ -38,8 +38,8 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   const Box box = Box::of(front.points);
   SampleGrid grid;
   grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
-  // Sides are often whole numbers of steps. The added fraction keeps rounding errors from changing the number
-  // of cells.
+  // The box is often a whole number of cells long. The added fraction keeps rounding errors from changing the
+  // number of cells.
   const auto cells = [&](double mm) { return (static_cast<int>(mm / grid.step + .37) / block + 1) * block; };
   grid.corner = {box.min.x(), box.max.y()};
   grid.input.width = cells(box.size().x());
@@ -49,7 +49,7 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
     const Vec2 place = grid.pixel(p.head<2>());
     grid.input.points.emplace_back(place.x(), place.y(), 0);
   }
-  // In pictures y points down, which reverses the orientation of triangles.
+  // In images y points down, which reverses the orientation of triangles.
   grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
   draw_bands(grid.input, 32, [&](const RowBand& band) {
     const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
@@ -59,16 +59,16 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   return grid;
 }
 
-constexpr int band_rings = 3;  // number of rings of triangles beside creases in which points stay
+constexpr int band_rings = 3;  // number of rings of triangles around creases that keep their points
 constexpr int most_divisions = 16;
-// Smallest distances, in steps. `apart` is the distance between samples and points of the band; in quarters
-// of squares half of it applies. `apart_in_band` is the distance between points of the band that are not on
-// creases.
+// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band; half of it
+// applies to samples of quartered squares. `apart_in_band` is the distance between points of the band that
+// are not on creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
-// Marks the triangles that are not smooth, and band_rings rings of smooth triangles beside them and beside
-// the hull.
+// Marks the band: triangles that are not smooth, and band_rings rings of smooth triangles around them and
+// along the hull.
 std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
                                          std::span<const std::uint8_t> is_smooth) {
   std::vector<std::uint8_t> is_near(front.points.size(), 0), is_band(front.triangles.size());
@@ -130,7 +130,7 @@ class Sampler {
     return colour;
   }
 
-  // Adds the points that stay: those of the band and of the hull, and the highest and lowest of all.
+  // Adds the points to keep: points of the band and of the hull, and the highest and the lowest point.
   void add_old_points() {
     std::vector<std::uint8_t> is_kept(front_.points.size(), 0), is_fixed = is_kept;
     for (std::size_t t = 0; t < is_band_.size(); ++t)
@@ -154,7 +154,7 @@ class Sampler {
     }
   }
 
-  // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on
+  // Divides the band's smooth triangles so that most of their edges are at most a step long. New points on
   // creases stay on the creases.
   void divide_band() {
     std::vector<double> lengths;
@@ -187,7 +187,7 @@ class Sampler {
       }
   }
 
-  // Divides the edge that these sides of triangles share, unless none of the triangles is smooth.
+  // Divides the edge on which these triangle sides lie, unless none of its triangles is smooth.
   void divide_edge(std::span<const TriangleSide> sides) {
     const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
     if (std::ranges::none_of(sides, is_smooth)) return;
@@ -204,9 +204,9 @@ class Sampler {
     }
   }
 
-  // Thins out the band, because points of a scan may nearly coincide in the view. All fixed points stay:
-  // those on creases and on the hull, the lowest and the highest. Any other point stays only if it is not too
-  // close to a fixed point, or to an earlier point that stays.
+  // Subsamples the band, because points of a scan may nearly coincide in the view. Fixed points are kept:
+  // points on creases and on the hull, the lowest and the highest point. Another point is kept only if it is
+  // not too close to a fixed point or to a point already kept.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
@@ -243,7 +243,8 @@ class Sampler {
     std::optional<SampleGrid> quarters;
     if (std::ranges::any_of(squares, &SampleSquare::is_quartered))
       quarters = sample_grid(front_, grid_.step / 2, 2 * largest_square);
-    const bool has_quarters = quarters && quarters->step == grid_.step / 2;  // grids have a largest size
+    // False for very large fronts, whose grids are coarser than asked for.
+    const bool has_quarters = quarters && quarters->step == grid_.step / 2;
     for (const SampleSquare& square : squares) {
       if (square.is_quartered && has_quarters)
         add_quarters(square, *quarters);
@@ -259,8 +260,8 @@ class Sampler {
     add(t, place, surface_.at(t, place));
   }
 
-  // Adds the middles of a square's quarters unless they are close to a point of the band. `quarters` is a
-  // grid twice as fine.
+  // Adds the centres of a square's quarters, except those close to a point of the band. `quarters` is a grid
+  // with half the step.
   void add_quarters(const SampleSquare& square, const SampleGrid& quarters) {
     for (int k = 0; k < 4; ++k) {
       const int x = 2 * square.x + k % 2, y = 2 * square.y + k / 2;
@@ -271,7 +272,7 @@ class Sampler {
     }
   }
 
-  // Returns the cells of the grid near points of the band.
+  // Returns the grid cells that are close to points of the band.
   std::vector<std::uint8_t> taken_cells() const {
     const int width = grid_.input.width, height = grid_.input.height;
     std::vector<std::uint8_t> is_taken(grid_.triangle.pixels.size(), 0);
@@ -301,7 +302,7 @@ class Sampler {
     return std::move(out_);
   }
 
-  // Marks each triangle as part of the relief if its centre is in the relief.
+  // Marks each triangle whose centroid is in the relief.
   void tell_relief(const std::vector<Vec2>& plane) {
     const double near = 2 * grid_.step;
     std::vector<Segment> edges;
@@ -317,8 +318,7 @@ class Sampler {
     });
   }
 
-  // Returns whether a place is in the relief. The place must be farther than a square of the grid from the
-  // silhouette.
+  // Returns whether `place` is in the relief. `place` must be farther than a grid cell from the silhouette.
   bool is_relief_around(const Vec2& place) const {
     const Vec2 pixel = grid_.pixel(place);
     const int x = std::clamp(static_cast<int>(pixel.x()), 0, grid_.input.width - 1),
@@ -336,7 +336,7 @@ class Sampler {
   PointSet band_points_;
   HeightFieldMesh out_;
   std::vector<Vec2f> slopes_;           // slopes at the points of out_; NaN for points of the given front
-  std::vector<std::uint8_t> is_fixed_;  // whether each point of the band stays
+  std::vector<std::uint8_t> is_fixed_;  // per point of the band: whether it is kept in any case
   double low_ = 0, high_ = 0;
   int divisions_ = 1;
 };

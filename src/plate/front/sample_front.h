@@ -1,4 +1,4 @@
-// Samples the smooth surface of a front by well-shaped triangles. Tested by
+// Samples the smooth surface of a front with well-shaped triangles. Tested by
 // tests/plate/sample_front_test.cpp.
 #pragma once
 
@@ -10,17 +10,17 @@
 namespace relievo {
 
 struct FrontSampling {
-  // Longest step between samples, > 0, where the surface is not plane.
+  // Largest distance between samples, > 0, except where the surface is nearly plane.
   double resolution_mm = .15;
-  // Largest angle between neighbouring facets, in radians, where the surface turns evenly. Samples are up to
-  // 8 steps apart where the surface turns less, and half a step apart where it turns more.
+  // Largest angle between neighbouring facets, in radians, where the curvature is even. Samples are up to 8
+  // steps apart where the surface is flatter, and half a step apart where it is more curved.
   double facet_angle = .034;
 };
 
-// Returns a front over the same hull. Its points lie on the smooth surface through the given front: on a grid
-// of squares, and near creases on the triangles of the given front, divided equally finely. `is_smooth` marks
-// the smooth triangles; the others stay plane, and creases are the edges between smooth triangles and others.
-// The highest and the lowest point stay. Errors: kind cancelled.
+// Returns a front with the same hull whose points lie on the smooth surface through the given front. Most
+// points lie on a square grid. Near creases the given front's triangles are kept and divided as finely.
+// `is_smooth` marks the smooth triangles; the others stay plane, and creases are the edges between smooth
+// triangles and others. The highest and the lowest point are kept. Errors: kind cancelled.
 Result<HeightFieldMesh> sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
                                      const FrontSampling& options, const Progress* progress = nullptr);
 

@@ -8,10 +8,10 @@
 namespace relievo {
 namespace {
 
-// The surface turns evenly where the angle between neighbouring cells changes by at most this share of the
-// angle. Where it turns unevenly, as on rough surfaces, facets are not visible.
+// The curvature counts as even where the angle between neighbouring cells changes by at most this share of
+// the angle. Where it is uneven, as on rough surfaces, facets are invisible.
 constexpr float most_change = .25F;
-// An angle of this many facet angles is a crease, which finer facets would not round.
+// Angles of at least this many facet angles are creases. Smaller facets would not make them smoother.
 constexpr float crease = 3;
 
 // Returns the sine of the angle between the normals of two slopes.
@@ -21,13 +21,14 @@ float turn_between(const Vec2f& a, const Vec2f& b) {
                    ((1 + a.squaredNorm()) * (1 + b.squaredNorm())));
 }
 
-// Returns whether the surface turns evenly over three cells in a row, and by more than facets may.
+// Returns whether the curvature over three consecutive cells is even, and larger than facets of this angle
+// show smoothly.
 bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, float facet_angle) {
   const float turn = turn_between(before, after) / 2, change = turn_between(before + after - middle, middle);
   return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;
 }
 
-// Least and greatest slope in a square.
+// The range of the slopes in a square.
 struct SlopeRange {
   Vec2f least = Vec2f::Constant(std::numeric_limits<float>::infinity()), most = -least;
 
@@ -38,7 +39,7 @@ struct SlopeRange {
   float turn() const { return turn_between(least, most); }
 };
 
-// The squares of one size: their slopes, and whether each is in use.
+// All squares of one size: their slopes, and whether each is used.
 struct Level {
   Image<SlopeRange> ranges;
   Image<std::uint8_t> is_used;
@@ -59,8 +60,8 @@ Level cells_of(const Image<Vec2f>& slopes) {
   return cells;
 }
 
-// Returns whether all squares in and around a square of twice their side are in use. Otherwise the larger
-// square could be four times as wide as a neighbour.
+// Returns whether all smaller squares in and around a square of twice their side are used. Otherwise the
+// large square could be four times as wide as a neighbour.
 bool can_be_joined(const Level& parts, int x, int y) {
   for (int py = 2 * y - 2; py < 2 * y + 4; ++py)
     for (int px = 2 * x - 2; px < 2 * x + 4; ++px)
@@ -69,7 +70,7 @@ bool can_be_joined(const Level& parts, int x, int y) {
 }
 
 // Joins four squares to a larger one wherever the surface turns by at most `most` across the larger square.
-// The four squares are then no longer in use.
+// The four squares are then unused.
 Level joined(Level& parts, float most) {
   Level whole(parts.ranges.width / 2, parts.ranges.height / 2);
   for (int y = 0; y < whole.ranges.height; ++y)
@@ -94,8 +95,8 @@ bool is_quartered(const Image<Vec2f>& slopes, int x, int y, float facet_angle) {
   return is_even(1, 0) || is_even(0, 1);
 }
 
-// The largest distance between the middles of a rectangle's diagonals, as a share of their length; it is not
-// 0, because grid positions are rounded.
+// Tolerance for the distance between the midpoints of a rectangle's diagonals, as a share of their length.
+// Grid positions are rounded.
 constexpr double rounding = 1e-6;
 
 bool is_rectangle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -109,7 +110,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
   std::vector<Level> levels;
   levels.push_back(cells_of(slopes));
   for (int side = 2; side <= largest_square; side *= 2) {
-    // Slopes are given at the middles of cells, which extend less far than the square.
+    // Slopes are known at the centres of cells, which span less than the square.
     const float reach = static_cast<float>(side - 1) / static_cast<float>(side);
     levels.push_back(joined(levels.back(), reach * facet_angle));
   }
@@ -126,7 +127,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
 }
 
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh) {
-  // Returns how much the surface bends away from a straight line between two points.
+  // Returns how much the slope along the segment changes between its ends, times its length.
   const auto bend = [&](Index a, Index b) {
     return std::abs((slopes[b] - slopes[a]).cast<double>().dot(points[b] - points[a]));
   };
@@ -141,7 +142,7 @@ void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes,
                                               mesh.neighbours[other].begin());
       const Index opposite = mesh.triangles[other][j];
       if (!is_rectangle(points[from], points[opposite], points[to], points[apex])) continue;
-      // A comparison with NaN is false, so that the diagonal stays.
+      // Comparisons with NaN are false, so such a diagonal stays.
       if (!(bend(apex, opposite) < bend(from, to))) continue;
       mesh.triangles[t] = {apex, from, opposite};
       mesh.triangles[other] = {opposite, to, apex};

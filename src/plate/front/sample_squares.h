@@ -1,4 +1,4 @@
-// Chooses the squares by which a surface is sampled. Tested by tests/plate/sample_squares_test.cpp.
+// Chooses the squares in which a surface is sampled. Tested by tests/plate/sample_squares_test.cpp.
 #pragma once
 
 #include <span>
@@ -11,22 +11,23 @@
 namespace relievo {
 
 struct SampleSquare {
-  int x = 0, y = 0;           // the upper left cell
+  int x = 0, y = 0;           // column and row of the upper left cell
   int side = 1;               // 1, 2, 4 or 8 cells
   bool is_quartered = false;  // a square of one cell that gets four samples
 };
 
-// The number of cells along a side of the largest square; the grid's width and height are multiples of it.
+// The number of cells along a side of the largest square. The grid's width and height are multiples of it.
 constexpr int largest_square = 8;
 
-// Returns squares that cover the cells of a grid whose slope is not NaN. Across a square of several cells the
-// surface turns by at most about `facet_angle`, in radians. A cell is quartered where the surface turns
-// evenly by a larger angle. Apart from quarters, the neighbours of a square have at least half its side.
+// Returns squares that cover the grid cells whose slope is not NaN. Across a square of several cells the
+// surface turns by at most about `facet_angle`, in radians. A cell is quartered if the surface turns by more
+// across it and its curvature is even. Unless quartered, neighbouring squares differ in size by at most a
+// factor of two.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
 
-// Gives each rectangle of a Delaunay triangulation the diagonal along which the slope changes less, unless
-// the slope of a corner is NaN. Otherwise these diagonals are arbitrary, and across a ridge they look like
-// teeth. Changes only the triangles: the mesh's neighbours become invalid.
+// In each rectangle of a Delaunay triangulation, chooses the diagonal along which the slope changes less,
+// unless the slope of a corner is NaN. These diagonals are otherwise arbitrary, and look like teeth across a
+// ridge. Only the triangles are updated; the mesh's neighbours become invalid.
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

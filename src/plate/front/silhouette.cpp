@@ -12,7 +12,8 @@
 namespace relievo {
 namespace {
 
-constexpr double smallest_piece = 1e-3;  // share of the relief's area; smaller parts are specks of the scan
+// Share of the relief's area; smaller parts are artefacts of the scan.
+constexpr double smallest_piece = 1e-3;
 
 // Returns, per point, whether the boundary passes it more than once.
 std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, std::size_t points) {
@@ -48,7 +49,7 @@ void mark_smaller_fans(std::span<const Spoke> around, std::span<const Triangle> 
 }
 
 // Removes triangles until the boundary passes every point at most once. Removing a fan may pinch other
-// points, so the removal is repeated. It ends because each round removes triangles.
+// points, so the removal is repeated. The loop ends because each round removes triangles.
 void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
   while (true) {
     const std::vector<std::uint8_t> is_pinched = pinched_points(triangles, points);
@@ -87,14 +88,14 @@ void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& tria
                 [&](const Triangle& t) { return area[pieces.find(t[0])] < smallest_piece * whole; });
 }
 
-// Returns the front of these triangles, with the points that they use.
+// Returns a front with only these triangles and their points.
 HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Triangle> triangles) {
   HeightFieldMesh alone{front.points, std::move(triangles), {}, front.ground_mm, front.colours};
   drop_unused(alone);
   return alone;
 }
 
-// The side of the silhouette on which a point of a front lies.
+// Whether a point of a front belongs to the ground, to the relief or to the boundary between them.
 enum class Kind : std::uint8_t { ground, relief, boundary };
 
 std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary) {
@@ -105,7 +106,7 @@ std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const Boundar
   return kinds;
 }
 
-// Returns true if a ray from the place crosses the boundary an odd number of times.
+// Returns whether `place` is inside the boundary: a ray from it crosses the boundary an odd number of times.
 bool is_within(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary, const Vec2& place) {
   bool is_inside = false;
   for (const BoundaryEdge& edge : boundary) {

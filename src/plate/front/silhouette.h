@@ -1,4 +1,4 @@
-// The silhouette of a relief within its front, for plates without ground and for simplifying their fronts.
+// Finds the silhouette of a relief within its front. Used for plates without ground and to simplify fronts.
 // Tested by outline_test and simplify_test.
 #pragma once
 
@@ -10,23 +10,23 @@
 
 namespace relievo {
 
-using BoundaryEdge = std::array<Index, 2>;  // from, to; the triangle lies to the left, seen from +Z
+using BoundaryEdge = std::array<Index, 2>;  // from, to; the edge's triangle is on the left, seen from +Z
 
-// Returns the edges that belong to one triangle only, sorted.
+// Returns the edges that belong to only one triangle, sorted.
 std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles);
 
-// Returns the front's triangles that are part of the relief: all of them if `is_relief` is empty.
+// Returns the front's triangles that are part of the relief; all triangles if `is_relief` is empty.
 std::vector<Triangle> relief_triangles(const HeightFieldMesh& front);
 
 // Returns, per triangle of the simplified front `simpler`, whether it is part of the relief. `original` gives
-// the index in `front` of each point of `simpler`, no_index for new points. `simpler` must have all points of
-// the relief's boundary. Where an edge of this boundary is missing, the centroid of a triangle decides.
+// the index in `front` of each point of `simpler`; no_index for new points. `simpler` must contain all points
+// of the relief's boundary. If it lacks an edge of this boundary, the centroid of a triangle decides.
 std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const HeightFieldMesh& simpler,
                                         std::span<const Index> original);
 
-// Returns the relief without its ground: its triangles and points in their order, without a hull. Triangles
-// that are connected only by a corner are left out, because walls would meet in an edge there. Connected
-// parts of less than a thousandth of the area are left out, too.
+// Returns the relief without its ground: its triangles and points in the given order, without a hull. Parts
+// that are connected only by a corner are separated by removing triangles, because their walls would share an
+// edge. Connected parts of less than a thousandth of the area are removed, too.
 HeightFieldMesh relief_alone(const HeightFieldMesh& front);
 
 }  // namespace relievo

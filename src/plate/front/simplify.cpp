@@ -1,6 +1,6 @@
 // Simplifies a mesh by greedy insertion after Garland and Heckbert, "Fast Polygonal Approximation of Terrains
-// and Height Fields", 1995. Each round adds the point with the largest error of every triangle that exceeds its
-// tolerance. Only what lies in the triangles that this has changed is measured again, on all threads.
+// and Height Fields", 1995. Each round adds, for every triangle that exceeds its tolerance, the point with
+// the largest error. Then only the points and edges in changed triangles are measured again, on all threads.
 #include "relievo/plate/simplify.h"
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace relievo {
 namespace {
 
 constexpr int most_insertion_rounds = 200;
-constexpr std::size_t grain = 8192;  // points or edges measured together
-// Triangles steeper than allowed get this tolerance. A triangle so close to the original is only as steep as
-// the original's triangles, which are within the limit. Files could not store a smaller difference.
+constexpr std::size_t grain = 8192;  // points or edges that one task measures
+// The tolerance of triangles that are steeper than allowed. With this tolerance, which is too small for files
+// to store, a triangle is only as steep as the original's triangles, which are within the limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
-// A position where a triangle of the approximation exceeds its tolerance: a point of the original, or a share of
-// the way along one of its edges.
+// A position where a triangle of the approximation exceeds its tolerance: a point of the original, or a
+// position on one of its edges, given as a share of the edge.
 struct Candidate {
   Index triangle = no_index;
   double error = 0;
@@ -48,15 +48,16 @@ std::vector<Edge> edges_of(const HeightFieldMesh& front) {
   return edges;
 }
 
-// The triangles that an edge passes after its first one; the last is `unknown` if there are more.
+// The triangles that an edge enters after its first one. The last entry is `unknown` if there are more than
+// three.
 using Passed = std::array<Index, 3>;
 constexpr Index unknown = no_index - 1;
 
-// What a block of points or edges finds.
+// The results of measuring a block of points or edges.
 struct Found {
   std::vector<Candidate> candidates;
-  std::vector<Index> beyond_hull;  // points outside all triangles, which happens because the hull is rounded
-  double error = 0;                // the largest of all
+  std::vector<Index> beyond_hull;  // points outside all triangles; they exist because the hull is rounded
+  double error = 0;                // largest error
   Index last = no_index;           // the triangle that contains the last point
 };
 
@@ -86,8 +87,8 @@ class Simplifier {
     if (!now_.start()) return fault;
     for (int round = 0; round < most_insertion_rounds; ++round) {
       RELIEVO_CHECK(begin_stage(progress, "simplify", .95));
-      // If almost all points are needed, and points on edges in addition, the front itself has fewer
-      // triangles.
+      // This happens if almost all points are needed, and points on edges in addition. Then the front itself
+      // has fewer triangles than the approximation.
       if (triangle_count() >= front_.triangles.size()) return SimplifiedMesh{front_, 0};
       std::vector<Candidate> worst = find_worst();
       if (worst.empty()) worst = find_worst_of_all();
@@ -135,9 +136,9 @@ class Simplifier {
     return count;
   }
 
-  // Keeps the candidates that the limit of triangles allows. With a limit, the half with the smaller errors
-  // is postponed, so that errors are alike everywhere when the limit is reached. A point adds two triangles,
-  // a point on the hull one.
+  // Keeps as many candidates as the limit of triangles allows. With a limit, the half with the smaller errors
+  // is postponed, so that errors are similar everywhere when the limit is reached. A point adds two
+  // triangles, a point on the hull one.
   void limit(std::vector<Candidate>& worst) const {
     if (!is_limited()) return;
     const std::size_t triangles = triangle_count(), left = options_.most_triangles > triangles
@@ -148,10 +149,10 @@ class Simplifier {
     worst.resize(count);
   }
 
-  // Chooses the first points: the corners of the hull, the boundary of the relief and of flat ground, and the
-  // extreme heights. Errors are largest at extremes, and the plate's thickness and height must not change.
-  // With all points of the ground's boundary, the edges of that boundary are in the triangulation, so that
-  // flat ground stays flat.
+  // Chooses the first points: the corners of the hull, the boundaries of the relief and of flat ground, and
+  // the extreme heights. Errors are largest at extremes, and the plate's thickness and height must not
+  // change. With all points of the ground's boundary the triangulation contains its edges, so flat ground
+  // stays flat.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -170,8 +171,8 @@ class Simplifier {
       if (extreme->z() != ground) choose(static_cast<Index>(extreme - front_.points.begin()));
   }
 
-  // Returns, for each triangle that exceeds its tolerance, the position with its largest error. Measures only
-  // the triangles that have changed since the last call.
+  // Returns, for each triangle that exceeds its tolerance, the position with the largest error. Measures only
+  // triangles that changed since the last call.
   std::vector<Candidate> find_worst() {
     while (choose_beyond_hull(measure())) continue;
     std::ranges::fill(is_changed_, 0);
@@ -181,20 +182,20 @@ class Simplifier {
     return worst;
   }
 
-  // Measures all triangles, and sets error_ to the largest error of all.
+  // Measures all triangles, and sets error_ to the largest error.
   std::vector<Candidate> find_worst_of_all() {
     std::ranges::fill(is_changed_, 1);
     return find_worst();
   }
 
-  // Chooses points outside all triangles. Returns false if there are none.
+  // Chooses these points, which lie outside all triangles. Returns false if there are none.
   bool choose_beyond_hull(const std::vector<Index>& points) {
     for (const Index i : points) choose(i);
     return !points.empty();
   }
 
-  // Measures the triangles that have changed. Returns the points outside all triangles, which can exist because
-  // the hull is rounded.
+  // Measures the changed triangles. Returns the points outside all triangles; they exist because the hull is
+  // rounded.
   std::vector<Index> measure() {
     is_changed_.resize(now_.mesh().size(), 1);
     worst_.resize(is_changed_.size());
@@ -213,7 +214,7 @@ class Simplifier {
     return beyond_hull;
   }
 
-  // Calls measure(i, found) for all points or edges, in blocks, and takes over what they find.
+  // Calls measure(i, found) for all points or edges, in blocks, and collects the results.
   std::vector<Found> in_blocks(std::size_t n, void (Simplifier::*measure)(Index, Found&)) {
     std::vector<Found> found((n + grain - 1) / grain);
     parallel_ranges(n, grain, [&](std::size_t begin, std::size_t end) {
@@ -227,14 +228,14 @@ class Simplifier {
     return found;
   }
 
-  // Returns the smallest tolerance that any triangle has.
+  // Returns the smallest tolerance of any triangle.
   double least_allowed() const {
     const bool has_limit = options_.max_slope < std::numeric_limits<double>::infinity();
     return has_limit ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
   }
 
-  // `sides` are the one or two triangles at a position with that error. Returns the first whose tolerance is
-  // smaller than the error; no_index if both tolerances are large enough.
+  // `sides` are the one or two triangles at a position with the given error. Returns the first one whose
+  // tolerance is smaller than the error; no_index if there is none.
   Index triangle_beyond(const std::array<Index, 2>& sides, double error) const {
     for (const Index t : sides) {
       if (t == no_index) continue;
@@ -259,9 +260,9 @@ class Simplifier {
     if (off != no_index) found.candidates.push_back({off, error, i});
   }
 
-  // The difference of two piecewise flat surfaces is extreme at the corners of their overlay: at the
-  // original's points (the approximation's are among them), and where edges of the two cross. An edge within
-  // one triangle crosses no other edge, and one whose triangles have not changed is as before.
+  // The difference of two piecewise flat surfaces has its extremes at the corners of their overlay: at the
+  // original's points, which include the approximation's, and where edges of both surfaces cross. An edge
+  // within one triangle crosses no edge. If the triangles along an edge are unchanged, so are its errors.
   void measure_edge(Index e, Found& found) {
     const Edge& edge = edges_[e];
     const Index begin = containing_[edge.a], end = containing_[edge.b];
@@ -275,7 +276,7 @@ class Simplifier {
     now_.walk(a.head<2>(), b.head<2>(), begin, [&](std::array<Index, 2> sides, double share, double height) {
       passed[std::min(count, passed.size() - 1)] = count < passed.size() ? sides[1] : unknown;
       ++count;
-      if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end, measured as a point
+      if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end of the edge, which is measured as a point
       const double error = std::abs(height - (a + share * (b - a)).z());
       found.error = std::max(found.error, error);
       if (const Index t = triangle_beyond(sides, error); t != no_index)
@@ -283,10 +284,9 @@ class Simplifier {
     });
   }
 
-  // Returns the candidate with the point to choose for an error on an edge of the original: the nearer end, the
-  // other end, or an opposite corner, whichever is the first not yet chosen. Once all four are chosen, the edge
-  // is an edge of the Delaunay triangulation, unless the four lie on one circle: then the crossing itself
-  // becomes a point.
+  // Chooses the point for an error on an edge of the original: the nearer end, the other end or an opposite
+  // corner, whichever comes first and is not chosen yet. Once all four are chosen, the edge is in the
+  // Delaunay triangulation, unless the four lie on one circle. In that case the crossing becomes a new point.
   Candidate with_point(Candidate c) const {
     if (c.point != no_index) return c;
     const Edge& edge = edges_[c.edge];
@@ -308,13 +308,13 @@ class Simplifier {
   const HeightFieldMesh& front_;
   SimplifyOptions options_;
   std::vector<Edge> edges_;
-  std::vector<Passed> passed_;           // of each edge
-  std::vector<std::uint8_t> is_chosen_;  // whether each point of the original is chosen
-  std::vector<Index> containing_;        // the triangle that contains each point of the original
+  std::vector<Passed> passed_;           // per edge
+  std::vector<std::uint8_t> is_chosen_;  // per point of the original
+  std::vector<Index> containing_;        // per point of the original: the triangle that contains it
   Approximation now_;
   std::vector<Index> original_;  // indices of chosen points in the original; no_index for points on edges
   std::vector<Colour> colours_;
-  // For each triangle of the approximation: whether it has changed since it was measured, its squared slope, and
+  // Per triangle of the approximation: whether it has changed since it was measured, its squared slope, and
   // the position with its largest error if that exceeds the tolerance.
   std::vector<std::uint8_t> is_changed_;
   std::vector<double> slopes_sq_;

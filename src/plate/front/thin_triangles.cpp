@@ -22,10 +22,10 @@
 namespace relievo {
 namespace {
 
-// The triangles around each point of a mesh that changes in a few places.
+// The triangles around each point, for a mesh of which only small parts change.
 class Fans {
  public:
-  // Refers to the triangles, which must stay at their address.
+  // Refers to the triangles, whose address must not change.
   Fans(std::size_t points, std::span<const Triangle> triangles)
       : triangles_(triangles), first_(grouped<Index>(points, [&](auto&& add) {
           for (Index t = 0; t < triangles.size(); ++t)
@@ -62,12 +62,13 @@ class Fans {
   std::unordered_map<Index, std::vector<Index>> changed_;
 };
 
-// Least height of a triangle, as a share of the front's size: 8 to 16 units in the last place of its
+// Least height of a triangle, as a share of the front's size. It is 8 to 16 units in the last place of the
 // coordinates.
 constexpr double thinnest = 0x1p-20;
-constexpr double most_moved_mm = 1e-3;  // limit of moves by flips, for triangles that files store unfolded
+// Largest change of the surface by a flip, for triangles that rounding does not turn over.
+constexpr double most_moved_mm = 1e-3;
 
-// Flips one edge after another. Each flip makes the thinner of two triangles wider, so the flipping ends.
+// Flips edges one by one. Each flip widens the thinner of two triangles, so the loop ends.
 class Flipper {
  public:
   Flipper(Solid& front, bool may_lose_edges) : front_(front), may_lose_edges_(may_lose_edges) {
@@ -88,14 +89,14 @@ class Flipper {
 
  private:
   Vec2 at(Index i) const { return front_.points[i].head<2>(); }
-  // Returns the x and y of a point as files store them. Without `volatile`, g++ 12 would drop the rounding of
-  // double(float(x)).
+  // Returns the x and y of a point as files store them. Without `volatile` g++ 12 would remove the rounding
+  // in double(float(x)).
   Vec2 stored(Index i) const {
     const volatile auto x = static_cast<float>(at(i).x()), y = static_cast<float>(at(i).y());
     return {static_cast<double>(x), static_cast<double>(y)};
   }
 
-  // Returns the same triangle with its longest edge, as seen from above, between its first two corners.
+  // Rotates the corners so that the longest edge, seen from above, is between the first two.
   Triangle longest_first(Triangle t) const {
     const auto length_sq = [&](std::size_t i) { return (at(t[(i + 1) % 3]) - at(t[i])).squaredNorm(); };
     const std::size_t longest = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length_sq);
@@ -111,7 +112,7 @@ class Flipper {
 
   bool is_thin(Index t) const { return width_mm(front_.triangles[t]) < thinnest_mm_; }
 
-  // Flips the longest edge of a thin triangle, or removes the triangle if that edge is on the front's
+  // Flips the longest edge of a thin triangle. Removes the triangle instead if that edge is on the front's
   // boundary.
   void widen(Index thin) {
     const Triangle abc = longest_first(front_.triangles[thin]);
@@ -125,7 +126,7 @@ class Flipper {
       }
   }
 
-  // Puts thin triangles beside a changed one into the queue again.
+  // Appends the thin neighbours of a changed triangle to the queue.
   void wake_around(Index changed) {
     const Triangle& t = front_.triangles[changed];
     for (std::size_t i = 0; i < 3; ++i)
@@ -133,8 +134,8 @@ class Flipper {
         waiting_.push_back(beside);
   }
 
-  // Returns the triangles around a corner in their order, from the triangle on the given side of the edge
-  // between corner and `other`, to the boundary of the front or once around.
+  // Returns the triangles around `corner` in order. Starts with the triangle on the given side of the edge
+  // from `corner` to `other`, and ends at the boundary of the front or after a full turn.
   std::vector<Index> side_of(Index corner, Index other, bool is_left) const {
     std::vector<Index> side;
     for (Index end = other; side.size() < fans_->around(corner).size();) {
@@ -147,15 +148,15 @@ class Flipper {
   }
 
   // Returns whether removing the triangle abc, whose edge ab is on the front's boundary, would leave two
-  // parts that are connected only by the corner c. The result is false if all triangles on one side of c are
-  // thin, because these are removed next.
+  // parts that are connected only by the corner c. Returns false if all triangles on one side of c are thin,
+  // because they are removed next.
   bool would_pinch(const Triangle& abc) const {
     const auto [a, b, c] = abc;
     const auto are_thin = [&](const std::vector<Index>& side) {
       return std::ranges::all_of(side, [&](Index t) { return is_thin(t); });
     };
     const std::vector<Index> before = side_of(c, a, false), after = side_of(c, b, true);
-    const bool is_inside = before.size() == fans_->around(c).size();  // they surround c
+    const bool is_inside = before.size() == fans_->around(c).size();  // the triangles surround c
     return !is_inside && !are_thin(before) && !are_thin(after);
   }
 
@@ -167,7 +168,7 @@ class Flipper {
   }
 
   // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the
-  // neighbour's opposite corner, if that makes the triangles wider.
+  // neighbour's opposite corner, if the thinner of both triangles gets wider.
   bool flip(Index thin, const Triangle& abc, Index neighbour) {
     const auto [a, b, c] = abc;
     const Triangle& other = front_.triangles[neighbour];
@@ -209,11 +210,11 @@ class Flipper {
   std::vector<std::uint8_t> is_removed_;
 };
 
-constexpr int most_steps = 6;  // units in the last place by which a point is moved
+constexpr int most_steps = 6;  // units in the last place by which a point may move
 constexpr int most_passes = 8;
 
-// Returns the positions of points in the plane, rounded as in files. The floats are stored first, because g++
-// 12 drops the rounding of double(float(x)) when it vectorises.
+// Returns the x and y of all points, rounded as in files. The floats are stored first, because g++ 12 removes
+// the rounding in double(float(x)) when it vectorises.
 std::vector<Vec2> stored_places(const Solid& solid) {
   std::vector<Vec2f> stored;
   stored.reserve(solid.points.size());
@@ -278,8 +279,7 @@ class Unfolder {
         fans_->around(point), [&](Index t) { return is_folded(places_, solid_.triangles[t]); }));
   }
 
-  // Moves a corner of a folded triangle so that fewer triangles around the corner are folded, if that is
-  // possible.
+  // Moves one corner of a folded triangle so that fewer triangles around this corner are folded, if possible.
   void mend(const Triangle& t) {
     for (int steps = 1; steps <= most_steps; ++steps)
       for (const Index corner : t)
@@ -300,7 +300,7 @@ class Unfolder {
     return false;
   }
 
-  // Moves the point and the points below it, which have the same x and y.
+  // Moves the point together with the points below it, which have the same x and y.
   void move_all_at(Index corner, const Vec2& place) {
     std::vector<Index> together{corner};
     const auto [first, last] =
@@ -317,7 +317,8 @@ class Unfolder {
   std::vector<Vec2> places_;
   std::vector<std::uint8_t> is_fixed_;
   std::optional<Fans> fans_;
-  std::multimap<std::pair<double, double>, Index> at_place_;  // empty before walls are added
+  // Points by x and y; empty before walls are added.
+  std::multimap<std::pair<double, double>, Index> at_place_;
   double step_ = 0;
 };
 

@@ -14,7 +14,8 @@
 namespace relievo {
 namespace {
 
-// The surface of the reliefs, their height, and the function to call with every parameters and their heights.
+// The surface, the height of all reliefs, and a function that is called with the parameters and the heights
+// of each relief.
 struct GridInput {
   const Surface& surface;
   const HeightSystem& system;

@@ -21,10 +21,10 @@ constexpr double tolerance = 1e-4;
 struct Sheet {
   std::vector<std::uint8_t> is_triangle;  // per triangle: whether it belongs to the sheet
   std::vector<std::uint8_t> is_fixed;     // per point: whether its height is 0
-  bool is_flat = false;                   // whether the elements lie in the view plane, not in space
+  bool is_flat = false;  // whether elements are measured in the view plane instead of in space
 };
 
-// Half the cotangents of a triangle's angles, reduced for needles as by needle_share(), and its area.
+// Half the cotangents of a triangle's angles, reduced for needles by needle_share(), and the triangle's area.
 struct Element {
   std::array<double, 3> half_weight;
   double area;
@@ -41,9 +41,9 @@ Element element_of(const std::array<Vec3, 3>& p) {
   return e;
 }
 
-// The free points of a sheet, and their problem without bounds.
+// The free points of a sheet, and the least-squares problem of their heights.
 struct SheetFit {
-  std::vector<Index> unknown, free_points;  // numbers of unknowns by point, and of points by unknown
+  std::vector<Index> unknown, free_points;  // unknown of each point; point of each unknown
   solver::BoundedFit fit;
 };
 
@@ -59,7 +59,7 @@ SheetFit number_points(const Surface& surface, const Sheet& sheet) {
   return result;
 }
 
-// Returns the equations of heights that rise by rise(a, b) from point b to point a of each edge.
+// Returns the problem of fitting heights so that each edge rises by rise(a, b) from point b to point a.
 template <typename Rise>
 SheetFit assemble(const Surface& surface, const Sheet& sheet, Rise&& rise) {
   SheetFit result = number_points(surface, sheet);
@@ -92,12 +92,12 @@ SheetFit assemble(const Surface& surface, const Sheet& sheet, Rise&& rise) {
   return result;
 }
 
-// Solves the problem for heights from 0 to `height`, and returns a height per point; 0 at points without
-// unknown.
+// Solves the problem for heights from 0 to `height`. Returns a height per point; points without an unknown
+// get 0.
 Result<std::vector<double>> solved(SheetFit sheet, double height) {
   std::vector<double> heights(sheet.unknown.size(), 0.0);
   const auto n = static_cast<Eigen::Index>(sheet.free_points.size());
-  // Level faces have no slopes. What the solver leaves of heights above 0 would be scaled up.
+  // A level surface has no slopes. The solver's rounding errors would be scaled up to the relief's height.
   if (n == 0 || sheet.fit.load.cwiseAbs().maxCoeff() <= 1e-9 * height) return heights;
   sheet.fit.lowest = Eigen::VectorXd::Zero(n), sheet.fit.highest = Eigen::VectorXd::Constant(n, height);
   RELIEVO_TRY(const solver::BoundedFitResult found, solver::minimise(sheet.fit, tolerance));
@@ -106,7 +106,8 @@ Result<std::vector<double>> solved(SheetFit sheet, double height) {
   return heights;
 }
 
-// Gives free points in no triangle of the sheet the height of the corner beside them that is nearest in depth.
+// Handles free points that belong to no triangle of the sheet. Each gets the height of the neighbouring
+// corner that is nearest in depth.
 void fill_between(const Surface& surface, const std::vector<Index>& unknown, std::vector<double>& heights) {
   const std::vector<std::uint8_t>& is_fixed = surface.boundary.is_boundary;
   std::vector<double> nearest(heights.size(), std::numeric_limits<double>::infinity());

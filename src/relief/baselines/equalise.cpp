@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The depths as a picture: the histogram bin and the weight of each pixel. The background has weight 0.
+// The depths as an image: the histogram bin and the weight of each pixel. Background pixels have weight 0.
 struct DepthPicture {
   Image<int> bin;
   Image<float> weight;
@@ -60,8 +60,9 @@ Histogram histogram_around(const DepthPicture& picture, int column, int row, int
   return counts;
 }
 
-// Turns counts into the equalising curve: clips bins at the limit, spreads the excess over all bins, and adds
-// up the bins to values in [0, 1] at their upper ends. If all counts are 0, the curve is the identity.
+// Turns counts into the equalising curve: clips the bins at the limit, distributes the excess evenly over all
+// bins, and integrates. The curve has the values at the upper ends of the bins, in [0, 1]. If all counts are
+// 0, the curve is the identity.
 void equalise(Histogram& counts, double clip) {
   const auto bins = static_cast<double>(counts.size());
   double total = 0, cut = 0;

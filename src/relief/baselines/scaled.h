@@ -1,4 +1,4 @@
-// The parts that baselines share.
+// Functions that several baselines use.
 #pragma once
 
 #include <span>
@@ -10,18 +10,18 @@
 
 namespace relievo {
 
-// Returns the relief with these heights, one per point, after setting boundary points to 0 and scaling all to
-// `height`. This is the last step of all baselines.
+// Returns the relief with these heights, one per point, after setting boundary points to 0 and scaling all
+// heights to `height`. All baselines end with this call.
 Relief scaled_relief(std::vector<double> heights, const Surface& surface, double height);
 
 // Returns the depth of every point above the deepest one.
 std::vector<double> depths(const Surface& surface);
 
-// Returns the slope of a normal, shortened to 76 degrees, the default of Shape::max_slope. Without that, a
-// few steeper slopes at silhouettes would take most of the height.
+// Returns the slope of a normal, shortened to 76 degrees, the default of Shape::max_slope. Otherwise a few
+// steeper slopes at silhouettes would take most of the height.
 Vec2 moderate_slope(const Vec3f& normal);
 
-// Return heights before that last step.
+// These functions return heights for scaled_relief().
 std::vector<double> gradient_heights(const Surface& surface, const HeightSystem& system,
                                      const GradientOptions& options);
 std::vector<double> base_and_detail_heights(const Surface& surface, const HeightSystem& system,

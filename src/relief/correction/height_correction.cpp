@@ -15,25 +15,28 @@
 namespace relievo {
 namespace {
 
-// The width of a cell is `cell_size` of the longer side, a seventh of the bending length, so that cells
-// resolve this length. If points are too sparse for that, the width is `least_cell_size` sampling distances.
+// The width of a cell is `cell_size` of the longer side, a seventh of the bending length, so that the lattice
+// can represent fields that bend over this length. The width is at least `least_cell_size` sampling
+// distances.
 constexpr double cell_size = .007, least_cell_size = 2;
-// The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is almost 0, but keeps the
-// system regular.
+// The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is not 0, because the system
+// would then be singular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// Nodes are free if their coverage is above `least_coverage`, and have a lower limit above
-// `limited_coverage`. Nearer to the silhouette the ties keep the field up. Heights rise steeply there, and
-// limits would jump from node to node.
+// Nodes are free if their coverage is above `least_coverage`. They have a lower limit if their coverage is
+// above `limited_coverage`. Nearer to the silhouette heights rise steeply, so the limits of neighbouring
+// nodes would differ widely. There the ties keep the field up instead.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
-// The tension outside, as a share of the tension inside. It makes the field continue evenly outside.
+// The least tension, as a share of the tension inside. It continues the field smoothly outside the
+// silhouette.
 constexpr float least_tension = .1F;
-// The stiffness of a tie per length of silhouette in cells, in units of the tension across a cell.
+// The stiffness of a tie, per length of silhouette in cells; the unit is the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// The pull towards the order of near depths, see docs/decisions/near-order.md: the distances of the pairs and
-// the difference of depth that counts as a large one, as shares of the longer side and of the depth range;
-// the share of the height that a large difference gets; and the stiffness, in units of the tension across a
-// cell of `cell_size`. It fades out at the silhouette, where the base is what the surface stands off.
+// The forces that keep the near order (docs/decisions/near-order.md). `pair_distances` are the distances of
+// paired nodes, as shares of the longer side. If the depths of a pair differ by d, as a share of the depth
+// range, the nearer node should be higher by `largest_step` * tanh(d / `large_difference`) of the relief's
+// height. `order_stiffness` is in units of the tension across a cell of `cell_size`. The forces fade out at
+// the silhouette, where the relief stands off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
@@ -51,7 +54,8 @@ struct Scale {
   Scale(double longer_side, double rho)
       : side(longer_side), cell(side > 0 ? std::max(cell_size * side, least_cell_size * rho) : 1) {}
 
-  // Returns 0 for a surface without extent.
+  // Converts a length, given as a share of the longer side, to cells and squares it; 0 for a surface without
+  // extent.
   float in_cells_squared(double of_side) const {
     return static_cast<float>(std::pow(of_side * side / cell, 2));
   }
@@ -97,8 +101,8 @@ std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   return edges;
 }
 
-// Returns a tie for each cell that the silhouette crosses. The tie lies in the middle of the part of the
-// silhouette in that cell, and its stiffness is proportional to the part's length.
+// Returns a tie for each cell that the silhouette crosses. The tie lies at the middle of the silhouette
+// within the cell. Its stiffness is proportional to the length of the silhouette there.
 std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& lattice) {
   std::vector<solver::Tie> ties;
   std::vector<Index> tie_of(lattice.nodes(), no_index);
@@ -151,8 +155,8 @@ std::size_t HeightCorrection::Workspace::memory() const {
 }
 
 // Strong compression needs all of the height, so the relief may then stand off the base at the silhouette.
-// The boundary stiffness falls from 1 at a height share of 1 to 0.3 at 0.825. See
-// docs/decisions/height-correction.md.
+// The boundary stiffness falls from 1 at a height share of 1 to 0.3 at 0.825
+// (docs/decisions/height-correction.md).
 HeightLimits HeightLimits::of(double height, const Shape& shape) {
   constexpr double least = .3, fall = 4;
   return {height, std::max(1 - fall * (1 - height_share(shape)), least), shape.planes};
@@ -180,7 +184,7 @@ float depth_range(const Surface& surface) {
 solver::ObstacleSolver sheet_of(const Surface& surface, const Lattice& lattice,
                                 std::span<const float> coverage) {
   const std::vector<float> depth = depth_of(surface, lattice);
-  constexpr float faster = 5;  // the shares fade out within half a cell inside the silhouette
+  constexpr float faster = 5;  // the shares fall from 1 at a coverage of 1 to 0 at a coverage of 0.9
   std::vector<float> share(depth.size());
   for (std::size_t n = 0; n < share.size(); ++n)
     share[n] = lattice.is_reached(n) ? inside_of(1 - faster * (1 - coverage[n])) : 0;
@@ -216,8 +220,8 @@ std::size_t HeightCorrection::memory() const {
   return lattice_.memory() + sheet_.memory() + bytes(coverage_);
 }
 
-// Returns by how much, in the cells around a node, the heights of points lie above and below the heights
-// interpolated from the lattice.
+// Returns the extent of the differences between the heights of points in the cells around a node and the
+// heights interpolated from the lattice.
 Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace& w) const {
   Lattice::Extent rest{infinity, -infinity};
   lattice_.each_cell(node, [&](std::size_t cell, std::size_t) {
@@ -232,7 +236,7 @@ void HeightCorrection::set_limits(float height, Workspace& w) const {
   std::ranges::copy(w.heights, f.heights.begin());
   sheet_.each_free_node([&](Index n) {
     f.lowest[n] = -infinity, f.highest[n] = infinity;
-    if (!lattice_.is_reached(n)) return;  // in a gap: there are no heights to limit
+    if (!lattice_.is_reached(n)) return;  // no point is near this node, so there are no heights to limit
     const Lattice::Extent rest = rest_around(n, w);
     if (coverage_[n] > limited_coverage) f.lowest[n] = -w.heights[n] - rest.lowest;
     f.highest[n] = height - w.heights[n] - rest.highest;
@@ -248,7 +252,7 @@ void HeightCorrection::fit(std::span<const Real> heights, const HeightLimits& li
   set_limits(height, w);
   solver::Springs springs{static_cast<float>(limits.boundary_stiffness),
                           static_cast<float>(limits.planes) * height};
-  // Wider cells have fewer pairs.
+  // Wider cells contain fewer pairs per area, so each pair is stiffer.
   const auto wider = static_cast<float>(side_ > 0 ? cell_ / (cell_size * side_) : 1);
   springs.order = {largest_step * height, order_stiffness * wider * wider};
   sheet_.solve(springs, w.sheet);
@@ -263,8 +267,9 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   const std::span<Real> z = heights.values;
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
-  // (9) gives 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. Points that stay
-  // below the base are raised to it. They are few, but would take height from all other points.
+  // (9) gives height 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. The few
+  // points that stay below the base are raised to it. Otherwise the scaling below would take their depth from
+  // all other heights.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));

@@ -12,32 +12,35 @@
 
 namespace relievo {
 
-// The limits of corrected heights, and the parameters of the ties at the silhouette.
+// The limits of corrected heights, and the stiffness of the ties at the silhouette.
 struct HeightLimits {
-  double height;                  // > 0: corrected heights lie between 0 and this
-  double boundary_stiffness = 1;  // (0, 1]: how stiffly the field is tied to 0 along the silhouette
-  double planes = 0;              // Shape::planes: the share of the height by which it is kept off the base
+  double height;  // > 0; corrected heights lie between 0 and this height
+  // (0, 1]; stiffness of the ties that pull the field to 0 along the silhouette
+  double boundary_stiffness = 1;
+  // Shape::planes; share of the height by which the field keeps the silhouette above the base
+  double planes = 0;
 
   // Returns the limits for this height and the shape's other parameters.
   static HeightLimits of(double height, const Shape& shape);
 };
 
-// A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Among all such fields, b
-// is close to the field with the least energy, which docs/method.md defines under "The height correction".
+// A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Among all such fields b
+// approximates the one with the least energy (docs/method.md, "The height correction").
 //
-// b is given on a lattice with cells of 0.7 % of the longer side, or wider cells if points are sparse. The
-// limits leave room for the heights between nodes. Near parts are pulled in front of far ones beside them.
-// Along the silhouette b is tied to 0 on the curve itself, and kept from falling below the planes. The
-// lattice continues beyond the silhouette, so that b does not depend
-// on where the silhouette passes between the nodes. Const calls may run concurrently if each has its own
-// workspace. Results are the same bits for any number of threads.
+// b is given at the nodes of a lattice with cells of 0.7 % of the longer side, or wider cells if points are
+// sparse. The limits at the nodes leave room for the heights between them. The energy pulls near parts in
+// front of farther parts beside them (near order). Along the silhouette, ties hold b at 0 and do not let it
+// fall below the planes. The lattice continues beyond the silhouette, so that b does not depend on the
+// position of the silhouette between nodes.
+//
+// Const calls may run concurrently if each has its own workspace. Results are the same bits for any number of
+// threads.
 class HeightCorrection {
  public:
-  // The bending length of b, as a share of the longer side. docs/decisions/height-correction.md gives the
-  // reason for the bending.
+  // The bending length of b, as a share of the longer side (docs/decisions/height-correction.md).
   static constexpr double bending_length = .05;
 
-  // Scratch memory and the field that was found, so that calls allocate nothing.
+  // Scratch memory and the result of fit(), so that calls allocate nothing.
   struct Workspace {
     std::vector<Lattice::Corners> sums;  // per cell
     std::vector<Lattice::Extent> rests;  // per cell
@@ -48,7 +51,7 @@ class HeightCorrection {
     std::size_t memory() const;
   };
 
-  // Copies the data that it needs of the surface.
+  // Copies all data that it needs from the surface.
   explicit HeightCorrection(const Surface& surface);
 
   Workspace make_workspace() const;
@@ -56,9 +59,9 @@ class HeightCorrection {
   // Returns the bytes of memory in use, without workspaces.
   std::size_t memory() const;
 
-  // Finds b for heights, one per point, and keeps it in the workspace. A few points may stay slightly outside
-  // the limits, because b is smooth. If heights are rougher than the limits allow, both limits are exceeded
-  // equally. Instantiated for float and double.
+  // Finds b for heights, one per point, and stores it in the workspace. Because b is smooth, a few points may
+  // stay slightly outside the limits. If the heights around a node span more than the height, both limits are
+  // exceeded equally. Instantiated for float and double.
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 
@@ -67,7 +70,7 @@ class HeightCorrection {
     return lattice_.at(point, workspace.tiles);
   }
 
-  // Heights, one per point, their w_b, and the limits to compress them to.
+  // Heights and w_b, one per point each, and the limits to compress the heights to.
   template <typename Real>
   struct Heights {
     std::span<Real> values;
@@ -76,8 +79,8 @@ class HeightCorrection {
   };
 
   // Adds b to the heights, clips the few highest and lowest heights softly (SoftClip), and scales the result
-  // to exactly the height of the limits, base included. Does nothing if that height is 0 or all heights are
-  // 0. Instantiated for float and double.
+  // to exactly the height of the limits, measured from the base. Does nothing if that height is 0 or all
+  // heights are 0. Instantiated for float and double.
   template <typename Real>
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 

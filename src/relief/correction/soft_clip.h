@@ -1,5 +1,5 @@
-// Soft clipping of the highest and the deepest points of a relief, so that a few of them do not take the
-// height that all others need.
+// Soft clipping of the few highest and deepest points of a relief, which would otherwise use up much of the
+// height.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace relievo {
 
-// A monotone function of the height. It is the identity between two limits; beyond each limit lies a share
-// `clipped_share` of the points. The limits never cross 0, the base. Beyond them the slope falls from 1 to
-// `least_slope` at the extremes.
+// A monotone function of the height. It is the identity between two limits. A share `clipped_share` of the
+// points lies beyond each limit. Beyond a limit the slope falls from 1 to `least_slope` at the extreme
+// height. The base, 0, is never beyond a limit.
 template <typename Real>
 class SoftClip {
  public:
-  // docs/method.md, "The height correction", gives the reason.
+  // For the reason see docs/method.md, "The height correction".
   static constexpr double clipped_share = .002, least_slope = .12;
 
   explicit SoftClip(std::span<const Real> heights) {
@@ -37,7 +37,7 @@ class SoftClip {
     return z < lower_ ? lower_ - bent(lower_ - z, lower_ - lowest_) : z;
   }
 
-  // Returns the span of the clipped heights, base included.
+  // Returns the span of the clipped heights and the base, 0.
   Real span() const { return (*this)(highest_) - (*this)(lowest_); }
 
  private:
@@ -70,7 +70,7 @@ class SoftClip {
         1 << 15);
   }
 
-  // Returns the number of bins, with a fraction, that contain `wanted` points, counted from `begin`.
+  // Returns how many bins from `begin` contain `wanted` points; the last bin counts in part.
   template <typename It>
   static Real bins_from_end(It begin, It end, double wanted) {
     double sum = 0;

@@ -14,12 +14,12 @@ double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return cross(b - a, c - a);
 }
 
-// Finds the triangle at a position by walking there from the last one found.
+// Locates points by walking through the triangles, starting from the last triangle found.
 class Walker {
  public:
   Walker(std::span<const Vec2> points, const Triangulation& mesh) : points_(points), mesh_(mesh) {}
 
-  // Returns a triangle that contains p up to rounding, no_index outside the hull.
+  // Returns a triangle that contains p, up to rounding; no_index if p is outside the hull.
   Index find(const Vec2& p) {
     for (std::size_t step = 0; step < mesh_.triangles.size(); ++step) {
       const int edge = edge_towards(p);
@@ -32,7 +32,7 @@ class Walker {
   }
 
  private:
-  // Returns the edge with p farthest on its outer side; -1 if p is on the inner side of all edges.
+  // Returns the edge that p is farthest outside of; -1 if p is inside of all edges.
   int edge_towards(const Vec2& p) const {
     int found = -1;
     double least = 0;
@@ -72,9 +72,9 @@ std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surfac
   return is_inside;
 }
 
-// Returns which points have height 0: those on the surface's boundary, and those in no inside triangle. A
-// connected component of the mesh may have no such point, because the mesh cuts corners; then the points at
-// its edge have height 0.
+// Returns which points have height 0: points on the surface's boundary, and points in no inside triangle. A
+// connected component of the mesh may have no such point, because the mesh cuts corners. Then the points at
+// the component's edge have height 0.
 std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boundary_points) {
   const std::size_t n = mesh.points.size();
   std::vector<std::uint8_t> is_fixed(n, 0), is_used(n, 0), is_at_edge(n, 0), has_fixed(n, 0);
@@ -94,9 +94,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns, per point, 6 times the area that belongs to the point: a third of each of its triangles inside the
-// relief. Scans have more points per area of the view plane where the surface is steep, so an unweighted mean
-// over points would make slopes too steep.
+// Returns 6 times the area of each point: of a third of each of its triangles inside the relief. Scans have
+// more points per area of the view plane where the surface is steep, so an unweighted mean over points would
+// give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -121,8 +121,8 @@ std::vector<Index> nearest_control_points(const Surface& surface, const ControlP
   return nearest;
 }
 
-// Picks the points at the middles of equal parts of the region's area. Points are in an order in which
-// neighbours follow each other, so the parts are compact.
+// Divides the region into parts of equal area, and picks the point at the middle of each. Neighbouring points
+// follow each other in the order, so the parts are compact.
 void sample(std::span<const Index> region, std::span<const double> share, std::span<Index> samples) {
   double total = 0, sum = 0;
   for (const Index i : region) total += share[i];
@@ -158,7 +158,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // stays if the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // remains if the region has no area
     sample(members[c], share, own);
   }
   return samples;

@@ -1,5 +1,4 @@
-// The triangulation of the control points, in which the triangles inside the relief are marked, and samples
-// of the surface for each control point.
+// The triangulation of the control points, and samples of the surface for each control point.
 #pragma once
 
 #include <span>
@@ -14,17 +13,18 @@ namespace relievo {
 struct ControlMesh {
   std::vector<Vec2> points;
   Triangulation triangulation;
-  Boundary boundary;  // without distances
+  Boundary boundary;  // only is_inside and is_boundary are set
 };
 
-// Returns the mesh of a surface's control points. A triangle is inside if most of its area is covered by
-// inside triangles of the surface, so that holes and concavities stay outside. Boundary points are the
-// control points on the surface's boundary; every connected component has at least one boundary point.
+// Returns the mesh of a surface's control points. A triangle is inside if inside triangles of the surface
+// cover most of its area, so holes and concavities stay outside. The boundary points are the control points
+// on the surface's boundary, and at least one point in each connected component.
 ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control);
 
-// Returns, for each control point in turn, `per_region` points of its region: surface points that are nearer
-// to it than to any other control point. Each stands for an equal part of the region's area in the view
-// plane. If a region has few points, some are repeated; if it has no area, the control point itself is.
+// Returns `per_region` points of each control point's region, region by region. A region contains the surface
+// points that are nearest to its control point. Each sample represents an equal part of the region's area in
+// the view plane. Samples are repeated if the region has fewer points. If it has no area, all samples are the
+// control point.
 std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& control,
                                   std::size_t per_region);
 

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// The points chosen so far, grouped into square cells at least one radius wide.
+// The points chosen so far, grouped into square cells that are at least one radius wide.
 class ChosenPoints {
  public:
   ChosenPoints(std::span<const Vec2> points, double radius) : points_(points) {
@@ -29,8 +29,8 @@ class ChosenPoints {
     first = i;
   }
 
-  // Returns whether a chosen point is nearer to point i than the radius, which must not exceed the
-  // constructor's.
+  // Returns whether a chosen point is nearer to point i than the radius, which must not exceed the radius of
+  // the constructor.
   bool has_within(Index i, double radius) const {
     const std::size_t c = column(i), r = row(i);
     for (std::size_t y = r - (r > 0); y <= std::min(r + 1, rows_ - 1); ++y)
@@ -52,7 +52,7 @@ class ChosenPoints {
   std::vector<Index> first_, next_;  // lists of the points in each cell
 };
 
-// Returns the points in an order from the boundary inwards.
+// Returns the points ordered by distance from the boundary.
 std::vector<Index> inward_order(std::span<const Vec2> points, std::span<const float> boundary_distance) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
@@ -100,7 +100,7 @@ ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const 
   const auto wanted = static_cast<double>(options.count);
   if (points.size() <= options.count || box_area(points) == 0) return best;
 
-  // The number of chosen points times radius^2 hardly depends on the radius, so the second or third guess is
+  // The number of chosen points is nearly proportional to 1 / radius^2, so the second or third guess is
   // within 3 %.
   double radius = std::sqrt(box_area(points) / wanted);
   for (int round = 0; round < 6; ++round) {

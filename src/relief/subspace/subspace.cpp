@@ -17,9 +17,9 @@ namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-// The splines of ratio and offset (see SubspaceModel) have the same lattices. On the finest lattice, cells
-// are at least 3/4 of ControlPoints::radius wide. Each coarser lattice has cells twice as wide as the next
-// finer one. The ratio is fitted on the two coarsest lattices, the offset on the others.
+// The splines of ratio and offset (see SubspaceModel) have the same lattices. The cells of the finest lattice
+// are at least 3/4 of ControlPoints::radius wide. The cells of each coarser lattice are twice as wide as
+// those of the next finer one. The ratio is fitted on the two coarsest lattices, the offset on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {
@@ -53,7 +53,7 @@ struct SubspaceModel::Workspace::Storage {
   HeightSystem::Workspace system;
   WeightTable weight;
   std::vector<Vec2f> slopes;
-  std::vector<float> heights, ratios, offsets;  // of the control points
+  std::vector<float> heights, ratios, offsets;  // at the control points
   SplineFunction ratio, offset;
   std::vector<float> pair;  // the nodes of both splines, interleaved
   MultilevelSpline::Workspace ratio_fit, offset_fit;
@@ -133,7 +133,7 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
     const auto slope_of = [&](std::size_t i) -> Vec2f {
       return style.slope(input, i, storage.weight(samples_.k[i]), boundary_weight[samples_.points[i]]);
     };
-    // The slope of a control point is the mean slope of the samples of its region.
+    // The slope of a control point is the mean slope of its region's samples.
     const auto mean_slope = [&](std::size_t c) {
       Vec2f sum = Vec2f::Zero();
       for (std::size_t i = c * per_point; i < (c + 1) * per_point; ++i) sum += slope_of(i);
@@ -144,8 +144,8 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c, the heights of the control points
 }
 
-// Below a thousandth of the height range the reference height is too small to divide by. There the ratio
-// fades to the ratio of all control points together.
+// The reference height is too small as a divisor below a thousandth of the height range. There the ratio
+// fades to the common ratio of all control points.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, boundary_weight, workspace);
@@ -158,8 +158,8 @@ void SubspaceModel::set_reference(double max_slope, std::span<const float> bound
   }
 }
 
-// The ratio r is fitted with weights z_ref^2 at the control points, so the fit minimises the sum of (z_c - r
-// z_ref)^2.
+// The ratio r = z_c / z_ref is fitted with weights z_ref^2, so the fit minimises the sum of (z_c - r z_ref)^2
+// over the control points.
 void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
   std::vector<float> weights;
   for (const float z_ref : control_reference_) weights.push_back(z_ref * z_ref);

@@ -7,24 +7,27 @@
 namespace relievo {
 namespace {
 
-// A background reaches so much of the image's border, and so much of its contact with the figure is a depth
-// jump. If missing values are more than `most_missing` of what surrounds the figure, they are its background.
+// A background covers at least `least_border` of the image's border, and at least `least_jumps` of its
+// contacts with the figure are depth jumps. If missing values are more than `most_missing` of the figure's
+// contacts, the missing pixels are its background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
-constexpr double least_figure_share = .01;  // of the image; less is specks
-// Outlines may be blurred over so many points. A jump over them is so many times as steep as the figure beside
-// it: a sphere that touches a plane is there about twice as steep as beside it, but no jump.
+constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
+// Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
+// the figure's slope beside it. (Where a sphere touches a plane, the slope is about twice the slope beside
+// it, but there is no jump.)
 constexpr int widest_outline = 12;
 constexpr float steeper = 3;
-// The depths of a figure and of its background may overlap: the background's nearest share of points need not
-// be behind the figure's farther half.
+// The depths of a figure and its background may overlap. This share of the background's points, the nearest
+// ones, may be in front of the median of the figure.
 constexpr double nearest_share = .05;
 
 constexpr int none = -1;
 
-// A part of the image that depth jumps separate from the others.
+// A part of the image, separated from other parts by depth jumps.
 struct Part {
   std::size_t points = 0, border = 0;
-  std::size_t before = 0, behind = 0;  // contacts with parts behind it and with parts before it
+  // Contacts in which this part is in front; contacts in which it is behind.
+  std::size_t before = 0, behind = 0;
   float nearest = -std::numeric_limits<float>::infinity();
 };
 
@@ -40,8 +43,9 @@ class Parts {
     });
   }
 
-  // Returns the grid points of all parts that lie behind their neighbours and touch the border, and of
-  // enclosed parts that lie as far back.
+  // Returns the grid points of the parts that lie behind their neighbours and touch the image's border.
+  // Enclosed parts behind their neighbours are included if they are no nearer to the viewer than the largest
+  // of those parts.
   GridMask rear() const {
     std::vector<std::uint8_t> is_rear(all_.size(), 0);
     float nearest = -std::numeric_limits<float>::infinity();
@@ -60,8 +64,8 @@ class Parts {
   }
 
  private:
-  // Only neighbours with similar heights belong together here. Along slopes that become ever steeper, a blurred
-  // outline would connect the figure with what is behind it.
+  // Only neighbours with similar heights belong to the same part. A criterion that allowed ever steeper
+  // slopes would connect the figure with its background across a blurred outline.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());
@@ -96,11 +100,11 @@ class Parts {
   }
 
   const DepthGrid& grid_;
-  std::vector<int> part_;  // number of the part of each grid point
+  std::vector<int> part_;  // part of each grid point
   std::vector<Part> all_;
 };
 
-// Returns the heights of the known points, in or outside the mask, in ascending order.
+// Returns the heights of the known points inside or outside the mask, in ascending order.
 std::vector<float> sorted_heights(const DepthGrid& grid, const GridMask& mask, bool is_inside) {
   std::vector<float> heights;
   for (std::size_t i = 0; i < mask.size(); ++i)
@@ -109,7 +113,7 @@ std::vector<float> sorted_heights(const DepthGrid& grid, const GridMask& mask, b
   return heights;
 }
 
-// Counts what speaks for a background, and what against it.
+// Counts the evidence for and against a background.
 class Evidence {
  public:
   Evidence(const DepthGrid& grid, const GridMask& is_rear) : grid_(grid), is_rear_(is_rear) {
@@ -127,7 +131,8 @@ class Evidence {
  private:
   bool is_figure(std::size_t i) const { return grid_.bounds.is_known[i] && !is_rear_[i]; }
 
-  // Looks at a point of the figure whose neighbour against the direction `inwards` is another point.
+  // Counts the contact between grid point i, if it belongs to the figure, and its neighbour opposite to
+  // `inwards`.
   void look(const GridLine& line, int i, int inwards) {
     const std::size_t beside = line.at(i - inwards);
     if (!is_figure(line.at(i))) return;
@@ -137,8 +142,8 @@ class Evidence {
     jumps_ += is_jump(line, i, inwards);
   }
 
-  // Returns whether from the background up to some point of the figure the heights rise several times as
-  // steeply as beyond it.
+  // Returns whether the heights between the background and some point of the figure rise several times as
+  // steeply as behind that point.
   bool is_jump(const GridLine& line, int i, int inwards) const {
     const float ground = grid_.height[line.at(i - inwards)];
     for (int k = 1; k <= widest_outline; ++k, i += inwards) {
@@ -166,15 +171,15 @@ class Evidence {
   double border_ = 0, rear_border_ = 0, contacts_ = 0, jumps_ = 0, missing_ = 0;
 };
 
-// Returns the grid points behind the depth that best separates two groups of depths, or none if the groups are
-// not distinct or the far one covers little of the border.
+// Returns the grid points behind the threshold that best separates two groups of depths. Returns none if the
+// groups are not distinct, or if the far group covers little of the border.
 GridMask far_group(const DepthGrid& grid) {
   const BoundedGrid& b = grid.bounds;
   GridMask is_far(grid.height.size(), 0);
   const std::vector<float> heights = sorted_heights(grid, is_far, false);
   if (heights.size() < 16) return is_far;
-  // Otsu's method: the threshold that leaves the least variance within both groups, hence the most between
-  // them.
+  // Otsu's method: the threshold with the largest variance between the groups, hence the least variance
+  // within them.
   double sum = 0, total = 0, total_sq = 0;
   for (const float h : heights) total += double{h}, total_sq += double{h} * double{h};
   const auto n = static_cast<double>(heights.size());
@@ -187,7 +192,7 @@ GridMask far_group(const DepthGrid& grid) {
     if (between > best && heights[i] > heights[i - 1]) best = between, split = i;
   }
   const double variance = total_sq / n - total / n * (total / n);
-  // Less than 70 % of the variance between the groups means that there is no clear gap.
+  // With less than 70 % of the variance between the groups, there is no clear gap.
   if (split == 0 || best < .7 * variance) return is_far;
   const float threshold = (heights[split] + heights[split - 1]) / 2;
   std::size_t border = 0, far_border = 0;
@@ -198,7 +203,7 @@ GridMask far_group(const DepthGrid& grid) {
   };
   for (int c = 0; c < b.width; ++c) look(c, 0), look(c, b.height - 1);
   for (int r = 0; r < b.height; ++r) look(0, r), look(b.width - 1, r);
-  // A background covers at least 60 % of the border; otherwise the front extends beyond the image.
+  // A background covers at least 60 % of the border; otherwise the figure extends beyond the image.
   if (10 * far_border < 6 * border) return is_far;
   for (std::size_t i = 0; i < grid.height.size(); ++i)
     is_far[i] = b.is_known[i] && grid.height[i] < threshold;

@@ -1,4 +1,4 @@
-// Finds the blur of a depth image: values between two levels, which belong to neither. Tested by
+// Finds the blur of a depth image: values between two surfaces, which belong to neither of them. Tested by
 // tests/scan/depth_image_test.cpp.
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@ namespace relievo {
 namespace {
 
 constexpr float least_jump =
-    8;  // least distance between two levels that have blur between them, in grid points
+    8;  // least height difference of two surfaces with blur between them, in grid points
 
-// Returns whether one point of a run, of the steps from `first` to `last`, has a level of its own: the step
-// to its neighbour in the run is small beside the steps around both.
+// Returns whether a run of the steps from `first` to `last` contains a surface of its own: a step that is
+// small compared with the steps before and after it.
 bool has_plateau(const GridLine& line, int first, int last) {
   for (int s = first + 1; s < last; ++s) {
     const float around = std::min(std::abs(line.step(s - 1)), std::abs(line.step(s + 1)));
@@ -40,8 +40,8 @@ class BlurFinder {
     return line.has_step(i) && !grid_.is_near(line.at(i), line.at(i + 1));
   }
 
-  // Returns whether the step is a jump away from the surface on the side of the step `next`. The noise of depth
-  // cameras hides whether it continues that surface's slope.
+  // Returns whether the step i is a jump away from the surface on the side of step `next`. For depth cameras
+  // the surface's slope is ignored, because noise hides it.
   bool leaves(const GridLine& line, int i, int next) const {
     return is_jump(line, i) && (grid_.is_sensor || !line.continues(i, next));
   }
@@ -51,7 +51,7 @@ class BlurFinder {
       if (leaves(line, i, i - 1)) mark_run_from(line, i);
   }
 
-  // Marks the shortest run that begins after the jump `first`.
+  // Marks the points of the shortest run that begins with the jump `first`.
   void mark_run_from(const GridLine& line, int first) {
     float whole = line.step(first);
     for (int last = first + 1; last <= first + widest_ && line.step(last) * whole > 0; ++last) {
@@ -63,8 +63,8 @@ class BlurFinder {
     }
   }
 
-  // Unmarks the points that continue a surface in this direction: the other direction alone made them look
-  // blurred, as it does at the tips of round shapes.
+  // Unmarks the points that continue a surface in the direction of this line. They looked blurred only in the
+  // other direction, which happens at the tips of round shapes.
   void keep_surface(const GridLine& line, GridMask& is_blurred) const {
     for (int i = 0; i + 1 < line.size; ++i) {
       const std::size_t here = line.at(i), next = line.at(i + 1);

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns the mean of the differences to the joined neighbours on both sides; 0 if there are none.
+// Returns the mean of the differences to the connected neighbours on both sides; 0 if there are none.
 float slope_between(float before, float here, float after, bool joins_before, bool joins_after) {
   const float sum = (joins_before ? here - before : 0) + (joins_after ? after - here : 0);
   return joins_before && joins_after ? sum / 2 : sum;
@@ -24,7 +24,7 @@ Vec3f normal_at(const BoundedGrid& b, const std::vector<float>& z, int c, int r)
   return Vec3f(-dx, dy, 1).normalized();  // rows go down, y goes up
 }
 
-// Gives pixels, which are 1 wide and high, another width and height.
+// Scales a cloud of pixels with sides of 1 to the given width and height of a pixel.
 void scale_pixels(Cloud& cloud, const Vec2& shape) {
   if (shape == Vec2::Ones()) return;
   for (Vec3& p : cloud.points) p.head<2>() = p.head<2>().cwiseProduct(shape);
@@ -48,7 +48,7 @@ Cloud points_of(const DepthGrid& grid, const std::vector<float>& z) {
   return cloud;
 }
 
-// Counts the values that are no depths, and those of them that could be.
+// Counts the values that are not depths, and how many of them could be depths.
 void count_missing(const DepthImage& image, const ValueRange& valid, DepthValues kind, DepthCloud& out) {
   for (const float v : image.values.pixels) {
     if (valid.contains(v)) continue;
@@ -65,16 +65,16 @@ bool is_background_sought(const DepthOptions& options) {
   return !options.camera && options.values != DepthValues::height;
 }
 
-// Returns the limits within which blur is sought; nothing if it is kept.
+// Returns the limits of the search for blur; nothing if blur is kept.
 std::optional<BlurLimits> blur_limits(const DepthGrid& grid, const DepthOptions& options) {
-  // The walls of shallow letters are no blur, so that its levels differ by a part of all depths.
+  // The walls of shallow letters are not blur, so `narrow` requires a difference of a tenth of all depths.
   constexpr BlurLimits narrow{3, .1F}, wide{12, 0};
   const bool is_kept = options.blur == Removal::automatic ? grid.is_terrain : options.blur == Removal::keep;
   if (is_kept) return std::nullopt;
   return options.blur == Removal::drop || grid.is_sensor ? wide : narrow;
 }
 
-// Notes that the points of the mask which are kept so far are removed.
+// Stores the reason for removing points: those in the mask that were kept until now.
 void note(const GridMask& is_left_out, PixelUse reason, Image<PixelUse>& uses) {
   for (std::size_t i = 0; i < is_left_out.size(); ++i)
     if (is_left_out[i] && uses[i] == PixelUse::kept) uses[i] = reason;
@@ -87,7 +87,7 @@ Image<PixelUse> uses_of(const BoundedGrid& grid) {
   return uses;
 }
 
-// Returns the grid without background and blur, whose range of depths is that of what is left.
+// Returns the grid without background and blur. Its range of depths is computed from the remaining values.
 DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCloud& out) {
   DepthGrid grid = maker.make({});
   out.uses = uses_of(grid.bounds);
@@ -96,7 +96,7 @@ DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCl
   out.background = static_cast<std::size_t>(std::ranges::count(is_left_out, 1));
   note(is_left_out, PixelUse::background, out.uses);
   if (out.background > 0) grid = maker.make(is_left_out);
-  // With blur a part of the range goes, and then slighter blur shows.
+  // Removing blur reduces the range of depths, which reveals weaker blur, so the search is repeated.
   const std::optional<BlurLimits> limits = blur_limits(grid, options);
   while (const std::size_t added = limits ? add_blur(grid, *limits, is_left_out) : 0) {
     out.blur += added;

@@ -11,16 +11,16 @@
 namespace relievo {
 namespace {
 
-// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper slopes are more often jumps.
+// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper slopes are usually jumps.
 constexpr float steepest = 4;
-// Noise grows with depth, so it is measured separately in this many equal parts of the pixels, sorted by
-// depth.
+// Noise grows with depth. So the pixels are sorted by depth and divided into this many equal bins, and the
+// noise of each is measured separately.
 constexpr std::size_t noise_bins = 8;
 
-// The standard deviation of the heights' noise, by depth. It is measured by the twist a - b - c + d of 2 x 2
-// blocks, which is 0 on planes and nearly 0 on curved surfaces without noise.
+// The standard deviation of the heights' noise, by depth. It is measured from the twist a - b - c + d of 2 x
+// 2 blocks, which without noise is 0 on planes and nearly 0 on curved surfaces.
 struct Noise {
-  std::array<float, noise_bins> limit;  // highest height of each bin
+  std::array<float, noise_bins> limit;  // largest height of each bin
   std::array<float, noise_bins> sigma;
 
   float at(float height) const {
@@ -58,8 +58,8 @@ Noise measure_noise(const DepthGrid& grid) {
   return noise;
 }
 
-// Extends the bounds of every grid point to the median around it, because single values of a depth camera may
-// be far off.
+// Extends the bounds of each grid point to include the median of its neighbourhood, because single values of
+// a depth camera may be far off.
 void allow_specks(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
   for (int r = 1; r + 1 < b.height; ++r)
@@ -92,8 +92,8 @@ void allow_noise(DepthGrid& grid) {
   grid.noise = double{median(open)};
 }
 
-// The mean of a square block of pixels, which becomes one grid point. Only pixels near the median count, so
-// that a block on an outline represents one of its two sides and not their mean.
+// The mean of a square block of pixels, which becomes one grid point. Only pixels close to the median count,
+// so a block on an outline represents one of both sides instead of their mean.
 struct Block {
   float height = 0, low = 0, high = 0;
 };
@@ -125,7 +125,7 @@ GridMaker::GridMaker(const DepthImage& image, const DepthOptions& options)
       valid_(valid_values(image, options.values)),
       reduction_(reduction_for(image, options.points)) {}
 
-// Returns whether the pixel's value is a depth of a grid point that is not in the mask.
+// Returns whether the pixel's value is a depth and its grid point is not in the mask.
 bool GridMaker::counts(int x, int y, const GridMask& is_left_out) const {
   const int columns = image_.values.width / reduction_, rows = image_.values.height / reduction_;
   if (!valid_.contains(image_.values.at(x, y))) return false;
@@ -135,7 +135,7 @@ bool GridMaker::counts(int x, int y, const GridMask& is_left_out) const {
                       static_cast<std::size_t>(c)];
 }
 
-// Returns the image with only the values that count.
+// Returns the image with only the values that count; the others are missing.
 DepthImage GridMaker::counted(const GridMask& is_left_out) const {
   DepthImage image = image_;
   for (int y = 0; y < image.values.height; ++y)
@@ -187,9 +187,8 @@ DepthGrid GridMaker::make(const GridMask& is_left_out) const {
 }
 
 bool DepthGrid::is_near(std::size_t i, std::size_t j) const {
-  // A difference is a jump if the neighbours' bounds do not explain it. The bounds of depth cameras are
-  // several times as wide as the differences on a surface, so there a smaller part of the bounds is the
-  // limit.
+  // A height difference is a jump if the bounds of both points do not explain it. The bounds of depth cameras
+  // are several times as wide as differences within a surface, so for them only a part of the bounds is used.
   const float jump = is_sensor ? .45F : 1.8F;
   const float open = (bounds.high[i] - bounds.low[i]) + (bounds.high[j] - bounds.low[j]);
   return std::abs(height[i] - height[j]) <= std::max(steepest, jump * open);
@@ -204,7 +203,7 @@ bool GridLine::continues(int i, int next) const {
 bool GridLine::is_smooth(int i) const {
   if (!has_step(i)) return false;
   if (grid.is_near(at(i), at(i + 1))) return true;
-  // The noise of depth cameras would make slopes of jumps.
+  // With the noise of depth cameras, jumps could seem to continue a slope.
   return !grid.is_sensor && (continues(i, i - 1) || continues(i, i + 1));
 }
 

@@ -1,5 +1,5 @@
-// A depth image as a grid of heights, before the heights become points: each has bounds, between which it can
-// be smoothed. Tested by tests/scan/depth_image_test.cpp.
+// A depth image as a grid of heights, before it becomes points. Each height has bounds within which it may be
+// smoothed. Tested by tests/scan/depth_image_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -10,42 +10,45 @@
 
 namespace relievo {
 
-// A row-major grid. Bounds count only where `is_known` is set, connections only between two known points.
+// A row-major grid. Bounds are valid only where `is_known` is set, connections only between two known points.
 struct BoundedGrid {
   int width = 0, height = 0;
   std::vector<float> low, high;
   std::vector<std::uint8_t> is_known;
-  std::vector<std::uint8_t> joins_right, joins_down;  // no depth jump between this point and that neighbour
+  // Whether no depth jump separates the point from its right or lower neighbour.
+  std::vector<std::uint8_t> joins_right, joins_down;
 
   std::size_t at(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   }
 };
 
-// Returns the smoothest heights with low <= z <= high at all known points, 0 at unknown ones. Smoothest means
-// that the sum of squared second differences (along rows, along columns, and twice the mixed one), over
-// joined points, is nearly minimal. Solves from coarse to fine grids in linear time: 2 s for a million points
-// on two cores.
+// Returns the smoothest heights with low <= z <= high at all known points, and 0 at unknown points. Smoothest
+// means: the sum over connected points of the squared second differences (along rows, along columns, and
+// twice the mixed one) is nearly minimal. Solves from coarse to fine grids in linear time: 2 s for a million
+// points on two cores.
 std::vector<float> smoothest(const BoundedGrid& grid);
 
-// Heights towards the viewer, in pixels of the reduced grid, each with an interval that contains it.
+// Heights towards the viewer, in pixels of the reduced grid.
 struct DepthGrid {
-  BoundedGrid bounds;          // the intervals in which the heights lie
+  BoundedGrid bounds;          // an interval around each height
   std::vector<float> height;   // heights of known grid points
-  double units_per_value = 0;  // see Cloud
+  double units_per_value = 0;  // as in Cloud
   double noise = 0;
-  bool is_sensor = false;   // the steps of the values are coarser than the file's, as from depth cameras
-  bool is_terrain = false;  // heights of one surface, whose steepest parts are walls and no depth jumps
+  // Whether the image is from a depth camera: its values have coarser steps than the file allows.
+  bool is_sensor = false;
+  // Whether it is terrain: one surface, whose steepest parts are walls instead of depth jumps.
+  bool is_terrain = false;
 
-  // Returns whether the heights of two known neighbours differ by less than 76 degrees, or by no more than
-  // their bounds explain.
+  // Returns whether two known neighbours belong to one surface: the slope between them is below 76 degrees,
+  // or their bounds explain the difference.
   bool is_near(std::size_t i, std::size_t j) const;
 };
 
 // A mask of grid points.
 using GridMask = std::vector<std::uint8_t>;
 
-// Makes grids of an image, reduced to about options.points grid points.
+// Makes grids of an image, reduced to about options.points points.
 class GridMaker {
  public:
   GridMaker(const DepthImage& image, const DepthOptions& options);
@@ -53,9 +56,9 @@ class GridMaker {
   int reduction() const { return reduction_; }
   const ValueRange& valid() const { return valid_; }
 
-  // Returns the grid. The bounds account for the step of the values and the noise. The grid points of the
-  // mask, none if it is empty, are in the grid, but do not count for the range of depths and for the steps.
-  // No grid points are joined yet.
+  // Returns the grid, without connections yet. The bounds account for noise and for the step of the values.
+  // `is_left_out` is a mask or empty. Its points are in the grid, but do not count for the range of depths
+  // and for the steps.
   DepthGrid make(const GridMask& is_left_out) const;
 
  private:
@@ -68,8 +71,8 @@ class GridMaker {
   int reduction_;
 };
 
-// A row or a column of a grid. Its grid points have the numbers from 0 to size - 1; between the points i and
-// i + 1 lies the step i.
+// A row or a column of a grid. Its points are numbered from 0 to size - 1; step i is between points i and i +
+// 1.
 struct GridLine {
   const DepthGrid& grid;
   std::size_t first, stride;
@@ -80,10 +83,10 @@ struct GridLine {
     return i >= 0 && i + 1 < size && grid.bounds.is_known[at(i)] && grid.bounds.is_known[at(i + 1)];
   }
   float step(int i) const { return has_step(i) ? grid.height[at(i + 1)] - grid.height[at(i)] : 0; }
-  // Returns whether the step i continues the slope of the step `next`, which lies before or after it. The last
-  // step of a round side is steeper than the one before, on a sphere by up to 2.4 times.
+  // Returns whether step i continues the slope of step `next`, the step before or after it. The last step of
+  // a round side is steeper than the one before it; on a sphere up to 2.4 times.
   bool continues(int i, int next) const;
-  // Returns whether the points i and i + 1 are known and the step between them is no jump.
+  // Returns whether the points i and i + 1 are known and belong to one surface.
   bool is_smooth(int i) const;
 };
 
@@ -97,26 +100,27 @@ void each_line(const DepthGrid& grid, F&& f) {
   for (int c = 0; c < grid.bounds.width; ++c) f(column_of(grid, c));
 }
 
-// Joins neighbouring grid points unless there is a depth jump between them, which terrain does not have.
+// Connects neighbouring grid points unless there is a depth jump between them. Terrain has no depth jumps.
 void join(DepthGrid& grid);
 
-// Returns a mask of the background: what lies behind a depth jump all around the figure and reaches most of
-// the image's border. Without strong evidence it is empty, or if `is_wanted` the grid points behind the depth
-// that best separates two groups of depths, of which the far one covers most of the border.
+// Returns a mask of the background: parts behind depth jumps all around the figure that cover most of the
+// image's border. Without strong evidence the mask is empty. In that case, if `is_wanted`, it has the points
+// behind the threshold that best separates two groups of depths, provided that the far group covers most of
+// the border.
 GridMask find_background(const DepthGrid& grid, bool is_wanted);
 
 struct BlurLimits {
-  int widest = 0;         // number of blurred points beside each other
-  float least_share = 0;  // least distance between the two levels, as a share of all depths
+  int widest = 0;         // largest number of adjacent blurred points
+  float least_share = 0;  // least height difference between the two surfaces, as a share of all depths
 };
 
-// Makes unknown what is thinner than 3 grid points, such as the teeth of a depth camera's outlines: a known point
-// stays if a square of 3 x 3 known points contains it, of which those beyond the grid count as known. Returns the
-// number of points that became unknown.
+// Makes structures unknown that are thinner than 3 grid points, such as the teeth on outlines of depth
+// cameras. A point stays known if a square of 3 x 3 known points contains it; positions outside the grid
+// count as known. Returns the number of points that became unknown.
 std::size_t drop_teeth(BoundedGrid& grid);
 
-// Adds to the mask the grid points between two levels which continue neither, as blurred outlines have, in
-// rows and columns. Returns the number of points that were added.
+// Adds to the mask the grid points that are blur in a row or a column: points between two surfaces that
+// continue neither of them. Returns the number of added points.
 std::size_t add_blur(const DepthGrid& grid, const BlurLimits& limits, GridMask& is_left_out);
 
 }  // namespace relievo

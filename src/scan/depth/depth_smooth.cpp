@@ -9,13 +9,13 @@
 namespace relievo {
 namespace {
 
-constexpr int smallest_side = 8;  // no grid is narrower than this
-constexpr int steps = 150;        // steps of descent on each grid; the coarser grid provides the long waves
+constexpr int smallest_side = 8;  // least width and height of a grid
+constexpr int steps = 150;        // steps of descent on each grid; coarser grids solve for the long waves
 constexpr float step_size =
-    1 / 64.F;  // converges: smaller than 2 / 64, where 64 is the largest eigenvalue of the bending energy
+    1 / 64.F;  // below 2 / 64, the limit of convergence; 64 is the largest eigenvalue of the bending energy
 constexpr std::size_t rows_per_task = 16;
 
-// Returns a grid half as wide and high, in which each point represents up to four.
+// Returns a grid with half the width and height. A point represents up to four points of the fine grid.
 BoundedGrid halved(const BoundedGrid& fine) {
   BoundedGrid half{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}, {}, {}, {}};
   const std::size_t n = half.at(0, half.height);
@@ -37,8 +37,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
       if (known == 0) continue;
       half.low[i] /= known, half.high[i] /= known;
       half.is_known[i] = 1;
-      // Two coarse points are joined only if both pairs of fine neighbours across their border are joined, so
-      // that no grid smooths over a jump.
+      // Two coarse points are connected only if both pairs of fine neighbours between them are connected, so
+      // that no grid smooths a jump.
       half.joins_right[i] = joins(fine.joins_right, 2 * c + 1, 2 * r) &&
                             (2 * r + 1 >= fine.height || joins(fine.joins_right, 2 * c + 1, 2 * r + 1));
       half.joins_down[i] = joins(fine.joins_down, 2 * c, 2 * r + 1) &&
@@ -47,8 +47,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
   return half;
 }
 
-// Returns coarse heights interpolated at the points of the fine grid, linearly between joined points, clamped
-// to the bounds.
+// Returns coarse heights, interpolated linearly between connected points at the points of the fine grid, and
+// clamped to the bounds.
 std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, const std::vector<float>& z) {
   std::vector<float> out(fine.low.size(), 0);
   parallel_for(
@@ -59,8 +59,7 @@ std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, con
           const std::size_t i = fine.at(c, r);
           if (!fine.is_known[i]) continue;
           const std::size_t own = half.at(c / 2, r / 2);
-          // A fine point lies a quarter of the way from its own coarse point to the next coarse point on its
-          // side.
+          // A fine point lies a quarter of the way from its own coarse point to a neighbouring coarse point.
           float value = z[own];
           const int dx = c % 2 ? 1 : -1, dy = r % 2 ? 1 : -1;
           const std::size_t left = dx > 0 ? own : own - 1,
@@ -118,8 +117,8 @@ class Descent {
         rows_per_task);
   }
 
-  // Computes the second differences. They are 0 where a neighbour is missing or beyond a jump, so that the
-  // edge of a surface is free.
+  // Computes the second differences. They are 0 where a neighbour is missing or beyond a jump, which leaves
+  // the edge of a surface free.
   void find_bends(const std::vector<float>& z) {
     const auto& right = grid_.joins_right;
     const auto& down = grid_.joins_down;
@@ -131,7 +130,8 @@ class Descent {
     });
   }
 
-  // Returns half the derivative of the energy along^2 + down^2 + 2 twist^2 by the height of one point.
+  // Returns half the derivative of the energy along^2 + down^2 + 2 twist^2 with respect to the height of one
+  // point.
   float slope_at(int c, int r, std::size_t k) const {
     float sum = -2 * (along_[k] + down_[k]) + 2 * twist_[k];
     if (c > 0) sum += along_[k - 1] - 2 * twist_[k - 1];

@@ -1,4 +1,4 @@
-// Takes thin teeth off the outlines of depth images.
+// Removes thin teeth from the outlines of depth images.
 #include <algorithm>
 
 #include "scan/depth/depth_grid.h"
@@ -6,10 +6,10 @@
 namespace relievo {
 namespace {
 
-// Teeth are narrower than a square of this reach around its middle, 3 x 3 points.
+// Teeth are narrower than a square with this reach around its centre: 3 x 3 points.
 constexpr int reach = 1;
 
-// Calls f for the points of the square around a point, as far as they are in the grid, until it returns true.
+// Calls f for the points of the square around a point that are in the grid, until f returns true.
 template <typename F>
 bool any_around(const BoundedGrid& grid, int column, int row, F&& f) {
   for (int r = std::max(row - reach, 0); r <= std::min(row + reach, grid.height - 1); ++r)

@@ -11,18 +11,18 @@ namespace relievo {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// The least inverse depth, as a share of the largest. Smaller values are raised to it, because estimators
-// return nearly 0 for the sky, whose depth would be unlimited. So no depth is more than 20 times the smallest
+// The least inverse depth, as a share of the largest. Estimators return nearly 0 for the sky, whose depth
+// would be unlimited. So smaller values are raised to this share, and no depth exceeds 20 times the smallest
 // depth.
 constexpr double farthest_inverse = .05;
-// Of depths as fractions, those more than this many times as far as the nearest ones are a renderer's way to
-// write that a ray hits nothing, such as 1e10, or a mixture of such a value with the outline's depth.
+// Depths (as floating-point numbers) that are more than this many times the nearest ones are not depths.
+// Renderers write values such as 1e10 where a ray hits nothing, and mix them with depths along outlines.
 constexpr double farthest_depth = 1e5;
-// A far value that no type or custom explains is a marker only if the gap before it is this many times the
-// range of all other depths.
+// A far value that is neither the type's largest value nor a usual marker counts as missing only if its
+// distance from all other depths is this many times their range.
 constexpr double widest_gap = 100;
 
-// The extreme values and those next to them.
+// The two lowest and the two highest values.
 struct Extremes {
   double lowest = infinite, second = infinite, last_but_one = -infinite, highest = -infinite;
 
@@ -43,19 +43,19 @@ Extremes extremes_of(const DepthImage& image, const ValueRange& valid) {
   return found;
 }
 
-// Returns whether a value is the largest one of whole numbers of 8 to 32 bits, signed or not.
+// Returns whether `v` is the largest value of an integer type with 8 to 32 bits, signed or unsigned.
 bool is_largest_of_type(double v) {
   constexpr std::array largest = {255., 4095., 32767., 65535., 2147483648., 4294967296.};
   return std::ranges::find(largest, v) != largest.end();
 }
 
-// Returns whether terrain models use the value where the height is unknown.
+// Returns whether terrain models use this value for unknown heights.
 bool is_unknown_height(double v) {
   constexpr std::array usual = {-9999., -99999., -32767., -32768., -2147483648.};
   return std::ranges::find(usual, v) != usual.end();
 }
 
-// Returns a depth that about 1 % of all pixels are nearer than.
+// Returns a depth that exceeds about 1 % of all depths.
 double nearest_depth(const DepthImage& image) {
   std::vector<float> depths;
   for (const float v : image.values.pixels)
@@ -75,11 +75,12 @@ double share_of_border(const Image<float>& values, double value) {
   return found / all;
 }
 
-// Returns whether the highest value stands for a missing depth.
+// Returns whether the highest value marks missing depths.
 bool is_marker(const Extremes& it, const DepthImage& image, DepthValues kind) {
   const double range = it.range_below_highest(), gap = it.gap_below_highest();
   if (!(range > 0)) return false;
-  // Of inverse depths it is the nearest. What is nearest does not surround all else at one single depth.
+  // An inverse depth this high is the nearest one. But nothing that is nearest surrounds everything else at
+  // one constant depth, so such a value is a marker.
   const bool is_around =
       kind == DepthValues::inverse && gap > .1 * range && share_of_border(image.values, it.highest) > .5;
   if (is_largest_of_type(it.highest) && (gap > range || is_around)) return true;
@@ -104,7 +105,7 @@ ValueRange valid_values(const DepthImage& image, DepthValues kind) {
   if (is_depth && image.step == 0) valid.high = farthest_depth * nearest_depth(image);
   const Extremes found = extremes_of(image, valid);
   if ((is_depth || is_inverse) && is_marker(found, image, kind)) valid.high = found.last_but_one;
-  // An inverse depth of 0 is infinitely far. It is kept where values lead up to it, as in a sky.
+  // An inverse depth of 0 is infinitely far. It is kept if other values are close to it, as in a sky.
   if (is_inverse && found.lowest == 0 &&
       found.second > farthest_inverse * std::min(found.highest, valid.high))
     valid.low = found.second;
@@ -119,22 +120,22 @@ HeightScale::HeightScale(const DepthImage& image, const DepthOptions& options, c
   const bool is_inverse = options.values == DepthValues::inverse;
   is_log_ = options.camera.has_value() || is_inverse;
   floor_ = is_inverse ? std::max(farthest_inverse * range.high, 1e-30) : 1e-30;
-  // The camera of an estimator's image is not known. Most cameras have a field of view of about 50 degrees,
-  // for which the focal length is 1.1 times the image's longer side.
+  // The camera of an estimated depth image is unknown. Most cameras have a field of view of about 50 degrees,
+  // whose focal length is 1.1 times the image's longer side.
   const double focal = options.camera ? std::sqrt(options.camera->fx * options.camera->fy) : 1.1 * longer;
   scale_ = is_log_ ? focal : range.high > range.low ? options.range * longer / (range.high - range.low) : 1;
   if (options.values == DepthValues::depth) scale_ = -scale_;
 }
 
 // The uncertainty of a depth camera's values, in distances between neighbouring values of the image. Such
-// cameras write millimetres, but at large depths only about every tenth millimetre occurs. Noise then decides
-// which of the two nearest values is written, so the uncertainty is more than half of their distance.
+// cameras write millimetres, but at large depths use only about every tenth value. Noise decides which of the
+// two nearest values is used, so the uncertainty exceeds half of their distance.
 constexpr double sensor_steps = 1.5;
 
 ValueSteps::ValueSteps(const DepthImage& image) : least_(image.step / 2) {
   if (image.step == 0) return;
-  // Depth cameras write each value many times. In other images few pixels share a value by chance, and the gaps
-  // between such values are no steps.
+  // Depth cameras repeat each value many times. In other images few pixels have equal values, by chance, and
+  // differences between such values are not steps.
   constexpr std::size_t least_pixels_per_value = 32;
   std::map<float, std::size_t> counts;
   std::size_t pixels = 0;

@@ -9,8 +9,8 @@
 namespace relievo {
 namespace {
 
-// Returns the image reduced to about that number of points: the means of square blocks, without missing
-// values. A block without any value is NaN.
+// Returns the image reduced to about `points` pixels by averaging square blocks. Missing values are ignored;
+// blocks without any value are NaN.
 Image<float> reduced(const Image<float>& values, double points) {
   const double pixels = static_cast<double>(values.width) * values.height;
   const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(pixels / points))));
@@ -27,8 +27,8 @@ Image<float> reduced(const Image<float>& values, double points) {
   return means;
 }
 
-// Appends points at half a pixel around the picture, so that the picture is as wide as all of its pixels and
-// the outermost of them keep their brightness: a lithophane is dark along its outline.
+// Adds points half a pixel outside the outermost pixels, so that the cloud has the full width of the picture.
+// The outermost pixels then keep their brightness, because a lithophane is dark along its outline.
 void add_frame(const Image<float>& values, Cloud& cloud) {
   const double x = values.width / 2.0, y = values.height / 2.0;
   const auto add = [&](double at_x, double at_y) { cloud.points.emplace_back(at_x, at_y, 0); };

@@ -29,31 +29,31 @@ struct PointGroup {
   }
 };
 
-constexpr std::size_t most_repeats = 64;    // largest number of repeats of one point
-constexpr std::size_t points_judged = 400;  // points judged, taken evenly from the whole cloud
-// Randomly scattered points, too, may have a gap as wide as that around repeats; this share of them has one.
+constexpr std::size_t most_repeats = 64;    // most points that are searched for repeats of one point
+constexpr std::size_t points_judged = 400;  // number of tested points, evenly distributed over the cloud
+// By chance, this share of randomly scattered points also has a gap as wide as the gap around repeats.
 constexpr double gap_by_chance = .002;
-// Marching cubes put two or three vertices close together that do not repeat each other. At a fifth of the
-// places such vertices are nearer than a tenth of the distance to other vertices, at a fiftieth nearer than a
-// hundredth.
+// Marching cubes places two or three vertices close together that do not repeat each other. At a fifth of
+// such positions these vertices are nearer to each other than a tenth of the distance to other vertices, at a
+// fiftieth nearer than a hundredth.
 constexpr std::size_t most_by_nature = 3;
-constexpr double near_share = .1, sure_share = .01;  // shares of the distance to other points
+constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
 constexpr double least_sure = .05,
-                 least_near = .4;  // least shares of such points in a cloud with repeats
-// Points are merged within three times a distance that three quarters of the repeats do not exceed, but at
-// most within a quarter of the distance to other points. The last quarter of the repeats is not used, because
-// chance gaps around points of several places may be among them.
+                 least_near = .4;  // shares of the tested points; clouds with repeats have at least as many
+// Points are merged within three times the distance that three quarters of the repeats do not exceed, but at
+// most within a quarter of the distance to other points. The last quarter of the repeats is ignored, because
+// it may contain gaps by chance around points of several positions.
 constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
-// The distances from a point to the farthest point that repeats it, and to the nearest one that does not.
+// The distances from a point to its farthest repeat, and to the nearest point that is not a repeat.
 struct Gap {
   double repeat = 0, other = 0;
   bool is_sure = false;
 };
 
-// Returns the first wide gap in the distances to the nearest points. Later gaps may be there by chance,
-// because a search among repeats finds many points but few places. Of points scattered over a surface, the
-// m-th is nearer than a share s of the distance to the next one with probability s^(2 m).
+// Returns the first wide gap in the distances to the nearest points. Later gaps may be due to chance, because
+// among repeats a search finds many points at few positions. For points scattered on a surface, the distance
+// to the m-th is less than s times the distance to the next one with probability s^(2 m).
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
@@ -71,7 +71,7 @@ std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   return std::nullopt;
 }
 
-// Returns the distance within which points are to be merged; nothing if hardly any points repeat others.
+// Returns the distance within which points are to be merged; nothing if hardly any points are repeated.
 std::optional<double> merging_distance(const Cloud& cloud, const KdTree<Vec3>& tree) {
   const std::size_t judged = std::min(points_judged, cloud.size());
   std::vector<std::optional<Gap>> gaps(judged);
@@ -93,12 +93,12 @@ std::optional<double> merging_distance(const Cloud& cloud, const KdTree<Vec3>& t
                     most_of_gap * other);
 }
 
-// Adds to a cloud one point for each set of points that repeat each other.
+// Adds to a cloud one point for each set of repeats.
 class Merging {
  public:
   Merging(const Cloud& cloud, Cloud& to) : cloud_(cloud), to_(to), is_merged_(cloud.size(), 0) {}
 
-  // Adds one point for point i, which is not merged yet, and for all later points of `around` that repeat it.
+  // Adds one point for point i, which must not be merged yet, and for its later repeats in `around`.
   void add(Index i, std::span<const KdTree<Vec3>::Match> around) {
     PointGroup group;
     group.add(cloud_, i);
@@ -110,7 +110,7 @@ class Merging {
       has_one_normal = has_one_normal && (!cloud_.has_normals() || cloud_.normals[i] == cloud_.normals[j]);
     }
     to_.points.push_back(cloud_.points[i]);
-    // Rounding would make the mean of equal normals differ from these normals.
+    // The mean of equal normals would differ from them by rounding.
     if (cloud_.has_normals())
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());
@@ -131,21 +131,20 @@ class Merging {
 
 // Returns the minimum distance for greedy Poisson-disc subsampling of random points, in units of their
 // spacing, that makes the mean spacing grow by the factor `times`. This is random sequential adsorption: of n
-// points per area the greedy choice keeps N = J (1 - 1 / sqrt(1 + 2 n / J)), where J = 0.696 / distance^2 is
+// points per area, the greedy choice keeps N = J (1 - 1 / sqrt(1 + 2 n / J)), where J = 0.696 / distance^2 is
 // the saturation density.
 double least_distance(double times) {
   const double s = (std::sqrt(1 + 8 * times * times) - 1) / 2;
   return std::sqrt(.348 * std::max(0.0, s * s - 1));
 }
 
-// Returns whether two points are on the same side of a thin wall. The sides of a wall are subsampled
-// separately.
+// Returns whether two points are on the same side of a thin wall, whose two sides are subsampled separately.
 bool look_alike(const Cloud& cloud, Index a, Index b) {
   return cloud.normals[a].dot(cloud.normals[b]) > 0;
 }
 
-// Returns points in the order of the cloud. A point is left out if an earlier one on the same side of a thin
-// wall is nearer than `distance`.
+// Returns points in the order of the cloud, except those nearer than `distance` to an earlier returned point
+// on the same side of a thin wall.
 std::vector<Index> far_apart(const Cloud& cloud, double distance) {
   const KdTree<Vec3> tree(cloud.points);
   std::vector<std::uint8_t> is_covered(cloud.size(), 0);
@@ -160,8 +159,8 @@ std::vector<Index> far_apart(const Cloud& cloud, double distance) {
   return kept;
 }
 
-// Returns for each point of the cloud the position in `kept` of the point that represents it. This is the
-// nearest one on the same side of a thin wall; no_index if none of the nearest six is on that side.
+// Returns, for each point of the cloud, the position in `kept` of the point that represents it: the nearest
+// one on the same side of a thin wall. Returns no_index if none of the nearest six is on that side.
 std::vector<Index> nearest_kept(const Cloud& cloud, const std::vector<Index>& kept) {
   constexpr std::size_t candidates = 6;
   std::vector<Vec3> points(kept.size());

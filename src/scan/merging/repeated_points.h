@@ -1,6 +1,6 @@
-// Points that repeat others, as in a scan that was exported twice and merged, or in a mesh file in which each
-// face has its own copies of its corners. A search for neighbours would find only the repeats of a point and
-// not its surroundings. Tested by tests/scan/repeated_points_test.cpp.
+// Repeated points, as in a scan that was exported twice and merged, or in a mesh file in which each face has
+// its own copies of its corners. A search for neighbours would find only a point's repeats instead of its
+// surroundings. Tested by tests/scan/repeated_points_test.cpp.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace relievo {
 
-// See the function of this name in cloud.h. `tree` contains the points of the cloud. Returns nothing if
-// hardly any points repeat others.
+// Like the function in cloud.h. `tree` contains the points of the cloud. Returns nothing if hardly any points
+// are repeated.
 std::optional<Cloud> without_repeated_points(const Cloud& cloud, const KdTree<Vec3>& tree);
 
 // Returns a subset of the points of a cloud with normals. The spacing of the subset, as measured by
-// measure_spacing(), is about `wanted`. Each point has the mean normal and colour of the points it
-// represents. `spacing` is that of the cloud; its rho must be smaller than `wanted`. Takes O(n log n). The
-// result depends on the order of the points.
+// measure_spacing(), is about `wanted`. Each point has the mean normal and colour of the points that it
+// represents. `spacing` is the spacing of the cloud; its rho must be smaller than `wanted`. Takes O(n log n).
+// The result depends on the order of the points.
 Cloud subsample(const Cloud& cloud, const Spacing& spacing, double wanted);
 
 }  // namespace relievo

@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::size_t enough_places = 4000;
 constexpr std::size_t fewest_places = 100;
-// The number of a point, its neighbours, and the neighbours of these.
+// The largest number of points in two_rings(): a point, its neighbours, and their neighbours.
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
-// The noise is estimated from this quantile of the local scatters, divided by the ratio of the quantile to
-// the standard deviation. The ratio is the root of q / 15, where q is the same quantile of chi square with 15
-// degrees of freedom, about the number that a fit leaves.
+// The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile
+// to the standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square
+// distribution with 15 degrees of freedom, about as many as a fit leaves.
 constexpr double quiet_share = .25, quiet_deviation = .86;
-constexpr double least_noise = .12;  // in rho: clean scans of fine details scatter by up to this
-// The least scatter of normals where the points scatter by one sampling distance. Normals estimated from 16
-// neighbours scatter so much on spheres and planes.
+constexpr double least_noise = .12;  // in rho; clean scans with fine details scatter up to this much
+// The scatter of normals that a point scatter of one sampling distance causes at least. It was measured for
+// normals estimated from 16 neighbours on spheres and planes.
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {
@@ -32,7 +32,7 @@ struct LocalScatter {
   double normals;  // in radians, per component
 };
 
-// Returns the numbers of a point, its neighbours and the neighbours of these, each once.
+// Returns the indices of a point, its neighbours and their neighbours, each one once.
 std::vector<Index> two_rings(const Spacing& spacing, Index middle) {
   std::vector<Index> members{middle};
   members.reserve(most_members);
@@ -47,8 +47,8 @@ std::vector<Index> two_rings(const Spacing& spacing, Index middle) {
   return members;
 }
 
-// Returns how much the points and normals around a point scatter about fitted quadratic polynomials; nothing
-// if there are too few neighbours.
+// Returns the scatter of the points and normals near a point about fitted quadratic polynomials; nothing if
+// there are too few neighbours.
 std::optional<LocalScatter> scatter_around(const Cloud& cloud, const Spacing& spacing, Index middle) {
   constexpr int unknowns = 6, fewest = 14;
   const std::vector<Index> members = two_rings(spacing, middle);

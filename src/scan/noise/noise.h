@@ -1,4 +1,4 @@
-// The noise of a scan: measuring it, and removing it while creases stay. Tested by tests/scan/noise_test.cpp.
+// Measures the noise of a scan, and removes it without rounding creases. Tested by tests/scan/noise_test.cpp.
 #pragma once
 
 #include "relievo/core/progress.h"
@@ -9,19 +9,19 @@
 namespace relievo {
 
 // Returns the standard deviation of the points along their normals, in sampling distances. It is estimated
-// from the scatter about local quadratic surfaces, at the quarter of the points that scatter least, so that
-// details in parts of a model do not count. The result is lower if the normals scatter less than such noise
-// would make them. Less than 0.12 is taken for detail: then the result is 0. It is also 0 for clouds of fewer
+// from the scatter about local quadratic surfaces, for the quarter of the points that scatter least, so that
+// detail in some parts of a model does not count. The result is lower if the normals scatter less than such
+// noise implies. Scatter below 0.12 counts as detail, and the result is 0. It is also 0 for clouds with fewer
 // than 100 points or without normals.
 double measure_noise(const Cloud& cloud, const Spacing& spacing);
 
-// Moves each point onto a surface fitted around it by robust regression, and turns its normal to that of this
-// surface. Does nothing without normals. `noise`, > 0, is the standard deviation to remove, in sampling
-// distances: larger values average over wider neighbourhoods and round sharper creases. Normals are fitted
-// linearly in the tangent plane. Neighbours that deviate from the last fit, as those beyond a crease do, get
-// less weight (Oeztireli, Guennebaud and Gross, "Feature preserving point set surfaces based on non-linear
-// kernel regression", 2009; there the fit is constant, which flattens curved parts). Leaves the cloud as it
-// was if the progress is cancelled.
+// Moves each point onto a surface that is fitted around it by robust regression, and replaces its normal by
+// that of the surface. Does nothing without normals. `noise` > 0 is the standard deviation to remove, in
+// sampling distances. Larger values average over wider neighbourhoods, and round sharper creases. Normals are
+// fitted by linear functions in the tangent plane. Neighbours that deviate from the last fit, such as those
+// beyond a crease, get less weight. Source: Oeztireli, Guennebaud and Gross, "Feature preserving point set
+// surfaces based on non-linear kernel regression", 2009; that fit is constant, which flattens curved parts.
+// If the progress is cancelled, the cloud does not change.
 void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress = nullptr);
 
 // The points of a cloud, and their normals.
@@ -30,8 +30,8 @@ struct CleanPoints {
   std::vector<Vec3f> normals;
 };
 
-// Returns what remove_noise() changes the points and normals to. The cloud must have normals, and its rho be
-// greater than 0. The result is not usable once the progress is cancelled.
+// Returns the points and normals that remove_noise() would set. The cloud must have normals and rho > 0.
+// After cancellation the result is meaningless.
 CleanPoints without_noise(const SearchableCloud& scan, double noise, const Progress* progress);
 
 }  // namespace relievo

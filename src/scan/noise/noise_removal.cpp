@@ -16,26 +16,26 @@
 namespace relievo {
 namespace {
 
-constexpr int fits = 3;                              // each is weighted by the deviations from the fit before
+constexpr int fits = 3;  // each fit is weighted by the deviations from the previous one
 constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 noise)
 constexpr double least_deviation = to_radians(8),
-                 more_deviation = to_radians(30);  // of normals: the least, and that per unit of noise
-constexpr float facing = .2F;      // least cosine between the normals of neighbours on one side of a wall
-constexpr double stiffness = .01;  // keeps the field almost constant where neighbours lie on a line
+                 more_deviation = to_radians(30);  // normals: constant part, and factor of the noise
+constexpr float facing = .2F;  // least cosine between the normals of neighbours on the same side of a wall
+constexpr double stiffness = .01;  // keeps the field almost constant if the neighbours are collinear
 constexpr std::size_t lanes = 8;
 
-// Eight vectors: places in radii, or unit normals.
+// Eight vectors: positions in units of the radius, or unit normals.
 struct Eight {
   Float8 x = {}, y = {}, z = {};
 };
 
-// Eight neighbours of a point. A missing one lies beyond the radius, where it has no weight.
+// Eight neighbours of a point. Unused lanes are outside the radius, where the weight is 0.
 struct Neighbours {
   Eight place{Float8{} + 2, {}, {}}, normal;
-  Float8 deviation_sq = {};  // squared distance of the normals from those of the last fit
+  Float8 deviation_sq = {};  // squared distance of each normal from the last fit's normal
 };
 
-// A unit vector, and two others at right angles to it and to each other.
+// An orthonormal frame: an axis and two tangents.
 struct Frame {
   Vec3f axis, t1, t2;
 
@@ -47,15 +47,16 @@ struct Frame {
   }
 };
 
-// What the neighbours weigh: the moments of 1, u and v, which are the coordinates in the tangent plane, their
-// products with the slopes p and q of the normals, and the sum of heights.
+// Weighted sums over the neighbours: of 1, u and v, their products, and the products of these with p, q and
+// the height. u and v are coordinates in the tangent plane, p and q the slopes of the normals.
 struct Sums {
   Float8 w = {}, wu = {}, wv = {}, wuu = {}, wuv = {}, wvv = {};
   Float8 p = {}, pu = {}, pv = {}, q = {}, qu = {}, qv = {};
   Float8 height = {};
 };
 
-// The fitted surface in a frame: p and q of its normals are linear in 1, u and v; its height in radii.
+// The fitted surface in a frame. p and q are linear functions of u and v, given by the coefficients of 1, u
+// and v. The height is in units of the radius.
 struct LocalSurface {
   Vec3f p = Vec3f::Zero(), q = Vec3f::Zero();
   float height = 0;
@@ -65,16 +66,15 @@ struct LocalSurface {
   }
 };
 
-// Twice the variances at which neighbours lose weight, inverted.
+// 1 / (2 variance) of the Gaussians by which deviating neighbours lose weight.
 struct Tolerances {
-  float normals;  // of the deviation of normals
-  float heights;  // of the deviation of heights, in radii
+  float normals;  // tolerance for the deviation of normals
+  float heights;  // tolerance for the deviation of heights, in units of the radius
 };
 
-// Returns the exponential of x <= 0, with seven digits; 0 below -80.
+// Returns exp(x) for x <= 0 with seven digits; 0 below -80.
 RELIEVO_INLINE Float8 exponential(const Float8& x) {
-  constexpr float digits_end =
-      12582912;  // 1.5 * 2^23, whose sum with a small number is rounded to a whole one
+  constexpr float digits_end = 12582912;  // 1.5 * 2^23; adding it rounds a small number to an integer
   Float8 result;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const float y = std::max(x[lane], -80.F) * 1.44269504F, shifted = y + digits_end;
@@ -110,7 +110,7 @@ RELIEVO_INLINE Sums sums_of(std::span<const Neighbours> neighbours, const Frame&
   return s;
 }
 
-// Sets the deviations of the neighbours' normals from those of the surface.
+// Computes how much the neighbours' normals deviate from the normals of the surface.
 RELIEVO_INLINE void deviate(std::span<Neighbours> neighbours, const Frame& frame, const LocalSurface& fit) {
   for (Neighbours& each : neighbours) {
     const Eight d = frame.turned(each.place), n = frame.turned(each.normal);
@@ -130,7 +130,7 @@ double total(const Float8& eight) {
   return sum;
 }
 
-// Returns the surface of these sums, whose weight is positive.
+// Returns the surface for these sums; their weight must be positive.
 LocalSurface solved(const Sums& sums) {
   const double w = total(sums.w), wu = total(sums.wu), wv = total(sums.wv), wuv = total(sums.wuv);
   const Mat3 moments{
@@ -142,14 +142,15 @@ LocalSurface solved(const Sums& sums) {
           static_cast<float>(total(sums.height) / w)};
 }
 
-// Fits the surface around one point after the other.
+// Fits the surface around each point.
 class NoiseFilter {
  public:
   NoiseFilter(const SearchableCloud& scan, double noise) : scan_(scan), noise_(noise) {}
 
   double radius(Index i) const { return (least_radius + more_radius * noise_) * unit(i); }
 
-  // Returns the point moved onto the surface that is fitted to the near points, and the surface's normal there.
+  // Returns the point, moved onto the surface that is fitted to the points `near`, and the surface's normal
+  // there.
   std::pair<Vec3, Vec3f> at(Index i, std::span<const Index> near) {
     gather(i, near);
     const double deviation = std::max(least_deviation, more_deviation * noise_),

@@ -10,15 +10,16 @@ namespace {
 
 // Lengths in rho.
 constexpr double grid_cell = 1.5;
-constexpr double most_distant = 1.5;   // distance of the exact outline from the sampled one
-constexpr double node_spacing = .25;   // nodes are dense, because they are exact
-constexpr double curve_spacing = .75;  // spacing of the fair curve's points
-// Half the length of the part of the curve that each point is fitted to. It is long enough to bridge the gaps
-// at turns of the sampled outline, where no exact outline leads in the same direction.
+constexpr double most_distant = 1.5;   // largest distance of the exact outline from the sampled one
+constexpr double node_spacing = .25;   // distance between nodes; small, because nodes are exact
+constexpr double curve_spacing = .75;  // distance between points of the fair curve
+// Half the length of the curve that each point is fitted to. It is long enough to bridge gaps at turns of the
+// sampled outline, where the exact outline has another direction.
 constexpr double exact_window = 1;
-constexpr double most_moved = .5;     // distance by which a curve's point is moved onto the exact outline
-constexpr double least_spacing = .2;  // spacing of the curve's points after they are moved
-// The least length of an edge across a gap. Samples of a surface without gaps are nearer to each other, even
+// Largest distance by which a point of the curve is moved onto the exact outline.
+constexpr double most_moved = .5;
+constexpr double least_spacing = .2;  // distance between points of the curve after they are moved
+// The least length of an edge across a gap. Samples of a surface without gaps are closer together, even
 // diagonally across their grid.
 constexpr double least_gap = 1.7;
 

@@ -16,19 +16,22 @@ namespace {
 // Lengths in rho.
 constexpr double change_radius = 3.0, stride = .75, line_window = 3, shortest = 8;
 constexpr double apart_at_start = 1.5, apart = 1.2, apart_from_outlines = .8;
-constexpr std::size_t least_points = 4;  // on each side of a line
-// A line may begin at an edge if the cosine between the normals at its ends is below this.
+constexpr std::size_t least_points = 4;  // number of points needed on either side of a line
+// A line may begin at an edge between two points if the cosine between their normals is below this.
 constexpr float bent_below = .75F;
 
-// The change of a surface across a line through a place, from one linear fit to the normals on each side.
+// The change of a surface across a line through a position. The normals on each side are fitted by a linear
+// function.
 struct Change {
-  double left_over = 1;  // misfit of the two fits, as a share of that of one fit to both sides
-  double scatter = 1;    // around the mean of each side, as a share of that around the mean of both
-  double angle_deg = 0;  // between the normals of the two sides
-  double step = 0;       // by how many rho the left side lies in front of the right one
+  double left_over = 1;  // misfit of both fits, as a share of the misfit of one common fit
+  // Scatter around the means of both sides, as a share of the scatter around the common mean.
+  double scatter = 1;
+  double angle_deg = 0;  // between the fitted normals of both sides
+  // Depth of the left side minus depth of the right side, in rho; positive if the left side is in front.
+  double step = 0;
 };
 
-// What a change needs at least for a line, where it begins and where it goes on.
+// Limits that the change of a surface must satisfy, for the begin of a line and for its continuation.
 struct Limits {
   double left_over, angle_deg, step;
 
@@ -57,7 +60,8 @@ class ChangeFinder {
     return points;
   }
 
-  // Returns the change across a line through `place`. `near` has at least the points within the fits' radius.
+  // Returns the change across a line through `place`. `near` must include all points within the radius of the
+  // fits.
   Change across(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) const {
     std::vector<Sample> samples;
     Part left, right;
@@ -85,18 +89,18 @@ class ChangeFinder {
 
  private:
   struct Sample {
-    Vec2 to;  // from the place, as a share of the radius
+    Vec2 to;  // from the position to the sample, as a share of the radius
     double weight;
     Vec3 normal;
     double z;
     bool is_left;
   };
 
-  // The sums of samples, and what a linear fit to their normals finds at the place.
+  // Sums over samples, and the results of a linear fit to their normals.
   struct Part {
     std::size_t count = 0;
     Mat3 moments = Mat3::Zero(), products = Mat3::Zero();
-    Vec3 normal = Vec3::UnitZ();  // at the place
+    Vec3 normal = Vec3::UnitZ();  // fitted normal at the position of the line
     double of_normals = 0, around_mean = 0;
     double depths = 0, squared_depths = 0;  // in rho
 
@@ -114,10 +118,12 @@ class ChangeFinder {
       return sum;
     }
 
-    // Fits the normals. The sides lie beside the place, so that stiffness keeps their fits from swinging.
+    // Fits the normals. The position lies at the edge of each side's samples, so stiffness keeps the fits
+    // from extrapolating too far.
     void fit() {
       constexpr double stiffness = .03;
-      const double weights = moments(0, 0);  // normals have unit length, so this is the sum of their squares
+      // Normals have unit length, so this is also the sum of their squares.
+      const double weights = moments(0, 0);
       Mat3 stiff = moments;
       stiff(1, 1) += stiffness * weights, stiff(2, 2) += stiffness * weights;
       const Mat3 field = stiff.inverse() * products;
@@ -127,18 +133,18 @@ class ChangeFinder {
       around_mean = weights - products.row(0).squaredNorm() / weights;
     }
 
-    double depth() const { return depths / moments(0, 0); }  // at the place
+    double depth() const { return depths / moments(0, 0); }  // at the position of the line
     double of_depths() const {
-      constexpr double share = .1;  // of the squared scatter of depths beside that of normals
+      constexpr double share = .1;  // factor of the squared scatter of depths relative to that of normals
       return share * std::max(0.0, squared_depths - depths * depth());
     }
-    // Sums of squared differences of normals and depths: from the fit, and from the mean.
+    // Sums of squared deviations of normals and depths: from the fit, and from the mean.
     double misfit() const { return of_normals + of_depths(); }
     double scatter() const { return around_mean + of_depths(); }
   };
 
-  // Adds a depth, continued to the place along a chord, which is perpendicular to the mean of the normals at
-  // its ends.
+  // Adds the depth of a sample, extrapolated to the line's position along a chord. The chord is perpendicular
+  // to the mean of the normals at its ends.
   void add_depth(const Sample& s, Part& part) const {
     const Vec3 mean = part.normal + s.normal;
     const double depth = (s.z + radius_ * mean.head<2>().dot(s.to) / std::max(mean.z(), .2)) / surface_.rho;
@@ -151,7 +157,7 @@ class ChangeFinder {
   double radius_;
 };
 
-// The places of a line, and the sum of the steps across it.
+// The positions of a line, and the sum of the steps across it.
 struct Line {
   std::vector<Vec2> places;
   double steps = 0;
@@ -169,7 +175,7 @@ class LineFinder {
         lines_(2 * rho_),
         starts_(2 * rho_) {}
 
-  // Continues jumps from a little before their ends, where they are found least reliably.
+  // Continues jumps. Starts a little before their ends, because these are inaccurate.
   void continue_jumps() {
     constexpr std::size_t before_end = 4, least_length = 8;
     for (Index c = 0; c < outlines_.size(); ++c) {
@@ -186,7 +192,7 @@ class LineFinder {
     }
   }
 
-  // Looks for lines where neighbours have the least similar normals first.
+  // Adds lines. Begins with the edges whose normals differ most.
   void add_lines() {
     for (const auto& [a, b] : bent_edges()) {
       const Vec2 place = (plane_.places[a] + plane_.places[b]) / 2;
@@ -202,7 +208,8 @@ class LineFinder {
   }
 
  private:
-  // Returns the edges inside the surface that may cross a line, the most bent one first.
+  // Returns the edges inside the surface that may cross a line, ordered by the angle between their normals,
+  // largest first.
   std::vector<std::pair<Index, Index>> bent_edges() const {
     std::vector<std::tuple<float, Index, Index>> found;
     for (std::size_t t = 0; t < surface_.triangulation.triangles.size(); ++t)
@@ -219,7 +226,7 @@ class LineFinder {
     return edges;
   }
 
-  // Returns the direction across which the surface changes most; zero where no line begins.
+  // Returns the direction of the line across which the surface changes most; zero if no line begins here.
   Vec2 direction_at(const Vec2& place) const {
     constexpr int directions = 12;
     const std::vector<Index> near = finder_.around(place, 0);
@@ -243,12 +250,11 @@ class LineFinder {
     return line;
   }
 
-  // Adds places to a line, each where the surface changes most, until it changes too little or another line
-  // is near. `own` is the outline that is continued, if any.
+  // Adds positions to a line, each at the largest change of the surface, until the change is too small or
+  // another line is too near. `own` is the outline to be continued, if any.
   void follow(Line& line, Vec2 direction, Index own) const {
     constexpr double turn_deg = 12;
-    constexpr double least_gain =
-        .03;  // of left_over for another turn: between points all places are as good
+    constexpr double least_gain = .03;  // least improvement of left_over for which the direction changes
     direction.normalize();
     while (true) {
       const Vec2 from = line.places.back();
@@ -275,9 +281,9 @@ class LineFinder {
            !lines_.is_near(place, from_lines * rho_);
   }
 
-  // Returns whether a place is near the begin of its own line.
+  // Returns whether a position is near an earlier part of its own line.
   bool returns(const std::vector<Vec2>& places, const Vec2& to) const {
-    constexpr std::size_t latest = 8;  // places that may be near
+    constexpr std::size_t latest = 8;  // number of latest positions that may be near
     for (std::size_t k = 0; k + latest < places.size(); ++k)
       if ((places[k] - to).norm() < apart_at_start * rho_) return true;
     return false;
@@ -290,8 +296,8 @@ class LineFinder {
     if (!outline.curve.points.empty()) outlines_.push_back(std::move(outline));
   }
 
-  // Replaces the end of a curve after its point `last` by places, from which their zigzag is smoothed away. The
-  // first place is that point.
+  // Replaces the part of a curve after its point `last` by `places`, after smoothing their zigzag. places[0]
+  // is the point `last`.
   void replace_end(std::vector<Vec2>& places, FairCurve& curve, std::size_t last) {
     for (int pass = 0; pass < 4; ++pass) {
       const std::vector<Vec2> before = places;
@@ -310,8 +316,8 @@ class LineFinder {
   std::vector<OutlineCurve>& outlines_;
   ChangeFinder finder_;
   double rho_;
-  SegmentGrid grid_;         // the outlines that were given
-  PointSet lines_, starts_;  // places of new lines, and where lines were looked for
+  SegmentGrid grid_;         // the outlines given to the constructor
+  PointSet lines_, starts_;  // positions of new lines; positions where lines were sought
 };
 
 }  // namespace

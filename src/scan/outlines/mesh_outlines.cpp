@@ -12,12 +12,13 @@
 namespace relievo {
 namespace {
 
-constexpr double piece_length = .5;  // length of the parts of an edge, each visible or hidden, in pixels
+// In pixels; edges are divided into pieces of this length, each of which is visible or hidden.
+constexpr double piece_length = .5;
 constexpr double just_beyond =
-    1e-3;                         // distance from an edge at which the surface behind is looked up, in pixels
+    1e-3;                         // in pixels; distance from an edge at which the surface behind it is sought
 constexpr double least_jump = 1;  // in pixels
 
-// An edge that, as seen by the viewer, has more triangles on its left than on its right.
+// An edge that has more triangles on its left than on its right, as seen by the viewer.
 struct ContourEdge {
   Index from, to;
 };
@@ -28,11 +29,11 @@ bool has_area(std::span<const Vec3> points, const Triangle& t) {
 }
 
 // Returns the edges that have more triangles on one side than on the other. Triangles without area in the
-// view plane do not count.
+// view plane are ignored.
 std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<const Triangle> triangles) {
   struct Side {
     Index higher;
-    int direction;  // 1 if the triangle's edge begins at the point with the lower number, else -1
+    int direction;  // 1 if the triangle's edge begins at the point with the lower index, else -1
   };
   const std::vector<Index> place = first_coincident(points);
   const auto sides = grouped<Side, std::size_t>(points.size(), [&](auto&& add) {
@@ -60,8 +61,8 @@ std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<c
   return edges;
 }
 
-// Finds the depth of the nearest surface at places that are given beforehand. A grid lists the triangles over
-// each of its cells that contains such a place.
+// Finds the depth of the nearest surface at positions that are known in advance. A grid lists, for each cell
+// that contains such a position, the triangles over that cell.
 class DepthLookup {
  public:
   DepthLookup(std::span<const Vec3> points, std::span<const Triangle> triangles, std::span<const Vec2> places,
@@ -70,7 +71,7 @@ class DepthLookup {
     if (places.empty()) return;
     Vec2 low = places[0], high = low;
     for (const Vec2& p : places) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    constexpr double most_cells = 4096;  // cells along one side of the grid
+    constexpr double most_cells = 4096;  // cells per side of the grid
     cell_ = std::max(cell_, (high - low).maxCoeff() / most_cells);
     low_ = low;
     width_ = static_cast<int>((high.x() - low.x()) / cell_) + 1;
@@ -109,14 +110,14 @@ class DepthLookup {
     return static_cast<int>(std::clamp(std::floor(offset / cell_), 0.0, count - 1.0));
   }
 
-  // Calls f for the cells of each row from the leftmost to the rightmost part of the triangle in that row.
+  // Calls f for the cells of each row, from the leftmost to the rightmost part of the triangle in that row.
   template <typename F>
   void each_cell(const Triangle& t, F&& f) const {
     std::array<Vec2, 3> p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = points_[t[i]].head<2>();
     const auto [lowest, highest] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
     for (int row = row_of(lowest); row <= row_of(highest); ++row) {
-      // Places beyond the grid belong to its outermost cells.
+      // Positions outside the grid belong to its outermost cells.
       const double bottom = row == 0 ? lowest : low_.y() + row * cell_,
                    top = row == height_ - 1 ? highest : low_.y() + (row + 1) * cell_;
       double left = std::numeric_limits<double>::infinity(), right = -left;
@@ -148,7 +149,7 @@ class DepthLookup {
 
 enum class Beyond : std::uint8_t { surface, nothing, jump };
 
-// A part of an edge, and the kind of surface that is seen beyond its middle.
+// A part of an edge, and the kind of surface beyond its midpoint.
 struct Piece {
   Vec3 from, to;
   Index edge;
@@ -172,7 +173,7 @@ std::vector<Piece> pieces_of(std::span<const Vec3> points, const std::vector<Con
   return pieces;
 }
 
-// Returns a place just to the right of a piece's middle.
+// Returns a position at this distance to the right of a piece's midpoint.
 Vec2 place_beyond(const Piece& piece, double distance) {
   const Vec2 middle = (piece.from + piece.to).head<2>() / 2,
              step = (piece.to - piece.from).head<2>().normalized();

@@ -8,10 +8,10 @@
 
 namespace relievo {
 
-// Returns the outlines of a mesh in view coordinates: the parts of its edges where the visible surface
-// borders on nothing, or on a surface that lies more than `pixel` behind it. All triangles must be
-// counter-clockwise as seen. Where an outline passes behind another surface, its end is within half a pixel
-// of the true place.
+// Returns the outlines of a mesh in view coordinates: the parts of its edges that separate the visible
+// surface from nothing, or from a surface more than `pixel` behind it. All triangles must be
+// counter-clockwise, as seen by the viewer. Where another surface hides the rest of an outline, its end is
+// accurate to half a pixel.
 std::vector<OutlineSegment> seen_outlines(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                           double pixel);
 

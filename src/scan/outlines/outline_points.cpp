@@ -19,14 +19,15 @@ namespace relievo {
 namespace {
 
 // Lengths in rho.
-constexpr double rows_end = 3.2;         // points nearer than this to an outline may be replaced
-constexpr double replaced_within = .65;  // least distance to points of rows
+constexpr double rows_end = 3.2;         // only points nearer than this to an outline are replaced
+constexpr double replaced_within = .65;  // least distance of kept points from points of rows
 constexpr double widest_gap = 1.6;       // radius of the largest empty circle inside the surface
 constexpr double sliver_width = .02;
-constexpr double widest_sample = 1.9;  // radius of the largest gap that one point in its middle fills
-constexpr double cell_size = .7;       // of the set of new points; also the least distance of points in gaps
+constexpr double widest_sample = 1.9;  // radius of the largest gap that a single point at its centre fills
+// Cell size of the set of new points; also the least distance between points in gaps.
+constexpr double cell_size = .7;
 
-// Adds the points of a hexagonal lattice that lie in a counter-clockwise triangle.
+// Adds the points of a hexagonal lattice inside a counter-clockwise triangle.
 void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std::vector<Vec2>& places) {
   const double row_height = spacing * std::sqrt(.75);
   const auto& [a, b, c] = triangle;
@@ -41,9 +42,9 @@ void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std
   }
 }
 
-// Returns places for new points in the gaps inside the surface: triangles with empty circles larger than
-// sampling explains. First come the centres of these circles, then, in large gaps, points of a hexagonal
-// lattice of one rho.
+// Returns positions for new points in gaps inside the surface: in triangles whose empty circles are larger
+// than sampling explains. The centres of these circles come first, then, for large gaps, points of a
+// hexagonal lattice with a spacing of one rho.
 std::vector<Vec2> places_in_gaps(const Surface& surface) {
   std::vector<Vec2> centres, lattice;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -61,7 +62,7 @@ std::vector<Vec2> places_in_gaps(const Surface& surface) {
   return centres;
 }
 
-// The new points of a surface, gathered before they replace the old ones.
+// The new points of a surface, collected before they replace the old ones.
 class NewSurface {
  public:
   NewSurface(const Surface& surface, const PlanePoints& plane, const PointMeasures& measures,
@@ -83,7 +84,7 @@ class NewSurface {
     add_new(rows);
   }
 
-  // Replaces the points, in the order of a space-filling curve, and triangulates them.
+  // Replaces the points by the new ones, in the order of a space-filling curve, and triangulates them.
   void replace(Surface& surface, PointMeasures& measures) const {
     const std::vector<Index> order = hilbert_order(in_plane(points_));
     surface.points = pick(points_, order);
@@ -103,8 +104,8 @@ class NewSurface {
     return segments;
   }
 
-  // Returns for each point of the surface whether it is kept: it lies inside, and no point of a row replaces
-  // it.
+  // Returns for each point of the surface whether it is kept: it is inside the surface, and no point of a row
+  // replaces it.
   std::vector<std::uint8_t> kept(const PointSet& rows) {
     outline_distance_.assign(surface_.points.size(), std::numeric_limits<float>::infinity());
     std::vector<std::uint8_t> is_kept(surface_.points.size(), 0);
@@ -170,7 +171,7 @@ class NewSurface {
     }
   }
 
-  // A triangle with a point on the silhouette, or with a long edge, is inside if its centre is inside the
+  // A triangle that has a corner on the silhouette or a long edge is inside if its centre is inside the
   // silhouette. All other triangles are inside.
   void set_boundary(Surface& surface, const std::vector<Vec2>& plane,
                     const std::vector<Place>& places) const {
@@ -185,8 +186,8 @@ class NewSurface {
       if (!is_on(a) && !is_on(b) && !is_on(c) && longest < 3 * surface.rho) return;
       const Vec2 centre = (plane[a] + plane[b] + plane[c]) / 3;
       const NearestSegment near = silhouettes_.nearest(centre, std::max(3 * surface.rho, longest));
-      // A thin triangle with all corners on one nearly straight silhouette is outside: its empty circle is
-      // larger than those inside the surface.
+      // A thin triangle whose corners all lie on a nearly straight part of the silhouette is outside. Its
+      // empty circle is larger than those inside the surface.
       const bool is_sliver = is_on(a) && is_on(b) && is_on(c) && near.distance < sliver_width * surface.rho;
       boundary.is_inside[t] = near.segment == no_index || (near.is_left && !is_sliver);
     });
@@ -218,7 +219,7 @@ class NewSurface {
   const PointMeasures& measures_;
   const std::vector<OutlineCurve>& outlines_;
   SegmentGrid grid_, silhouettes_;
-  std::vector<float> outline_distance_;  // of each old point; infinity far from all outlines
+  std::vector<float> outline_distance_;  // per old point; infinity far from all outlines
   std::vector<Vec3> points_;
   std::vector<Vec3f> normals_;
   std::vector<Colour> colours_;
@@ -228,7 +229,7 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
-// The least length of (n_x, n_y) at which a surface turns away from the viewer, as in outlines.cpp.
+// The least length of (n_x, n_y) at which a surface turns away from the viewer; the same as in outlines.cpp.
 constexpr double least_turned = .75;
 
 double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -236,8 +237,8 @@ double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).norm() * (c - b).norm() * (a - c).norm() / std::max(2 * twice_area, 1e-300);
 }
 
-// Returns whether a depth jump lies between two points and the surface behind ends there: its normal leans
-// towards the point in front.
+// Returns whether there is a depth jump between two points and the surface behind ends there, with a normal
+// that leans towards the point in front.
 bool ends_at_jump(const Surface& surface, Index front, Index back) {
   if (!is_occlusion(surface, front, back)) return false;
   if (surface.points[front].z() < surface.points[back].z()) std::swap(front, back);
@@ -245,7 +246,7 @@ bool ends_at_jump(const Surface& surface, Index front, Index back) {
   return surface.normals[back].head<2>().cast<double>().dot(step) > least_turned * step.norm();
 }
 
-// Returns whether both surfaces end in the gap between two points: their normals lean towards each other.
+// Returns whether both surfaces end between two points: their normals lean towards each other.
 bool ends_on_both_sides(const Surface& surface, Index a, Index b) {
   const Vec2 step = (surface.points[b] - surface.points[a]).head<2>();
   const auto lean = [&](Index i) { return surface.normals[i].head<2>().cast<double>().dot(step); };

@@ -1,4 +1,4 @@
-// Replaces the scattered points beside a surface's outlines by rows of points. Tested by
+// Replaces the scattered points near a surface's outlines by rows of points. Tested by
 // tests/scan/outlines_test.cpp.
 #pragma once
 
@@ -7,17 +7,17 @@
 
 namespace relievo {
 
-// Finds the outlines of a triangulated surface, and replaces the points up to 3 rho from them by rows of
-// evenly spaced points. Normals, depths and measures of the new points are interpolated from the points on
-// the same side. Rows lie on the silhouette, on both sides of each jump, and parallel to them. Adds points
-// where sampling leaves gaps inside the surface, and leaves out points outside. Then triangulates anew and
-// sets the boundary: the silhouette's points are on it. Known exact outlines, in view coordinates, take the
-// place of outlines found near them. Changes nothing if there is no silhouette.
+// Finds the outlines of a triangulated surface, and replaces the points within 3 rho by rows of evenly spaced
+// points: on the silhouette, on both sides of each jump, and parallel to them. Normals, depths and measures
+// of new points are interpolated from points on the same side of the outlines. Points are added where
+// sampling leaves gaps inside the surface, and points outside are removed. Then the surface is triangulated
+// again, and its boundary is set to the points of the silhouette. `known_outlines`, exact outlines in view
+// coordinates, replace outlines found near them. Does nothing if there is no silhouette.
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines = {});
 
-// Marks triangles in gaps as outside, from the silhouette inwards. Such a gap lies between a surface and
-// another one behind it that turns away from the viewer there, so that no surface is seen between the two.
+// Marks triangles in notches as outside, from the silhouette inwards. A notch is a gap between a surface and
+// another one behind it that turns away from the viewer there. No surface is visible between the two.
 void open_notches(Surface& surface);
 
 }  // namespace relievo

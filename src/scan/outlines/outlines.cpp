@@ -21,11 +21,11 @@ constexpr double least_piece = 20, hole_area = 4;
 constexpr double point_spacing = .75, fair_window = 3;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
-// The weight of nodes whose places the normals do not determine. No node has less weight.
+// The least weight of a node. Nodes whose positions the normals do not determine have this weight.
 constexpr double uncertain = .03;
-// The error, in rho, at which an estimated place on an outline has half of the full weight.
+// The error, in rho, at which an estimated position on an outline has half of the full weight.
 constexpr double trusted_error = .25;
-// The least length of (n_x, n_y) at which normals show where the surface ends.
+// The least length of (n_x, n_y) at which normals determine where the surface ends.
 constexpr double least_lean = .75;
 
 double area_of(const Surface& surface, const Triangle& t) {
@@ -33,7 +33,7 @@ double area_of(const Surface& surface, const Triangle& t) {
   return cross(at(1) - at(0), at(2) - at(0)) / 2;
 }
 
-// Connected triangles that are all inside or all outside.
+// Connected components of triangles that are all inside or all outside.
 class Pieces {
  public:
   explicit Pieces(const Surface& surface)
@@ -52,7 +52,7 @@ class Pieces {
   }
 
   double area(Index t) { return area_[sets_.find(t)]; }
-  bool is_first(Index t) { return sets_.find(t) == t; }  // true for exactly one triangle of each piece
+  bool is_first(Index t) { return sets_.find(t) == t; }  // true for exactly one triangle of each component
   bool touches_hull(Index t) { return is_open_[sets_.find(t)]; }
 
  private:
@@ -63,15 +63,15 @@ class Pieces {
   std::vector<std::uint8_t> is_open_;
 };
 
-// Finds where the surface ends beyond a point, from the normals around the point.
+// Finds the end of the surface beyond a point, from the normals near the point.
 class EdgeFinder {
  public:
   EdgeFinder(const Surface& surface, const PlanePoints& plane)
       : surface_(surface), plane_(plane.places), tree_(plane.tree) {}
 
-  // Returns the place where the normals around a point, continued linearly, become perpendicular to the
-  // direction of view. Returns the point's own place, with little weight, if the normals do not show such a
-  // place or the place is farther than `farthest`.
+  // Returns the position where the normals around a point, extrapolated linearly, become perpendicular to the
+  // direction of view. Returns the position of the point, with little weight, if there is no such position
+  // within `farthest`.
   CurveNode at(Index i, double farthest) const {
     const CurveNode unknown{plane_[i], uncertain};
     std::vector<KdTree<Vec2>::Match> matches;
@@ -86,7 +86,7 @@ class EdgeFinder {
     if (!(growth > 0)) return unknown;
     const double distance = (1 - fit.value.norm()) / growth;
     if (!(std::abs(distance) <= farthest)) return unknown;
-    // If a surface turns slowly, noise of its normals moves the estimated place far.
+    // If a surface turns slowly, noise of its normals moves the estimated position far.
     const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
                  ratio = error / (trusted_error * surface_.rho);
     const double trust = 1 / (1 + ratio * ratio);
@@ -101,7 +101,7 @@ class EdgeFinder {
   const KdTree<Vec2>& tree_;
 };
 
-// Returns the exact outline near `places`. Without exact outlines, returns a fair curve through the nodes
+// Returns the exact outline near `places` or, without exact outlines, a fair curve through the nodes
 // guess(i).
 template <typename Guess>
 OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, const OutlineCurve& kind,
@@ -118,14 +118,14 @@ OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, con
   return outline;
 }
 
-// The sides of triangles, numbered 3 t + i: side i of triangle t lies opposite its corner i.
+// The sides of triangles, numbered 3 t + i: side i of triangle t is opposite to its corner i.
 struct Sides {
   const Surface& surface;
 
   Index from(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 1) % 3]; }
   Index to(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 2) % 3]; }
 
-  // Returns the number of the side in the triangle across it; no_index on the hull.
+  // Returns the same side as a side of the neighbouring triangle; no_index on the hull.
   Index twin(Index side) const {
     const Index other = surface.triangulation.neighbours[side / 3][side % 3];
     if (other == no_index) return no_index;
@@ -139,7 +139,7 @@ struct Sides {
     return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
   }
 
-  // Returns the next boundary side around the same piece.
+  // Returns the next boundary side around the same component.
   Index next_boundary(Index side) const {
     Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
     while (!is_boundary(turn)) {
@@ -170,8 +170,8 @@ void add_silhouettes(const Surface& surface, const EdgeFinder& finder, const Exa
   }
 }
 
-// The jumps as lines that cross the sides of triangles. Each crossed side is linked to the next one along the
-// line, with the surface in front on the left.
+// The jumps as lines across the sides of triangles. Each crossed side is linked to the next one along the
+// line. The surface in front is on the left.
 class JumpLines {
  public:
   JumpLines(const Surface& surface, const ExactOutlines& exact)
@@ -205,7 +205,7 @@ class JumpLines {
   }
 
  private:
-  // Returns one number for both sides of an edge.
+  // Returns a common number for both sides of an edge.
   Index edge(Index side) const {
     const Index other = sides_.twin(side);
     return other == no_index ? side : std::min(side, other);
@@ -220,8 +220,8 @@ class JumpLines {
 
   double depth(Index point) const { return surface_.points[point].z(); }
 
-  // Exact outlines also show jumps that is_occlusion() does not find, such as the edge of a fold: the normals
-  // there explain the difference in depth.
+  // Exact outlines also show jumps that is_occlusion() does not find, such as the edge of a fold, where the
+  // normals explain the difference in depth.
   bool is_across(Index a, Index b) const {
     const Vec3 &p = surface_.points[a], &q = surface_.points[b];
     if (is_occlusion(surface_, a, b)) return true;
@@ -229,7 +229,7 @@ class JumpLines {
            exact_.is_across_jump(p.head<2>(), q.head<2>());
   }
 
-  // Links the two crossed sides of a triangle. They meet at a corner that lies in front of the other two, or
+  // Links the two crossed sides of a triangle. Their common corner lies in front of both other corners or
   // behind both.
   void cross_triangle(Index t) {
     const Triangle& corners = surface_.triangulation.triangles[t];
@@ -242,7 +242,8 @@ class JumpLines {
       if (count == 3 ? depth(corners[i]) > depth(corners[alone]) : !jumps[i]) alone = i;
     const Index after = (alone + 1) % 3, before = (alone + 2) % 3;
     const double z = depth(corners[alone]), u = depth(corners[after]), v = depth(corners[before]);
-    const Index leaving = 3 * t + before, arriving = 3 * t + after;  // alone to after, before to alone
+    // Side from `alone` to `after`; side from `before` to `alone`.
+    const Index leaving = 3 * t + before, arriving = 3 * t + after;
     if (z > u && z > v) link(leaving, arriving);
     if (z < u && z < v) link(arriving, leaving);
   }
@@ -260,7 +261,7 @@ class JumpLines {
   const Surface& surface_;
   const ExactOutlines& exact_;
   Sides sides_;
-  std::vector<Index> next_, previous_;  // per edge; no_index for none
+  std::vector<Index> next_, previous_;  // per edge; no_index if there is none
 };
 
 }  // namespace

@@ -14,12 +14,13 @@ namespace {
 
 // Distances of the rows from an outline, in rho. Only jumps have a row at the first distance.
 constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
-// Least distances, in rho, between points of rows. They are less on outlines and in the row next to them.
+// Least distances between points of rows, in rho. They are smaller on outlines and in the row next to an
+// outline.
 constexpr double least_between_rows = .4, least_in_first_row = .28, least_on_outlines = .12;
-// The least distance of a wall from another outline, in rho. Walls end before they meet one.
+// The least distance of a wall from another outline, in rho. Walls end before they reach one.
 constexpr double least_from_other_outline = .35;
 
-// Makes the points of all rows. Rows nearer to the outlines come first.
+// Makes the points of all rows, from the rows nearest to the outlines outwards.
 class RowMaker {
  public:
   RowMaker(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid, double rho, PointSet& taken)
@@ -39,8 +40,8 @@ class RowMaker {
   }
 
  private:
-  // Returns the unit vector to the left of an outline at one of its points. At corners the vector is longer,
-  // so that a parallel line through its end has the distance 1.
+  // Returns a vector to the left of an outline at one of its points. It has unit length, except that at
+  // corners it is longer, so that a parallel curve through its end has distance 1.
   Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
@@ -64,14 +65,15 @@ class RowMaker {
     }
   }
 
-  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Points of odd rows lie between
-  // those of even ones. The first row, at a wall, has both, so that the long sides of the wall are edges of the
-  // Delaunay triangulation.
+  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Odd rows have their points
+  // between the points of even rows. The first row, at a wall, has both kinds of points. Then the long sides
+  // of the wall are edges of the Delaunay triangulation.
   void add_row(Index c, std::size_t row, double side) {
     const OutlineCurve& outline = outlines_[c];
     const std::size_t n = outline.curve.points.size();
     const Place place = row > 0 ? Place::row : side > 0 ? Place::front : Place::back;
-    const std::size_t halves = outline.is_closed ? 2 * n : 2 * n - 1;  // of the curve's edges, and its end
+    // Half edges of the curve, including its end.
+    const std::size_t halves = outline.is_closed ? 2 * n : 2 * n - 1;
     const std::size_t first = row % 2, stride = row == 0 ? 1 : 2;
     std::vector<Candidate> candidates((halves - first + stride - 1) / stride);
     parallel_for(
@@ -89,11 +91,11 @@ class RowMaker {
   struct Candidate {
     Vec2 at;
     bool is_free;
-    bool is_corner;  // whether it lies beside a corner of the outline
+    bool is_corner;  // whether it is beside a corner of the outline
   };
 
-  // Returns the place beside the half-th half of an edge: beside a point of the curve if that number is even,
-  // else beside the middle of an edge.
+  // Returns the position in a row beside position `half` of the curve: even numbers are the curve's points,
+  // odd numbers the midpoints of its edges.
   Candidate candidate(Index c, std::size_t half, std::size_t row, double side) const {
     const OutlineCurve& outline = outlines_[c];
     const std::vector<Vec2>& p = outline.curve.points;
@@ -106,8 +108,8 @@ class RowMaker {
             !is_between && outline.curve.is_corner[k] != 0};
   }
 
-  // Returns whether a place of a row is free: no outline separates it from its own outline, and no outline is
-  // too near to it.
+  // Returns whether a position in a row is free: no outline separates it from its own outline, and no outline
+  // is too close.
   bool is_free(Index c, const Vec2& from, const Vec2& at, std::size_t row) const {
     const double distance = row_distance[row] * rho_, nearest = .9 * distance;
     if (grid_.is_crossed(from, at) || grid_.nearest(at, nearest).segment != no_index) return false;
@@ -122,8 +124,8 @@ class RowMaker {
   Index row_ = 0;  // number of the row whose points are added
 };
 
-constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as large where points are few
-constexpr float least_likeness = .8F;  // least cosine, of 37 degrees, between normals of one face
+constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as large if there are few points
+constexpr float least_likeness = .8F;  // least cosine (37 degrees) between the normals of one face
 constexpr int least_face_points = 5;
 
 }  // namespace
@@ -159,8 +161,8 @@ std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowP
   return values;
 }
 
-// Returns the values at a new point from the `matches` within the radius of a fit, or from farther points where
-// these are few.
+// Returns the values at a new point, from the `matches` within the radius of a fit, or from farther points if
+// these are too few.
 SideInterpolation::Value SideInterpolation::at(const RowPoint& p, std::vector<Match>& matches) const {
   double radius = fit_radius * surface_.rho;
   leave_same_side(p, matches);
@@ -168,8 +170,8 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p, std::vector<Ma
     tree_.within(p.at, radius *= 1.6, matches);
     leave_same_side(p, matches);
   }
-  // In a sliver between two outlines all points may lie on these outlines. The sliver's silhouette is then
-  // interpolated from them: without a silhouette, long triangles would span the sliver.
+  // In a sliver between two outlines all points may be on these outlines. Then points of the silhouette are
+  // interpolated from them. Without a silhouette, long triangles would cross the sliver.
   if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {
@@ -178,9 +180,9 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p, std::vector<Ma
   return interpolated(p, radius, matches);
 }
 
-// Keeps only the points on the same side of all outlines as p. Points on an outline are left out, because
-// they may belong to either side. Noise moves some points across an outline, so points are also left out if
-// there is a jump between them and the point that is farthest from all outlines.
+// Keeps only the points on the same side of all outlines as p. Points on an outline are removed, because they
+// may belong to either side. Noise moves some points across an outline. So points are also removed if there
+// is a jump between them and the point that is farthest from all outlines.
 void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& matches) const {
   Index safest = no_index;
   std::erase_if(matches, [&](const auto& m) {
@@ -188,7 +190,8 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    const bool is_clear = std::isfinite(distance) &&  // infinity far from outlines and outside
+    // The distance is infinite far from outlines and outside.
+    const bool is_clear = std::isfinite(distance) &&
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;
@@ -199,8 +202,8 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
   leave_same_face(matches);
 }
 
-// Keeps only the face of the nearest point, if there is a crease among the points and this face has enough
-// points.
+// Keeps only the face of the nearest point, if a crease separates the points and this face has enough of
+// them.
 void SideInterpolation::leave_same_face(std::vector<Match>& matches) const {
   if (matches.empty()) return;
   const Index nearest = std::ranges::min_element(matches, {}, &Match::second)->first;
@@ -236,8 +239,8 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   return value;
 }
 
-// Returns the mean of the depths that the nearest points predict. A prediction uses that the chord of a
-// circle is perpendicular to the mean of the normals at its ends, so it is exact where curvature is constant.
+// Returns the mean of the depths that the nearest points predict. A prediction assumes that the chord of a
+// circle is perpendicular to the mean of the normals at its ends, so it is exact for constant curvature.
 double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const {
   const std::size_t count = std::min<std::size_t>(6, matches.size());
   double depths = 0, weights = 0;

@@ -1,4 +1,4 @@
-// Rows of places beside outlines. Tested by tests/scan/outlines_test.cpp.
+// Rows of points beside outlines. Tested by tests/scan/outlines_test.cpp.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace relievo {
 
-// The kind of place where a point of the surface lies.
+// The kind of position of a point of the surface.
 enum class Place : std::uint8_t {
   scan,        // a point of the scan
-  silhouette,  // on the silhouette
-  front,       // on the front or the back edge of the wall at a jump
+  silhouette,  // a point on the silhouette
+  front,       // front, back: on the upper or the lower edge of the wall at a jump
   back,
-  row,  // in a row farther from an outline, or in the middle of a gap
+  row,  // a point in a row farther from an outline, or inside a gap
 };
 
 inline constexpr Index no_row = no_index;
@@ -24,27 +24,28 @@ inline constexpr Index no_row = no_index;
 // A new point before its depth and normal are known.
 struct RowPoint {
   Vec2 at;
-  Vec2 seen_from;  // a place on one side; the points on that side are interpolated
+  Vec2 seen_from;  // a position on the same side; values are interpolated from points on that side
   Place place;
-  Index row = no_row;  // the points of a row between two corners follow each other and have one number
+  Index row = no_row;  // index of the row; consecutive points of a row between two corners have the same one
 };
 
-// In rho: half the width of the wall at a jump, and the distance from the last row to its outline.
+// In rho: half the width of the wall at a jump; the distance of the last row from its outline.
 inline constexpr double half_wall = .15, last_row = 2.95;
 
-inline constexpr double least_nz = .02;  // normals at new points lean at most 88.9 degrees
+// n_z of normals at new points is at least this, which is 88.9 degrees.
+inline constexpr double least_nz = .02;
 
 // Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points
-// on the silhouette come first, then those on both sides of each jump, then parallel rows in the order of
-// their distance from the outline. Points of a row are left out if they would lie nearer to another outline,
-// behind one, or too near to a point of an earlier row.
+// on the silhouette come first, then points on both sides of each jump, then parallel rows in the order of
+// their distance from the outline. A point is left out if it would be nearer to another outline, behind one,
+// or too close to a point of an earlier row.
 std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
                                  double rho, PointSet& taken);
 
-// Values at the surface's points that only the stages up to the boundary need.
+// Values at the surface's points that only the stages up to the boundary use.
 struct PointMeasures {
-  std::vector<double> k;       // mean curvature, 0 at hole fill points
-  std::vector<float> spacing;  // Spacing::local of clouds of uneven density, else empty
+  std::vector<double> k;       // mean curvature; 0 at hole-fill points
+  std::vector<float> spacing;  // Spacing::local for clouds of uneven density, else empty
 };
 
 // Keeps views of its arguments, which must outlive it.
@@ -55,7 +56,7 @@ class SideInterpolation {
     const PlanePoints& plane;  // the points of the surface
     const PointMeasures& measures;
     const SegmentGrid& grid;
-    std::span<const float> outline_distance;  // distance of each point from the nearest outline
+    std::span<const float> outline_distance;  // per point: distance from the nearest outline
   };
   explicit SideInterpolation(const Input& input);
 
@@ -69,9 +70,8 @@ class SideInterpolation {
     float spacing = 0;
   };
 
-  // Returns the values at new points, computed from the points around each that no outline separates from it.
-  // Normal and curvature come from a linear fit to these points, the depth from the chords to the nearest of
-  // them.
+  // Returns the values at new points. Each is computed from surrounding points that no outline separates from
+  // it: normal and curvature from a linear fit, the depth from the chords to the nearest points.
   std::vector<Value> at(std::span<const RowPoint> rows) const;
 
  private:

@@ -11,13 +11,14 @@ namespace relievo {
 namespace {
 
 using Value = SideInterpolation::Value;
-using Numbers = Eigen::Vector4d;            // depth in rho, n_x, n_y, curvature
-using Curve = Eigen::Matrix<double, 3, 4>;  // numbers at a point, and their powers along the row
+using Numbers = Eigen::Vector4d;  // depth in rho, n_x, n_y, curvature
+// Numbers at the smoothed point, then the coefficients of the linear and the quadratic term.
+using Curve = Eigen::Matrix<double, 3, 4>;
 
 constexpr double window = 3;                            // in rho
 constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a point has half of its weight
-constexpr double stiffness = .001;                      // keeps fits of few points solvable
-constexpr double other_face = .35;  // least difference of (n_x, n_y) between the faces at a crease
+constexpr double stiffness = .001;                      // keeps fits to few points regular
+constexpr double other_face = .35;  // least difference of (n_x, n_y) between the two faces at a crease
 constexpr int passes = 3;
 
 class RowSmoother {
@@ -42,12 +43,12 @@ class RowSmoother {
 
  private:
   struct Sample {
-    double along;  // way along the row from the smoothed point, in rho
+    double along;  // position along the row relative to the smoothed point, in rho
     Numbers numbers;
   };
 
-  // Returns the samples of the point's row within the window, its own one included. Where a crease crosses the
-  // row, only those on the point's side are returned, unless they are so few that the point is an outlier.
+  // Returns the samples of the point's row within the window, including the point. If a crease crosses the
+  // row, only samples on the point's side are returned, unless these are so few that the point is an outlier.
   std::vector<Sample> samples_near(std::size_t point) const {
     std::vector<Sample> samples = {{0, numbers(point)}};
     for (const int side : {-1, 1}) {

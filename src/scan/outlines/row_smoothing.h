@@ -1,4 +1,4 @@
-// Tested by tests/scan/row_smoothing_test.cpp.
+// Smooths the values at points of rows. Tested by tests/scan/row_smoothing_test.cpp.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// Returns the values at points of rows after their scatter along each row is smoothed away: depth, normal and
-// curvature come from a quadratic fitted to the points up to 3 rho away in the same row, in which outliers count
-// little. Points of no row, and those whose values are unknown, keep what they have.
+// Returns the values at points of rows, smoothed along each row. Depth, normal and curvature come from a
+// quadratic that is fitted to the points of the same row within 3 rho; outliers have little weight. Points
+// without a row and points with unknown values do not change.
 std::vector<SideInterpolation::Value> smoothed_along_rows(std::span<const RowPoint> points,
                                                           std::vector<SideInterpolation::Value> values,
                                                           double rho);

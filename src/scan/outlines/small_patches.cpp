@@ -11,21 +11,21 @@
 namespace relievo {
 namespace {
 
-// Patches of fewer points are small: rows of points, which reach 3 rho inwards from each side, replace all
-// points of such a patch.
+// Patches with fewer points are small. Rows of points, which extend 3 rho inwards from each side, would
+// replace all of their points.
 constexpr std::size_t least_patch = 60;
-constexpr double least_behind = .7;  // share of the jumps around a patch where it is the farther side
+constexpr double least_behind = .7;  // share of the jumps around a patch at which the patch is behind
 
-// Edges longer than this, in rho, cross places where the scan has no points: they do not connect points.
+// In rho. Longer edges cross regions without points, so they do not connect points.
 constexpr double connection_length = 3;
 
-// The number of jumps and gaps between points of a patch and others, and the number of those at which the
-// patch is behind.
+// The number of jumps and gaps between points of a patch and other points, and how many of them have the
+// patch behind.
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };
 
-// Returns for each point whether it stays.
+// Returns for each point whether it is kept.
 std::vector<std::uint8_t> points_to_keep(const Surface& surface) {
   const std::vector<Triangle>& triangles = surface.triangulation.triangles;
   DisjointSets patches(surface.points.size());

@@ -1,4 +1,4 @@
-// Leaves out surfaces that are seen only through slits. Tested by tests/scan/small_patches_test.cpp.
+// Removes surfaces that are visible only through slits. Tested by tests/scan/small_patches_test.cpp.
 #pragma once
 
 #include "relievo/scan/surface.h"
@@ -6,10 +6,10 @@
 
 namespace relievo {
 
-// Removes the points of small patches: sets of points that depth jumps, or gaps of 3 rho, separate from all
-// others, and that lie behind the points around them. Such a patch is too small for rows of points beside its
-// outlines, and the surface that it belongs to is not seen. Returns whether points were removed; the
-// triangulation and the boundary then have to be found anew.
+// Removes the points of small patches behind their surroundings. A patch is a set of points that depth jumps,
+// or gaps of 3 rho, separate from all others. A small patch has no space for rows of points beside its
+// outlines, and its surface cannot be recognised. Returns whether points were removed; then the triangulation
+// and the boundary must be computed again.
 bool drop_small_patches(Surface& surface, PointMeasures& measures);
 
 }  // namespace relievo

@@ -15,9 +15,9 @@
 namespace relievo {
 namespace {
 
-// A point as a disc in view coordinates, in units of cells from the grid's corner.
+// A point as a disc in view coordinates; the unit is a cell, the origin the grid's corner.
 struct FrontDisc {
-  // Radius of the discs that hide what is behind them, in spacings.
+  // Radius, in spacings, of the discs that hide points behind them.
   static constexpr float hiding_radius{ScanLimits::disc_radius};
 
   Vec3f place;
@@ -26,18 +26,18 @@ struct FrontDisc {
   float spacing;
 };
 
-// The rows of one band. Behind each row there is room for the last vector of cells that a disc covers.
+// The rows of one band. After each row there is space for the last vector of cells that a disc covers.
 class DiscBand {
  public:
   DiscBand(int columns, int first_row, int rows);
 
-  // Raises the depths of cells to those of the discs. All depths must be drawn before the first normal.
+  // Raises the depths of cells to those of the discs. All depths must be drawn before the first normals.
   void draw_depths(std::span<const FrontDisc> discs);
 
-  // Adds the normal of each disc to the cells around it in which the disc is in front.
+  // Adds the normal of each disc to the surrounding cells in which the disc is in front.
   void add_normals(std::span<const FrontDisc> discs);
 
-  // Writes depths and unit normals to the band's rows.
+  // Writes depths and unit normals to the band's rows of `cells`.
   void write(FrontCells& cells) const;
 
   // Returns a pointer to the first cell of a row. Rows are counted from the band's first row.
@@ -54,15 +54,15 @@ class DiscBand {
 };
 
 constexpr int lanes = 8;
-// Radius, in spacings, of the discs by which normals are averaged. With 1.5, discs of scattered points leave
-// a thousandth of the surface uncovered.
+// Radius, in spacings, of the discs that average normals. With 1.5, discs of scattered points leave a
+// thousandth of the surface uncovered.
 constexpr float mean_radius = 1.5F;
 constexpr float least_mean_radius = .8F;  // in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
-// For eight cells of one row: the squared distance in the plane from a disc's centre to the cells' centres,
-// and the height of the disc's plane there above the disc's centre.
+// For eight cells of a row: the squared distance in the view plane from a disc's centre to the cells'
+// centres, and the height of the disc's plane above the disc's centre there.
 struct Steps {
   Float8 distance_sq, rise;
 };
@@ -73,8 +73,8 @@ RELIEVO_INLINE Steps steps_from(const FrontDisc& disc, int x, float dy) {
   return {dx * dx + dy * dy, disc.slope.x() * dx + disc.slope.y() * dy};
 }
 
-// Calls f(x, row, dy) for runs of eight cells of a band. The runs contain all cells whose centres are, in the
-// plane, within the radius of the disc's centre. `dy` is the row's distance from the disc's centre.
+// Calls f(x, row, dy) for runs of eight cells of a band. The runs contain all cells whose centres are within
+// the radius of the disc's centre in the view plane. `dy` is the row's distance from the disc's centre.
 template <typename F>
 RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float radius, F&& f) {
   const float y = disc.place.y() - static_cast<float>(band.first_row());
@@ -158,7 +158,7 @@ void DiscBand::write(FrontCells& cells) const {
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws
-constexpr float least_cell = .6F;       // in spacings: smaller cells show nothing more
+constexpr float least_cell = .6F;       // in spacings; smaller cells would show no more detail
 constexpr float steepest = 20;          // slope of a disc
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -183,7 +183,7 @@ FlatBox box_of(std::span<const FrontPoint> points, F&& turned) {
       [](const FlatBox& a, const FlatBox& b) { return a.merged(b); }, block);
 }
 
-// Returns the part of a box that the crop shows.
+// Returns the part of a box inside the crop.
 FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
   const Vec3f size = box.size();
   const Vec3 least(crop.least.x(), crop.least.y(), 1 - crop.farthest),
@@ -192,7 +192,7 @@ FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
           box.least + size.cwiseProduct(most.cast<float>())};
 }
 
-// Per band of rows, the discs of one block of points that touch it.
+// Per band of rows: the discs that touch it, of one block of points.
 using Bands = std::vector<std::vector<FrontDisc>>;
 
 class FrontDrawing {
@@ -226,7 +226,7 @@ class FrontDrawing {
     return is_reversed ? Vec3f(-point.normal) : point.normal;
   }
 
-  // Returns approximately the area that the points cover, from a coarse mask of the points that face the
+  // Returns approximately the area covered by the points, from a coarse mask of the points that face the
   // viewer.
   float covered_area() const {
     constexpr int side = 64;

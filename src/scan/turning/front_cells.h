@@ -1,5 +1,5 @@
-// The front of a cloud on a grid of square cells over the view plane: a quick picture of depths and normals,
-// from which reliefs are made while the user turns the model. Tested by tests/scan/turning_test.cpp.
+// The visible side of a cloud on a grid of square cells over the view plane: a fast image of depths and
+// normals, from which reliefs are made while the user turns the model. Tested by tests/scan/turning_test.cpp.
 #pragma once
 
 #include <limits>
@@ -13,22 +13,22 @@
 
 namespace relievo {
 
-// A point as it is drawn, in the axes of the scan.
+// A point to draw, in the axes of the scan.
 struct FrontPoint {
   Vec3f place, normal;
-  float spacing;  // spacing of the points around it
+  float spacing;  // spacing of the surrounding points
 };
 
-// Cells are in rows from below upwards.
+// Rows of cells, from the lowest upwards.
 struct FrontCells {
   static constexpr float no_depth = -std::numeric_limits<float>::infinity();
 
   Vec2f corner = Vec2f::Zero();  // lower left corner of the first cell
   float cell = 1;                // side of a cell
-  Image<float> depth;            // at the centre of the cell; no_depth where no point covers it
-  Image<Vec3f> normal;           // mean of the visible points around, unit length; zero where there are none
-  Image8 is_behind;              // whether a point that faces away lies in the cell
-  Image8 is_edge;                // whether the surface ends or jumps at a covered cell; mark_edges() sets it
+  Image<float> depth;            // depth at the centre of the cell; no_depth if no point covers it
+  Image<Vec3f> normal;           // unit mean normal of the visible points nearby; zero if there are none
+  Image8 is_behind;              // whether the cell contains a point that faces away
+  Image8 is_edge;                // whether the surface ends or jumps at a covered cell; set by mark_edges()
   std::size_t covered = 0;       // number of cells with a normal
 
   Vec2f centre(int x, int y) const {
@@ -37,16 +37,16 @@ struct FrontCells {
   bool is_covered(int x, int y) const { return normal.contains(x, y) && normal.at(x, y).z() > 0; }
 };
 
-// Draws the points as a view shows them. About `wanted` cells are covered, fewer where points lie so far
-// apart that smaller cells show nothing more. Normals of unknown sign are turned towards the viewer. The
-// result has the same bits for any number of threads.
+// Draws the points as a view shows them. About `wanted` cells are covered, or fewer if smaller cells would
+// show no more detail. Normals of unknown sign are turned to the viewer. The result has the same bits for any
+// number of threads.
 FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted,
                       NormalSigns signs = NormalSigns::outward);
 
-// Clears connected pieces of fewer than `least` covered cells.
+// Clears connected components of fewer than `least` covered cells.
 void clear_small_pieces(FrontCells& front, std::size_t least);
 
-// Fills holes of at most `most` cells from the cells around them.
+// Fills holes of at most `most` cells from the surrounding cells.
 void fill_small_holes(FrontCells& front, std::size_t most);
 
 // Sets `is_edge`.

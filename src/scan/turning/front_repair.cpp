@@ -1,4 +1,4 @@
-// Clears the crumbs of drawn fronts, closes small holes, and marks where the surface ends. Declared in
+// Clears the crumbs of drawn fronts, closes small holes, and marks the ends of the surface. Declared in
 // front_cells.h, tested by tests/scan/turning_test.cpp.
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@
 namespace relievo {
 namespace {
 
-// Neighbouring cells of one row that are all covered, or all uncovered.
+// Consecutive cells of a row that are all covered or all uncovered.
 struct Run {
-  Index begin, end;  // numbers of the first cell and of the cell after the last
+  Index begin, end;  // index of the first cell, and of the cell after the last
   bool is_covered;
-  std::size_t piece_size = 0;  // number of cells in the piece that the run belongs to
+  std::size_t piece_size = 0;  // number of cells in the run's component
 };
 
 std::vector<Run> runs_of_row(const FrontCells& front, int y) {
@@ -30,7 +30,7 @@ std::vector<Run> runs_of_row(const FrontCells& front, int y) {
   return runs;
 }
 
-// Returns the runs of all rows, from below upwards.
+// Returns the runs of all rows, from the lowest upwards.
 std::vector<Run> runs_of(const FrontCells& front) {
   const int height = front.normal.height;
   std::vector<std::vector<Run>> rows(static_cast<std::size_t>(height));
@@ -41,7 +41,7 @@ std::vector<Run> runs_of(const FrontCells& front) {
   return all;
 }
 
-// Joins runs that touch in neighbouring rows, if both are covered or both are uncovered.
+// Joins touching runs of neighbouring rows if both are covered or both are uncovered.
 DisjointSets joined(std::span<const Run> runs, Index width) {
   DisjointSets sets(runs.size());
   std::size_t above = 0;
@@ -54,8 +54,8 @@ DisjointSets joined(std::span<const Run> runs, Index width) {
   return sets;
 }
 
-// Returns the runs with the sizes of their pieces. A piece consists of connected cells that are all covered,
-// or all uncovered.
+// Returns the runs with the sizes of their components. A component consists of connected cells that are all
+// covered or all uncovered.
 std::vector<Run> pieces_of(const FrontCells& front) {
   std::vector<Run> runs = runs_of(front);
   DisjointSets sets = joined(runs, static_cast<Index>(front.normal.width));
@@ -118,7 +118,7 @@ void fill_small_holes(FrontCells& front, std::size_t most) {
 
 namespace {
 
-// Returns, for each cell, how far the surface there rises to the next column and to the next row.
+// Returns, for each cell, how much the surface rises to the next column and to the next row.
 Image<Vec2f> rises_of(const FrontCells& front) {
   Image<Vec2f> rises;
   rises.resize(front.normal.width, front.normal.height);
@@ -129,7 +129,7 @@ Image<Vec2f> rises_of(const FrontCells& front) {
   return rises;
 }
 
-// Finds the cells at which the surface ends or jumps, see is_jump().
+// Finds the cells at which the surface ends or jumps; the rule is that of is_jump().
 class EdgeSearch {
  public:
   explicit EdgeSearch(const FrontCells& front) : front_(front), rises_(rises_of(front)) {}
@@ -141,8 +141,8 @@ class EdgeSearch {
   }
 
  private:
-  // Returns whether no surface connects the cell and its neighbour (u, v) in the same row (axis 0) or column
-  // (axis 1).
+  // Returns whether the surface is not continuous from the cell to its neighbour (u, v) in the same row (axis
+  // 0) or column (axis 1).
   bool is_edge_between(int x, int y, int u, int v, int axis) const {
     if (!front_.is_covered(u, v)) return true;
     const float rise = std::max(rises_.at(x, y)[axis], rises_.at(u, v)[axis]);

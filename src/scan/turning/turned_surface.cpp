@@ -14,11 +14,11 @@
 namespace relievo {
 namespace {
 
-// If a scan has more points than this, only every second, third, ... point is drawn. 600,000 points on all
-// sides suffice for the detail that a relief shows at the size of a screen.
+// If a scan has more points, only every second, third, ... point is drawn. 600,000 points on all sides
+// suffice for the detail of a relief that is as large as a screen.
 constexpr std::size_t most_drawn = 600'000;
 constexpr std::size_t cells_per_point = 12;
-constexpr std::size_t least_cells = 16;  // fewer cells show nothing
+constexpr std::size_t least_cells = 16;  // fewer cells show no recognisable surface
 
 // Chooses the cells whose centres are the points of a surface.
 class CellChoice {
@@ -28,15 +28,15 @@ class CellChoice {
         hole_reach_(
             static_cast<int>(std::ceil(float{ScanLimits::hole_fill_distance} * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
-    // Shifted rows make nearly equilateral triangles. With two columns and one row, every second cell is
-    // chosen, as the black fields of a chessboard.
+    // Shifted rows give nearly equilateral triangles. With two columns and one row, cells are chosen like the
+    // black fields of a chessboard.
     const int least = cells > std::numbers::sqrt2 ? 2 : 1;
     columns_ = std::max(least, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
     rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
   }
 
-  // Returns the distance between points, in cells. reach() returns about the same distance as a whole number,
-  // at least 2 if not all cells are chosen.
+  // spacing() returns the mean distance between chosen points, in cells. reach() returns a similar integer,
+  // at least 2 unless all cells are chosen.
   double spacing() const { return std::sqrt(columns_ * rows_); }
   int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
@@ -58,7 +58,7 @@ class CellChoice {
   }
 
  private:
-  // Every second row is shifted by half a side of a triangle.
+  // Every second row is shifted by half the distance between its points.
   bool is_regular(int x, int y) const {
     return y % rows_ == 0 && (x + y / rows_ % 2 * (columns_ / 2)) % columns_ == 0;
   }
@@ -77,13 +77,13 @@ class CellChoice {
   int columns_ = 1, rows_ = 1, hole_reach_;
 };
 
-// Measures the normal and the curvature of the front at a cell. The normal is a mean over the cells within
-// step / 2 of this cell, where `step` is about the distance between points of the surface, in cells.
+// Measures normal and curvature of the front at a cell. The normal is averaged over the cells within step /
+// 2. `step` is about the distance between points of the surface, in cells.
 class CellMeasures {
  public:
   CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}
 
-  // Returns the mean normal of the surrounding cells at about the same depth.
+  // Returns the mean normal of the surrounding cells with similar depth.
   Vec3f normal(int x, int y) const {
     if (!front_.is_covered(x, y)) return Vec3f::UnitZ();
     const float depth = front_.depth.at(x, y), most = 6 * static_cast<float>(step_) * front_.cell;
@@ -95,7 +95,7 @@ class CellMeasures {
     return sum.normalized();
   }
 
-  // Returns the mean curvature, which is half the divergence of the normal's x and y in the plane.
+  // Returns the mean curvature: half the divergence of the normal's x and y in the view plane.
   double curvature(int x, int y) const {
     const int s = step_;
     if (!front_.is_covered(x, y) || !front_.is_covered(x + s, y) || !front_.is_covered(x - s, y) ||
@@ -118,8 +118,8 @@ float lowest_depth(const FrontCells& front) {
   return lowest;
 }
 
-// Returns a small offset from a cell's centre, in cells. In exact rows the points on the hull would be
-// corners of triangles without area.
+// Returns a small offset from a cell's centre, in cells. Without offsets, points on the hull would be
+// collinear and give triangles without area.
 Vec2f offset_in(Index cell) {
   constexpr float most = .2F;
   const std::uint32_t x = cell * 2654435761U, y = (x ^ (x >> 15)) * 2246822519U;
@@ -127,7 +127,7 @@ Vec2f offset_in(Index cell) {
   return most * Vec2f(share(x ^ (x >> 16)), share(y ^ (y >> 13)));
 }
 
-// Sets the surface's points and normals, in the order of a space-filling curve. Returns the curvature of the
+// Sets the surface's points and normals, in the order of a space-filling curve. Returns the curvature at the
 // points.
 std::vector<double> put_points(const FrontCells& front, const CellChoice& choice, Surface& surface) {
   const int width = front.normal.width;
@@ -159,8 +159,8 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   return k;
 }
 
-// Returns the boundary. A triangle is inside if the front covers at least three of four places: its centre
-// and the middles of its sides.
+// Returns the boundary. A triangle is inside if the front covers at least three of its centre and the
+// midpoints of its three sides.
 Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, const Triangulation& mesh) {
   const auto is_covered = [&](const Vec2& p) {
     const Vec2f at = (p.cast<float>() - front.corner) / front.cell;
@@ -204,7 +204,7 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
 TurningScan TurningScan::without_plane(const Surface& surface) const {
   TurningScan rest = *this;
   const SupportPlane& plane = *surface.plane;
-  // A few points of noise are farther from the plane than its tolerance, and would be seen as separate discs.
+  // Some noisy points are farther from the plane than its tolerance, and would be visible as separate discs.
   SupportPlane thicker = plane;
   thicker.tolerance *= 2;
   const Mat3& R = surface.view.R_view_model;

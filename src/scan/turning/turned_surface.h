@@ -1,4 +1,4 @@
-// Surfaces of some 18,000 points, from which reliefs are made while the user turns the model. Tested by
+// Surfaces of about 18,000 points, from which reliefs are made while the user turns the model. Tested by
 // tests/scan/turning_test.cpp.
 #pragma once
 
@@ -10,22 +10,22 @@ namespace relievo {
 
 class MeasuredCloud;
 
-// The points of a scan that are drawn: at most 600,000, evenly taken from larger scans.
+// The points of a scan that are drawn: at most 600,000, selected evenly from larger scans.
 struct TurningScan {
   explicit TurningScan(const MeasuredCloud& measured);
 
   std::vector<FrontPoint> points;
-  bool do_normals_face_viewer = false;  // signs are unknown, so each normal is turned towards the viewer
-  Vec3 centre = Vec3::Zero();           // see Surface
+  bool do_normals_face_viewer = false;  // true if signs are unknown; each normal is then turned to the viewer
+  Vec3 centre = Vec3::Zero();           // as in Surface
   double rho = 0, diagonal = 0;
 
-  // Returns the scan without the points on and behind the plane of `surface`, which is a surface of this scan
-  // with a plane.
+  // Returns the scan without the points on and behind the support plane of `surface`, a surface of this scan
+  // that has one.
   TurningScan without_plane(const Surface& surface) const;
 };
 
 struct TurnedSurface {
-  Surface surface;   // its points are centres of cells
+  Surface surface;   // its points are the centres of cells
   FrontCells front;  // drawn from all points of the scan
 };
 
