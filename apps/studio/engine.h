@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,9 @@ class Engine {
 
   // Returns the shown scan if it is a single depth image, else null. It shares the model with the scan.
   std::shared_ptr<const SceneModel> depth_image() const;
+
+  // Returns the points of the shown model under places of its picture; see points_under(). Does not wait for pictures.
+  Result<std::vector<std::optional<Vec3>>> points_under(std::span<const Vec2> places) const;
 
   // Returns the six sides, the best one first; see rank_views().
   Result<std::vector<ViewGuess>> suggest_views();

@@ -2,6 +2,7 @@
 // data, so that it can be stored and saved.
 
 import {about, defaultOf, namesOf, optionOf} from "./about.js";
+import {packed, unpacked} from "./strokes.js";
 
 // Returns the value of an option in a new document: the studio's own default, or else the engine's.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
@@ -149,12 +150,13 @@ export class Document {
   }
 
   // Returns the document as plain data.
-  keep = () => ({version: 1, changed: this.changedAt, steps: this.steps, at: this.at});
+  keep = () => ({version: 1, changed: this.changedAt, at: this.at, ...packed(this.steps)});
 
   // Takes over a kept state. Returns whether the state is valid.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
-    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
+    this.steps = kept.steps.map((step) =>
+      ({...FIRST, ...step, options: {...FIRST.options, ...unpacked(step.options ?? {}, kept.strokes)}}));
     this.at = kept.at;
     this.changedAt = kept.changed ?? 0;
     this.stroke = null;
@@ -170,6 +172,8 @@ const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/
 
 // Returns whether one vertical scale gives the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
+
+const LAYERED = ["tone", "steps", "planes", "strokes"]; // options that the paper's method has not
 
 // Returns the options for the engine and `relievo make`. Leaves out those with the value of a new document, unless the
 // engine wants them stated.
@@ -189,7 +193,7 @@ export function engineOptions(step) {
     return {...options, method: "linear"};
   }
   delete options["mm-per-value"], delete options.ground; // kept for forms that have a scale
-  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for the other method
+  if (options.method === "paper") for (const name of LAYERED) delete options[name]; // kept for the other method
   return options;
 }
 
