@@ -188,8 +188,9 @@ export class Brush {
 
   // Returns the brush as SVG elements: its outline, and the part that it changes fully.
   marks(stage) {
-    if (!this.at || !stage.about?.relief_mm || !this.facts()) return [];
-    const [cx, cy] = this.at, r = this.radiusIn(stage), full = r * (1 - this.settings.softness / 100);
+    const {about, size: {width, height}} = stage, [cx, cy] = this.at ?? [];
+    if (!(cx <= width && cy <= height) || !about?.relief_mm || !this.facts()) return [];
+    const r = this.radiusIn(stage), full = r * (1 - this.settings.softness / 100);
     const circle = (r, name) => make("circle", {class: name, cx, cy, r});
     return [circle(r, "brush"), ...(full > 2 && this.settings.kind !== "erase" ? [circle(full, "brush full")] : [])];
   }

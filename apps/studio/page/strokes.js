@@ -68,7 +68,7 @@ function partsOutside(points, point, radius) {
 // cut in two is two strokes.
 export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
   const parts = partsOutside(stroke.points, point, radius);
-  return parts.map((points) => ({...stroke, points}));
+  return parts.map((points, i) => ({...stroke, ...(i > 0 && {name: `${stroke.name}, part ${i + 1}`}), points}));
 });
 
 // Steps of a document share most of their strokes. Returns the steps with numbers in place of strokes, and the strokes.
