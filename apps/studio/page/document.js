@@ -173,8 +173,6 @@ const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/
 // Returns whether one vertical scale gives the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
-const LAYERED = ["tone", "steps", "planes", "strokes"]; // options that the paper's method has not
-
 // Returns the options for the engine and `relievo make`. Leaves out those with the value of a new document, unless the
 // engine wants them stated.
 export function engineOptions(step) {
@@ -193,7 +191,9 @@ export function engineOptions(step) {
     return {...options, method: "linear"};
   }
   delete options["mm-per-value"], delete options.ground; // kept for forms that have a scale
-  if (options.method === "paper") for (const name of LAYERED) delete options[name]; // kept for the other method
+  if (options.method === "paper") { // they are kept for the other method
+    delete options.tone, delete options.steps, delete options.planes, delete options.strokes;
+  }
   return options;
 }
 

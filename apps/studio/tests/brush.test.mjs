@@ -168,6 +168,52 @@ test("exports the very bytes that make writes from the saved project", async () 
   await clear();
 });
 
+test("paints on both sides of the figure's middle", async () => {
+  await labelled("Mirror").check();
+  await draw("soften", [0.44, 0.45], [0.46, 0.5]);
+  await untilStrokes(2);
+  await untilReady(page);
+  const [[first], [other]] = strokes().map(({points}) => points), {size, rotation} = await engine.json("facts");
+  const inView = (point) => [0, 1].map((row) => point.reduce((sum, x, i) => sum + rotation[3 * row + i] * x, 0));
+  const [[x, y], [otherX, otherY]] = [first, other].map(inView);
+  await labelled("Mirror").uncheck();
+  await draw("soften", [0.5, 0.5]); // the figure is in the middle of the picture
+  await untilStrokes(3);
+  const [middle] = inView(strokes()[2].points[0]), near = 0.01 * Math.max(...size);
+  assert.ok(Math.abs(y - otherY) < near && Math.abs(x + otherX - 2 * middle) < near, `${x} ${otherX} about ${middle}`);
+  await soon.deepEqual(names, ["Soften 1", "Soften 1, mirrored", "Soften 2"]);
+  await clear();
+});
+
+test("erases what the brush crosses", async () => {
+  await draw("raise", [0.44, 0.5], [0.56, 0.5]);
+  await untilStrokes(1);
+  await draw("erase", [0.5, 0.47], [0.5, 0.53]);
+  await untilStrokes(2);
+  await soon.deepEqual(names, ["Raise 1", "Raise 1, part 2"]);
+  await draw("erase", [0.43, 0.5], [0.57, 0.5]);
+  await untilStrokes(0);
+  await undo(2);
+  await untilStrokes(1);
+  await clear();
+});
+
+test("paints less strongly where a pen presses less", async (context) => {
+  if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
+  const cdp = await page.context().newCDPSession(page), [x, y] = await pixel(0.5, 0.5);
+  await kind().selectOption("soften");
+  for (const [pressure, count] of [[0.25, 1], [0.75, 2]]) {
+    const pen = (type, buttons) => cdp.send("Input.dispatchMouseEvent",
+      {type, x, y, pointerType: "pen", button: "left", buttons, force: pressure, clickCount: 1});
+    await pen("mousePressed", 1);
+    await pen("mouseReleased", 0);
+    await untilStrokes(count);
+  }
+  const [light, firm] = strokes().map(({amount}) => amount);
+  assert.ok(Math.abs(firm / light - 3) < 0.02, `${light} ${firm}`);
+  await clear();
+});
+
 test("paints by keys", async () => {
   await kind().selectOption("soften");
   const stage = page.locator("#stage");
