@@ -11,6 +11,7 @@
 #include "relievo/scan/surface.h"
 #include "relievo/session.h"
 #include "studio/loaded_scan.h"
+#include "studio/model_points.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -367,6 +368,12 @@ std::shared_ptr<const SceneModel> Engine::depth_image() const {
     const SceneModel* const image = s.shown.scan.depth_image();
     return image ? std::make_shared<const SceneModel>(*image) : nullptr;
   });
+}
+
+Result<std::vector<std::optional<Vec3>>> Engine::points_under(std::span<const Vec2> places) const {
+  const auto model = state_->shown_model().model;
+  if (!model) return nothing_open();
+  return studio::points_under(model->surface(), places);
 }
 
 Result<std::vector<ViewGuess>> Engine::suggest_views() {

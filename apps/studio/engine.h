@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,10 @@ class Engine {
   // Returns the shown scan if it is a single depth image, otherwise null. The pointer shares ownership of the
   // scan.
   std::shared_ptr<const SceneModel> depth_image() const;
+
+  // Returns the points of the shown model under positions in its picture; see points_under(). Does not wait for
+  // pictures.
+  Result<std::vector<std::optional<Vec3>>> points_under(std::span<const Vec2> places) const;
 
   // Returns the six sides of the scan as views, the best one first; see rank_views().
   Result<std::vector<ViewGuess>> suggest_views();

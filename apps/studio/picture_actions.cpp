@@ -99,6 +99,16 @@ Result<Answer> profile(Engine& engine, const Json& json) {
   return answer_of(Json{{"heights_mm", heights}});
 }
 
+// Answers with the points of the model under places of its picture, and null beside the model.
+Result<Answer> points(Engine& engine, const Json& json) {
+  RELIEVO_TRY(const std::vector<Vec2> places, places_from(json));
+  RELIEVO_TRY(const auto found, engine.points_under(places));
+  Json points = Json::array();
+  for (const std::optional<Vec3>& point : found)
+    points.push_back(point ? Json{point->x(), point->y(), point->z()} : Json());
+  return answer_of(Json{{"points", points}});
+}
+
 Result<Answer> reach(Engine& engine, const Json& json) {
   RELIEVO_TRY(PictureRequest request, picture_request(json));
   RELIEVO_TRY(const double height_mm, engine.reachable_height(std::move(request)));
@@ -143,18 +153,11 @@ Result<Answer> make_file(Engine& engine, const Json& json) {
 }  // namespace
 
 EngineAction find_engine_action(std::string_view name) {
-  static constexpr std::pair<std::string_view, EngineAction> actions[] = {{"view", view},
-                                                                          {"cancel", cancel},
-                                                                          {"facts", facts},
-                                                                          {"views", views},
-                                                                          {"frame", frame},
-                                                                          {"scan", scan},
-                                                                          {"pixels", pixels},
-                                                                          {"profile", profile},
-                                                                          {"reach", reach},
-                                                                          {"piece", piece},
-                                                                          {"cancel_piece", cancel_piece},
-                                                                          {"export", make_file}};
+  static constexpr std::pair<std::string_view, EngineAction> actions[] = {
+      {"view", view},       {"cancel", cancel}, {"facts", facts},   {"views", views},
+      {"frame", frame},     {"scan", scan},     {"pixels", pixels}, {"profile", profile},
+      {"points", points},   {"reach", reach},   {"piece", piece},   {"cancel_piece", cancel_piece},
+      {"export", make_file}};
   const auto* const found =
       std::ranges::find(actions, name, &std::pair<std::string_view, EngineAction>::first);
   return found == std::end(actions) ? nullptr : found->second;

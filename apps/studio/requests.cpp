@@ -8,6 +8,7 @@
 
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
+#include "studio/model_points.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -147,6 +148,19 @@ Result<Vec2> place_from(const Json& json, const char* key) {
   if (!place) return wrong(key, "expected two numbers");
   if (place->cwiseAbs().maxCoeff() > 1e6) return wrong(key, "expected a place on the plate");
   return *place;
+}
+
+Result<std::vector<Vec2>> places_from(const Json& json) {
+  const auto all = json.find("places");
+  if (all == json.end() || !all->is_array() || all->size() > most_places)
+    return wrong("places", cat("expected at most ", most_places, " places"));
+  std::vector<Vec2> places;
+  for (std::size_t i = 0; i < all->size(); ++i) {
+    const std::optional<Vec2> place = numbers<2>(Json{{"place", (*all)[i]}}, "place");
+    if (!place) return wrong("places", "expected two numbers for each place");
+    places.push_back(*place);
+  }
+  return places;
 }
 
 Result<View> view_from(const Json& json) {

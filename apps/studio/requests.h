@@ -16,6 +16,7 @@ Result<nlohmann::json> parse_body(std::string_view body);
 // Read fields of a request. Errors: kind input or option; they name the field.
 Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
+Result<std::vector<Vec2>> places_from(const nlohmann::json& json);
 Result<View> view_from(const nlohmann::json& json);
 
 // Returns the options of a height map and the material of a picture, for an export.

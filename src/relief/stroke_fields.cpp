@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 #include "core/disjoint_sets.h"
 #include "core/height_span.h"
-#include "geometry/edges.h"
-#include "relief/edge_weight.h"
+#include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
 #include "scan/jumps.h"
 
@@ -74,36 +73,12 @@ double faded(double distance, const Stroke& stroke) {
   return (1 - x * x) * (1 - x * x);
 }
 
-// Returns a third of the area of the triangles around each point, in the view plane.
-std::vector<float> point_areas(const Surface& surface) {
-  std::vector<float> areas(surface.points.size(), 0);
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const auto& [a, b, c] = surface.triangulation.triangles[t];
-    const Vec3 ab = surface.points[b] - surface.points[a], ac = surface.points[c] - surface.points[a];
-    const auto third = static_cast<float>((ab.x() * ac.y() - ab.y() * ac.x()) / 6);
-    for (const Index i : {a, b, c}) areas[i] += third;
-  }
-  return areas;
+bool is_wide(Brush brush) {
+  return brush == Brush::strengthen;
 }
 
-// Returns the amount per point by which z minus the blur of z is added.
-std::vector<float> blur_amounts(std::size_t points, const Strokes& strokes, std::span<const StrokeMask> masks,
-                                bool is_wide) {
-  std::vector<float> amounts;
-  for (std::size_t s = 0; s < strokes.size(); ++s) {
-    const Brush brush = strokes[s].brush;
-    const bool is_blur =
-        is_wide ? brush == Brush::strengthen : brush == Brush::sharpen || brush == Brush::soften;
-    if (!is_blur || masks[s].points.empty()) continue;
-    amounts.resize(points, 0);
-    const auto amount = static_cast<float>(brush == Brush::soften ? -strokes[s].amount : strokes[s].amount);
-    for (std::size_t k = 0; k < masks[s].points.size(); ++k)
-      amounts[masks[s].points[k]] += amount * masks[s].weights[k];
-  }
-  // Several strokes together must not subtract more than the whole difference.
-  for (float& amount : amounts) amount = std::max(amount, -1.F);
-  return amounts;
+bool is_blur(Brush brush) {
+  return is_wide(brush) || brush == Brush::sharpen || brush == Brush::soften;
 }
 
 template <typename Real>
@@ -145,130 +120,97 @@ StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke) {
 }
 
 template <typename Real>
-typename StrokeFields<Real>::Blur StrokeFields<Real>::blur_of(double sigma,
-                                                              std::span<const float> amounts) const {
-  const Surface& surface = *surface_;
-  Blur blur;
-  std::vector<Index> number(surface.points.size(), no_index);
-  std::vector<Vec2> places;
-  for (Index i = 0; i < amounts.size(); ++i) {
-    if (amounts[i] == 0) continue;
-    number[i] = static_cast<Index>(blur.points.size());
-    blur.points.push_back(i);
-    blur.amounts.push_back(amounts[i]);
-    places.emplace_back(surface.points[i].head<2>());
-  }
-  const std::vector<float> areas = point_areas(surface);
-  const auto is_wanted = [&](const TriangleSide& side) {
-    return surface.boundary.is_inside[side.triangle] && !is_jump(surface, side.from, side.to) &&
-           (number[side.from] != no_index || number[side.to] != no_index);
-  };
-  // Two solves, each with half of the variance, approximate a Gaussian better than one solve.
-  const double variance = sigma * sigma / 4;
-  std::vector<Eigen::Triplet<double>> entries;
-  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
-    const Index a = sides[0].low(), b = sides[0].high();
-    const double pull = variance * static_cast<double>(edge_weight(surface.points, sides));
-    blur.links.push_back({a, b, static_cast<float>(pull)});
-    for (const Index end : {a, b})
-      if (number[end] != no_index) entries.emplace_back(number[end], number[end], pull);
-    if (number[a] != no_index && number[b] != no_index)
-      entries.emplace_back(std::max(number[a], number[b]), std::min(number[a], number[b]), -pull);
-  });
-  const auto least_area = static_cast<float>(1e-3 * surface.rho * surface.rho);
-  for (Index i = 0; i < blur.points.size(); ++i) {
-    blur.areas.push_back(std::max(areas[blur.points[i]], least_area));
-    entries.emplace_back(i, i, static_cast<double>(blur.areas[i]));
-  }
-  const auto size = static_cast<int>(blur.points.size());
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  // The matrix is diagonally dominant, so factoring succeeds.
-  if (Result<solver::Cholesky> system = solver::Cholesky::factor(matrix, places)) {
-    blur.system.emplace(std::move(*system));
-    blur.system->renumber(blur.points);
-    blur.workspace.emplace(blur.system->make_workspace());
-  }
-  return blur;
+typename StrokeFields<Real>::Layer StrokeFields<Real>::layer_of(const Stroke& stroke) {
+  Layer layer{stroke, stroke.is_muted ? StrokeMask() : stroke_mask(*surface_, stroke), {}};
+  if (!is_blur(stroke.brush) || layer.mask.points.empty()) return layer;
+  if (!links_) links_ = surface_links(*surface_);
+  const double sigma = (is_wide(stroke.brush) ? wide_blur : narrow_blur) * surface_->longer_side();
+  layer.blur.emplace(*surface_, *links_, layer.mask.points, sigma);
+  return layer;
 }
 
 template <typename Real>
-void StrokeFields<Real>::take_masks(const Strokes& strokes) {
-  std::vector<StrokeMask> masks;
+void StrokeFields<Real>::take_layers(const Strokes& strokes) {
+  std::vector<std::optional<Layer>> old;
+  for (Layer& layer : layers_) old.emplace_back(std::move(layer));
+  layers_.clear();
+  std::size_t next = 0;  // after the layer that was kept last, as most strokes keep their order
   for (const Stroke& stroke : strokes) {
-    const auto old = std::ranges::find(strokes_, stroke);
-    if (old != strokes_.end())
-      masks.push_back(masks_[static_cast<std::size_t>(old - strokes_.begin())]);
-    else
-      masks.push_back(stroke.is_muted ? StrokeMask() : stroke_mask(*surface_, stroke));
-  }
-  strokes_ = strokes;
-  masks_ = std::move(masks);
-}
-
-template <typename Real>
-void StrokeFields<Real>::take_raised() {
-  raised_.assign(surface_->points.size(), 0);
-  for (std::size_t s = 0; s < strokes_.size(); ++s) {
-    const Brush brush = strokes_[s].brush;
-    if (brush != Brush::raise && brush != Brush::sink) continue;
-    const auto amount = static_cast<float>(brush == Brush::raise ? strokes_[s].amount : -strokes_[s].amount);
-    for (std::size_t k = 0; k < masks_[s].points.size(); ++k)
-      raised_[masks_[s].points[k]] += amount * masks_[s].weights[k];
+    const auto is_same = [&](const std::optional<Layer>& layer) { return layer && layer->stroke == stroke; };
+    const auto found = next < old.size() && is_same(old[next])
+                           ? old.begin() + static_cast<std::ptrdiff_t>(next)
+                           : std::ranges::find_if(old, is_same);
+    if (found == old.end()) {
+      layers_.push_back(layer_of(stroke));
+      continue;
+    }
+    layers_.push_back(*std::move(*found));
+    found->reset();
+    next = static_cast<std::size_t>(found - old.begin()) + 1;
   }
 }
 
 template <typename Real>
 void StrokeFields<Real>::take(const Strokes& strokes) {
-  if (strokes == strokes_) return;
-  take_masks(strokes);
-  take_raised();
-  std::set<Index> changed;
-  levels_.clear();
-  for (std::size_t s = 0; s < strokes_.size(); ++s) {
-    changed.insert(masks_[s].points.begin(), masks_[s].points.end());
-    if (strokes_[s].brush == Brush::level && !masks_[s].points.empty()) levels_.push_back(s);
-  }
-  changed_.assign(changed.begin(), changed.end());
-  blurs_.clear();
-  for (const bool is_wide : {false, true}) {
-    const std::vector<float> amounts = blur_amounts(raised_.size(), strokes_, masks_, is_wide);
-    const double sigma = (is_wide ? wide_blur : narrow_blur) * surface_->longer_side();
-    if (!amounts.empty()) blurs_.push_back(blur_of(sigma, amounts));
-  }
+  if (std::ranges::equal(strokes, layers_, {}, {}, &Layer::stroke)) return;
+  take_layers(strokes);
+  std::vector<std::uint8_t> is_changed(surface_->points.size(), 0);
+  for (const Layer& layer : layers_)
+    for (const Index i : layer.mask.points) is_changed[i] = 1;
+  changed_.clear();
+  for (Index i = 0; i < is_changed.size(); ++i)
+    if (is_changed[i]) changed_.push_back(i);
 }
 
-// Let g = z + e be the blurred heights; e is 0 around the points. Then areas (g - z) = -variance L g becomes
-// a system for e: (areas + variance L) e = -variance L z. The second solve blurs g instead of z.
+// Computes what blurs remove, unless it is known for these heights.
 template <typename Real>
-void StrokeFields<Real>::add_removed(Blur& blur, std::span<const Real> z) {
-  if (!blur.system) return;
-  pulled_.assign(z.size(), 0);
-  moved_.resize(z.size());
-  for (const auto& [a, b, pull] : blur.links) {
-    const Real difference = static_cast<Real>(pull) * (z[b] - z[a]);
-    pulled_[a] += difference;
-    pulled_[b] -= difference;
+void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
+  const bool is_same = std::ranges::equal(z, blurred_);
+  if (!is_same) blurred_.assign(z.begin(), z.end());
+  std::vector<StrokeBlur<Real>*> blurs;
+  for (Layer& layer : layers_)
+    if (layer.blur && !(is_same && !layer.blur->removed().empty())) blurs.push_back(&*layer.blur);
+  if (blurs.size() == 1) return blurs[0]->take(z);  // with all threads
+  parallel_for(
+      blurs.size(), [&](std::size_t i) { blurs[i]->take(z); }, 1);
+}
+
+// Adds the changes of the blurs of one width. Several strokes together may not subtract more than there is.
+template <typename Real>
+void StrokeFields<Real>::add_blurs(bool wide) {
+  for (const Index i : changed_) sum_[i] = amount_[i] = 0;
+  for (const Layer& layer : layers_) {
+    const auto& [stroke, mask, blur] = layer;
+    if (!blur || is_wide(stroke.brush) != wide) continue;
+    const auto amount = static_cast<Real>(stroke.brush == Brush::soften ? -stroke.amount : stroke.amount);
+    for (std::size_t k = 0; k < mask.points.size(); ++k) {
+      const Real share = amount * static_cast<Real>(mask.weights[k]);
+      amount_[mask.points[k]] += share;
+      sum_[mask.points[k]] += share * blur->removed()[k];
+    }
   }
-  const auto solve = [&] {
-    blur.system->solve(std::span<const Real>(pulled_), std::span<Real>(moved_), *blur.workspace);
-  };
-  solve();
-  for (std::size_t k = 0; k < blur.points.size(); ++k)
-    pulled_[blur.points[k]] += static_cast<Real>(blur.areas[k]) * moved_[blur.points[k]];
-  solve();
-  for (std::size_t k = 0; k < blur.points.size(); ++k)
-    added_[blur.points[k]] -= static_cast<Real>(blur.amounts[k]) * moved_[blur.points[k]];
+  for (const Index i : changed_) added_[i] += sum_[i] / std::max(Real(1), -amount_[i]);
 }
 
 template <typename Real>
 void StrokeFields<Real>::apply(double height, std::span<Real> z) {
   if (empty()) return;
-  added_.assign(z.size(), 0);
-  for (Blur& blur : blurs_) add_removed(blur, z);
-  for (const Index i : changed_)
-    z[i] += added_[i] + static_cast<Real>(height) * static_cast<Real>(raised_[i]);
-  for (const std::size_t s : levels_) level(masks_[s], strokes_[s].amount, z);
+  take_blurs(z);
+  for (std::vector<Real>* each : {&added_, &sum_, &amount_}) each->resize(z.size());
+  for (const Index i : changed_) added_[i] = 0;
+  for (const bool wide : {false, true}) add_blurs(wide);
+  for (const Layer& layer : layers_) {
+    const auto& [stroke, mask, blur] = layer;
+    if (stroke.brush != Brush::raise && stroke.brush != Brush::sink) continue;
+    const auto rise =
+        static_cast<Real>(stroke.brush == Brush::raise ? height * stroke.amount : -height * stroke.amount);
+    for (std::size_t k = 0; k < mask.points.size(); ++k)
+      added_[mask.points[k]] += rise * static_cast<Real>(mask.weights[k]);
+  }
+  for (const Index i : changed_) z[i] += added_[i];
+  for (const Layer& layer : layers_)
+    if (layer.stroke.brush == Brush::level && !layer.mask.points.empty())
+      level(layer.mask, layer.stroke.amount, z);
   for (const Index i : changed_) z[i] = std::max(z[i], Real(0));
 }
 

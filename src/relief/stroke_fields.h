@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "relief/stroke_blur.h"
 #include "relievo/relief/relief.h"
 #include "relievo/relief/stroke.h"
 #include "relievo/scan/surface.h"
-#include "relievo/solver/cholesky.h"
 
 namespace relievo {
 
@@ -30,7 +30,8 @@ class StrokeFields {
  public:
   explicit StrokeFields(const Surface& surface) : surface_(&surface) {}
 
-  // Replaces the strokes. Strokes that were there before keep their masks.
+  // Takes these strokes in place of the former ones. Strokes that did not change keep their masks and systems, so that
+  // a stroke that is being drawn costs little more than itself.
   void take(const Strokes& strokes);
 
   bool empty() const { return changed_.empty(); }
@@ -41,34 +42,24 @@ class StrokeFields {
   void apply(double height, std::span<Real> z);
 
  private:
-  // A blur of the heights at some points. The heights around them stay as they are.
-  struct Blur {
-    struct Link {
-      Index a, b;
-      float pull;
-    };
-    std::vector<Index> points;
-    std::vector<float> areas;    // areas of the points, as shares of their mean area
-    std::vector<float> amounts;  // per point: factor of the difference between height and blurred height
-    std::vector<Link> links;
-    std::optional<solver::Cholesky> system;
-    std::optional<solver::Cholesky::Workspace> workspace;
+  struct Layer {
+    Stroke stroke;
+    StrokeMask mask;                       // empty for muted strokes
+    std::optional<StrokeBlur<Real>> blur;  // of brushes that need it
   };
 
-  void take_masks(const Strokes& strokes);
-  void take_raised();
-  Blur blur_of(double sigma, std::span<const float> amounts) const;
-  void add_removed(Blur& blur, std::span<const Real> z);
+  Layer layer_of(const Stroke& stroke);
+  void take_layers(const Strokes& strokes);
+  void take_blurs(std::span<const Real> z);
+  void add_blurs(bool wide);
 
   const Surface* surface_;
-  Strokes strokes_;                // the strokes of masks_
-  std::vector<StrokeMask> masks_;  // empty for muted strokes
-  std::vector<Index> changed_;     // the points under at least one stroke
-  std::vector<float> raised_;      // share of the relief's height that strokes add, per point of the surface
-  std::vector<Blur> blurs_;        // at most two: narrow and wide
-  std::vector<std::size_t> levels_;  // numbers of the strokes with Brush::level
-  // Scratch memory: the sum of all blurs' changes, the right-hand side of a system, and its solution.
-  std::vector<Real> added_, pulled_, moved_;
+  std::optional<SurfaceLinks> links_;  // once a blur needs them
+  std::vector<Layer> layers_;          // one per stroke
+  std::vector<Index> changed_;         // the points under at least one stroke
+  std::vector<Real> blurred_;          // the heights of which the blurs are known
+  // Scratch memory per point: what all strokes add, what blurs of one width add, and the sum of their amounts.
+  std::vector<Real> added_, sum_, amount_;
 };
 
 // Applies the strokes of the relief's shape to its heights, and restores the height of the relief.

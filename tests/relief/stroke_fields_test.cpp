@@ -201,6 +201,59 @@ TEST(StrokeFields, AreThoseOfTheLastStrokesAlone) {
   EXPECT_EQ(twice, applied(surface, last, z));
 }
 
+// Returns heights with waves in which each brush changes something.
+std::vector<double> waves(const Surface& surface) {
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(40 * p.x()) * std::sin(30 * p.y()));
+  return z;
+}
+
+TEST(StrokeFields, AreTheSumOfStrokesThatDoNotTouch) {
+  const Surface surface = square();
+  const std::vector<double> z = waves(surface);
+  std::vector<double> sum = z;
+  Strokes all;
+  for (std::size_t i = 0; i < brushes.size(); ++i) {
+    const double turn = static_cast<double>(i) * std::numbers::pi / 3;
+    all.push_back(dab(brushes[i].value, {.6 * std::cos(turn), .6 * std::sin(turn), 0}, .2, .5));
+    const auto alone = applied(surface, {all.back()}, z);
+    for (std::size_t k = 0; k < z.size(); ++k) sum[k] += alone[k] - z[k];
+  }
+  const auto together = applied(surface, all, z);
+  for (std::size_t k = 0; k < z.size(); ++k) EXPECT_NEAR(together[k], sum[k], 1e-12);
+}
+
+TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
+  const Surface surface = square();
+  const std::vector<double> z = waves(surface);
+  Stroke soft = dab(Brush::soften, {0, 0, 0}, .5);
+  soft.softness = .05;
+  const auto once = applied(surface, {soft}, z), thrice = applied(surface, {soft, soft, soft}, z);
+  for (Index i = 0; i < z.size(); ++i)
+    if (surface.points[i].head<2>().norm() < .47) {
+      EXPECT_NEAR(thrice[i], once[i], 1e-12);
+    }
+}
+
+// A stroke that grows while it is drawn, beside others that stay, changes the same as when it is made at once.
+TEST(StrokeFields, KeepWhatDidNotChangeOnlyForTheSameHeights) {
+  const Surface surface = square();
+  StrokeFields<double> fields(surface);
+  Strokes strokes{dab(Brush::soften, {-.5, 0, 0}), dab(Brush::strengthen, {.5, 0, 0}),
+                  dab(Brush::sharpen, {0, .5, 0})};
+  std::vector<double> z = waves(surface);
+  for (int step = 0; step < 4; ++step) {
+    if (step == 2) strokes.erase(strokes.begin());
+    if (step == 3)
+      for (double& height : z) height = 2 - height;
+    strokes.back().points.emplace_back(.1 * step, .4, 0);
+    std::vector<double> live = z;
+    fields.take(strokes);
+    fields.apply(1, std::span<double>(live));
+    EXPECT_EQ(live, applied(surface, strokes, z)) << step;
+  }
+}
+
 TEST(StrokeFields, NeverFallBelowTheBase) {
   const Surface surface = square();
   const auto changed =

@@ -4,11 +4,12 @@ import {about} from "./about.js";
 import {$} from "./controls.js";
 import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 
-const TOOL_KEYS = {l: "light", r: "turn", o: "orbit", h: "pan", p: "place", s: "section", m: "measure", x: "crop"};
+const TOOL_KEYS = {l: "light", r: "turn", o: "orbit", h: "pan", p: "place", s: "section", m: "measure", x: "crop",
+  d: "brush"};
 
 // Connects the parts of the page. `own` has functions of the page: isThere(), which returns whether there is a relief,
 // save(), which saves a project, openFiles(files), showStart(isShown), chooseUnit(unit) and failed(error).
-export function takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, ...own}) {
+export function takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, brush, opened, tour, ...own}) {
   const help = $("#help-dialog"), showHelp = () => help.showModal(), choose = () => $("#file").click();
   const undo = () => entries.undo(), redo = () => entries.redo(), makeFiles = () => exporting.open();
   const chooseView = () => views.show(doc.now.options);
@@ -33,6 +34,7 @@ export function takeCommands({doc, stage, entries, exporting, views, modes, crop
     e: ofDocument(makeFiles, isReady), o: choose};
   const keys = {
     f: () => stage.fit(), t: () => modes.toggleTable(), c: () => modes.toggleComparing(), v: chooseView,
+    "[": () => brush.resize(-1), "]": () => brush.resize(1),
     Escape: () => cropFrame.giveUp() || stage.takeBack() || modes.leave(),
     ...Object.fromEntries(Object.entries(TOOL_KEYS).map(([key, tool]) => [key, () => modes.setTool(tool)])),
     ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),

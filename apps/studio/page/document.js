@@ -2,6 +2,7 @@
 // data, so it can be stored and saved as JSON.
 
 import {about, defaultOf, namesOf, optionOf} from "./about.js";
+import {packed, unpacked} from "./strokes.js";
 
 // Returns the value of an option in a new document: the studio's own default, or the engine's if there is none.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
@@ -149,12 +150,13 @@ export class Document {
   }
 
   // Returns the document as plain data.
-  keep = () => ({version: 1, changed: this.changedAt, steps: this.steps, at: this.at});
+  keep = () => ({version: 1, changed: this.changedAt, at: this.at, ...packed(this.steps)});
 
   // Takes over a stored state. Returns whether the state is valid.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
-    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
+    this.steps = kept.steps.map((step) =>
+      ({...FIRST, ...step, options: {...FIRST.options, ...unpacked(step.options ?? {}, kept.strokes)}}));
     this.at = kept.at;
     this.changedAt = kept.changed ?? 0;
     this.stroke = null;
@@ -190,7 +192,9 @@ export function engineOptions(step) {
     return {...options, method: "linear"};
   }
   delete options["mm-per-value"], delete options.ground; // kept in the document for forms with a scale
-  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept, too
+  if (options.method === "paper") { // the document keeps them for the other method
+    delete options.tone, delete options.steps, delete options.planes, delete options.strokes;
+  }
   return options;
 }
 

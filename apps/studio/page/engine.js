@@ -88,6 +88,8 @@ export class Engine {
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
+  // Returns the points of the model under places of its picture; null beside it. A place has shares of the figure's box.
+  pointsUnder = async (places) => (await this.#ask("points", {places})).points;
   // Returns the largest height, in mm, that the options allow.
   reach = async (options) => (await this.#ask("reach", {options})).height_mm;
   // Throws if the options are invalid.

@@ -2,6 +2,7 @@
 
 import {about, engine} from "./about.js";
 import {AlphaRow} from "./alpha.js";
+import {Brush} from "./brush.js";
 import {takeCommands} from "./commands.js";
 import {$, Pause, clamp, make} from "./controls.js";
 import {CropFrame} from "./crop_frame.js";
@@ -30,6 +31,7 @@ import {ScenePanel} from "./scene_panel.js";
 import {ShownView} from "./shown_view.js";
 import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
+import {StrokePanel} from "./stroke_panel.js";
 import {START, Shelf, nameOf, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
@@ -43,8 +45,10 @@ const sliders = new Sliders({doc, entries, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, entries, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
+const brush = new Brush({engine, doc, facts: () => facts, say: refuse});
+const strokePanel = new StrokePanel({doc});
 const stage = new Stage(engine, doc,
-  {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: () => shownView.choose()});
+  {picture: pictured, section: showSection, failed, placing, cropFrame, brush, viewRests: () => shownView.choose()});
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const modes = new Modes({stage, doc, cropFrame});
@@ -151,6 +155,7 @@ function showDocument() {
   scanPanel.show();
   depthPanel.show();
   cropFrame.refresh();
+  strokePanel.show();
   entries.show();
   views.tell(doc.now, facts !== null);
   modes.showMaterial(material);
@@ -337,7 +342,7 @@ async function resume({first, recent}) {
 }
 
 async function start() {
-  takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, save: saveProject, openFiles,
+  takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, brush, opened, tour, save: saveProject, openFiles,
     isThere: () => facts !== null, showStart, chooseUnit, failed});
   document.body.inert = false; // clicks before this would be lost
   $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";

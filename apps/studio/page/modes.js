@@ -33,6 +33,7 @@ export class Modes {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
     $("#section").hidden = tool !== "section";
     $("#place-hint").hidden = tool !== "place";
+    $("#brush").hidden = tool !== "brush";
     this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);
     this.stage.setTool(tool);

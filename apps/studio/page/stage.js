@@ -241,6 +241,7 @@ export class Stage {
     this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
+    if (this.tool === "brush") marks.push(...this.on.brush.marks(this));
     if (this.sun) {
       const [x, y] = this.sun;
       marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}),
@@ -256,7 +257,10 @@ export class Stage {
     stage.onpointerdown = (event) => this.press(event);
     const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
     stage.onpointermove = (event) => (!this.drag ? this.hover(event) : isOther(event) || this.move(event));
-    stage.onpointerleave = () => this.tool === "measure" && this.measure.point(null);
+    stage.onpointerleave = () => {
+      if (this.tool === "measure") this.measure.point(null);
+      if (this.tool === "brush" && !this.drag) this.on.brush.point(this, null);
+    };
     stage.onpointerup = stage.onpointercancel = (event) => isOther(event) || this.release();
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
@@ -291,6 +295,7 @@ export class Stage {
     this.element.classList.toggle("at-divider", this.comparing.isAt(x));
     this.element.classList.toggle("at-end", Boolean(line && this.measure.endAt(line, x, y)));
     if (this.tool === "measure") this.measure.point(this.toPlace(x, y));
+    if (this.tool === "brush") this.on.brush.point(this, [x, y]);
   }
 
   release() {
@@ -298,7 +303,7 @@ export class Stage {
     this.drag = this.sun = null;
     TOOLS[drag?.tool]?.release?.(this, drag);
     this.element.classList.remove("dragging");
-    this.doc.endStroke();
+    if (drag?.tool !== "brush") this.doc.endStroke(); // the brush ends its stroke when all points of it are found
     this.drawOverlay();
   }
 
@@ -329,7 +334,8 @@ export class Stage {
       this.drawOverlay();
       this.invalidate();
     }
-    return this.doc.cancelStroke() || isEnded;
+    const isLifted = this.on.brush.cancel();
+    return this.doc.cancelStroke() || isEnded || isLifted;
   }
 
   zoom(event) {

@@ -6,6 +6,7 @@
 //   move(stage, to)         called during a drag; `to` is {x, y, dx, dy, event}: the pointer's position and movement
 //   release(stage, drag)    called when a drag has ended
 //   step(stage, x, y)       called for arrow keys, with smaller steps if Shift is pressed
+//   strike(stage)           called for Space
 
 import {ARROWS, clamp} from "./controls.js";
 import {angles, degrees, direction} from "./lights.js";
@@ -70,6 +71,12 @@ export const TOOLS = {
       if (about && placing.begin(about.size_mm)) placing.move(x, y);
     },
   },
+  brush: {
+    does: "paint; Space sets the brush down and lifts it", isLevel: true,
+    press: (stage, event) => stage.on.brush.press(stage, event), move: (stage, to) => stage.on.brush.move(stage, to),
+    release: ({on: {brush}}) => brush.end(), step: (stage, x, y) => stage.on.brush.step(stage, x, y),
+    strike: (stage) => stage.on.brush.toggle(stage),
+  },
   crop: {does: "move the frame of the crop", step: ({on: {cropFrame}}, x, y) => cropFrame.step(x, y)},
   section: {
     does: "move the section", isLevel: true,
@@ -92,7 +99,8 @@ export function takeKey(stage, event) {
   const {width, height} = stage.size, step = ARROWS[event.key], size = event.shiftKey ? 0.2 : 1;
   if (event.key === "+") return stage.zoomBy(1.2, width / 2, height / 2);
   if (event.key === "-") return stage.zoomBy(1 / 1.2, width / 2, height / 2);
-  if (!step || event.target !== stage.element) return;
+  if (event.target !== stage.element || !(step || (event.key === " " && TOOLS[stage.tool].strike))) return;
   event.preventDefault();
+  if (!step) return TOOLS[stage.tool].strike(stage);
   TOOLS[stage.tool].step?.(stage, step[0] * size, step[1] * size);
 }

@@ -137,6 +137,8 @@ test("says what it expected in each field", async () => {
     ["frame", {u: -1}, "u: expected a number that is not negative"],
     ["profile", {from: 3}, "from: expected two numbers"],
     ["profile", {from: far, to: far}, "from: expected a place on the plate"],
+    ["points", {places: 3}, "places: expected at most 1000 places"],
+    ["points", {places: [[0, "x"]]}, "places: expected two numbers for each place"],
     ["scan", {towards: 3}, "towards: expected directions as three numbers"],
     ["export", {format: "heightmap", pixels: 3}, "pixels: expected a number from 16 to 16384"],
     ["export", {format: "heightmap", pixel: "3 parsecs"}, "pixel: expected a length from 0.001 to 100 mm"],
@@ -200,6 +202,26 @@ test("sends the views as it turns the model", async () => {
     assert.ok([...towards, ...up].every((x, i) => x === rows[i]), `${name}: ${towards} ${up} ${rows}`);
   }
   await engine.prepare({view: "front"});
+});
+
+test("finds the points of the model under places of its picture, in the coordinates of the scan", async () => {
+  const file = path.join(folder, "bowl.xyz"), bowl = (x, y) => 300 + ((x - 100) ** 2 + (y - 200) ** 2) / 8, lines = [], {document} = engine;
+  for (let i = 0; i <= 80; ++i)
+    for (let j = 0; j <= 60; ++j) lines.push([100 + (i - 40) / 40, 200 + (j - 30) / 40]);
+  writeFileSync(file, lines.map(([x, y]) => `${x} ${y} ${bowl(x, y)}`).join("\n"));
+  await engine.open({path: file, name: "bowl.xyz"});
+  for (const [up, place] of [["", (u, v) => [99 + 2 * u, 199.25 + 1.5 * v]], ["1,0,0", (u, v) => [99 + 2 * v, 200.75 - 1.5 * u]]]) {
+    await engine.prepare({view: "front", up});
+    const places = [[0.5, 0.5], [0.1, 0.8], [0.93, 0.22], [1.2, 0.5], [0.5, -3]];
+    const {points} = await engine.json("points", {places});
+    assert.deepEqual(points.slice(3), [null, null], "beside the model");
+    for (const [i, [x, y, z]] of points.slice(0, 3).entries()) {
+      const [wantedX, wantedY] = place(...places[i]);
+      assert.ok(Math.hypot(x - wantedX, y - wantedY) < 1e-9, `${x} ${y} at ${places[i]}`);
+      assert.ok(Math.abs(z - bowl(x, y)) < 0.006, `${z} is not ${bowl(x, y)}`); // half a step of the grid up the slope
+    }
+  }
+  engine.document = document;
 });
 
 test("samples the tone curve and the paper's formula", async () => {

@@ -16,6 +16,19 @@ const undone = (times) => async (page) => {
 };
 const kind = (name) => ({enter: (page) => choose(name, page), leave: undone(1)});
 
+// Paints a dab by the keyboard, in the middle of the picture.
+const painting = async (page) => {
+  await choose("Brush", page);
+  await page.locator("#stage").press(" ");
+  await page.locator("#stage").press(" ");
+  await page.locator("#strokes").waitFor();
+  await untilReady(page);
+};
+const painted = async (page) => {
+  await undo(1, page);
+  await choose("Light", page);
+};
+
 // Requests a height that is out of reach even with steps at depth jumps.
 const highest = async (page) => {
   await enter(field("Steepest wall in degrees", page), "30");
@@ -46,9 +59,10 @@ const message = (page) => page.evaluate(async () => {
 
 export const STATES = {
   "the relief": {enter: nothing, leave: nothing},
-  ...Object.fromEntries(["Turn", "Orbit", "Pan", "Place", "Crop", "Section", "Measure"].map((name) =>
+  ...Object.fromEntries(["Turn", "Orbit", "Pan", "Place", "Brush", "Crop", "Section", "Measure"].map((name) =>
     [`tool ${name}`, tool(name)])),
   ...Object.fromEntries(["Coin", "Carving", "Seal", "Lithophane", "Bent"].map((name) => [`kind ${name}`, kind(name)])),
+  "a stroke": {enter: painting, leave: painted},
   "a height out of reach": {enter: highest, leave: undone(2)},
   comparison: {enter: press("Compare"), leave: press("Compare")},
   "light table": {enter: press("Light table"), leave: press("Light table")},

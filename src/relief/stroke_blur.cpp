@@ -1,0 +1,106 @@
+#include "relief/stroke_blur.h"
+
+#include <algorithm>
+
+#include "geometry/edges.h"
+#include "relief/edge_weight.h"
+#include "scan/jumps.h"
+
+namespace relievo {
+namespace {
+
+std::vector<float> point_areas(const Surface& surface) {
+  std::vector<float> areas(surface.points.size(), 0);
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const auto& [a, b, c] = surface.triangulation.triangles[t];
+    const Vec3 ab = surface.points[b] - surface.points[a], ac = surface.points[c] - surface.points[a];
+    const auto third = static_cast<float>((ab.x() * ac.y() - ab.y() * ac.x()) / 6);
+    for (const Index i : {a, b, c}) areas[i] += third;
+  }
+  return areas;
+}
+
+}  // namespace
+
+SurfaceLinks surface_links(const Surface& surface) {
+  struct Edge {
+    Index low, high;
+    float weight;
+  };
+  std::vector<Edge> edges;
+  const auto is_wanted = [&](const TriangleSide& side) {
+    return surface.boundary.is_inside[side.triangle] && !is_jump(surface, side.from, side.to);
+  };
+  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
+    edges.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
+  });
+  auto links = grouped<SurfaceLinks::Link>(static_cast<Index>(surface.points.size()), [&](auto&& add) {
+    for (const auto& [low, high, weight] : edges) {
+      add(low, SurfaceLinks::Link{high, weight});
+      add(high, SurfaceLinks::Link{low, weight});
+    }
+  });
+  return {std::move(links), point_areas(surface)};
+}
+
+// With g = z + e for the blurred heights, areas (g - z) = -variance L g becomes a system for e, which is 0 around
+// the points: (areas + variance L) e = -variance L z.
+template <typename Real>
+StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, std::span<const Index> points,
+                             double sigma)
+    : points_(points.begin(), points.end()) {
+  std::vector<Index> number(surface.points.size(), no_index);
+  for (Index i = 0; i < points_.size(); ++i) number[points_[i]] = i;
+  // Two solves, each with half of the variance, are nearer to a Gaussian than one.
+  const double variance = sigma * sigma / 4, least_area = 1e-3 * surface.rho * surface.rho;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Vec2> places;
+  for (Index i = 0; i < points_.size(); ++i) {
+    const double area = std::max(static_cast<double>(links.areas[points_[i]]), least_area);
+    double sum = area;
+    for (const auto& [to, weight] : links.links[points_[i]]) {
+      const double pull = variance * static_cast<double>(weight);
+      links_.items.push_back({to, static_cast<Real>(pull)});
+      if (const Index j = number[to]; j != no_index && j < i) entries.emplace_back(i, j, -pull);
+      sum += pull;
+    }
+    links_.begin.push_back(static_cast<Index>(links_.items.size()));
+    entries.emplace_back(i, i, sum);
+    areas_.push_back(static_cast<Real>(area));
+    places.emplace_back(surface.points[points_[i]].template head<2>());
+  }
+  const auto size = static_cast<int>(points_.size());
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  // The matrix is diagonally dominant, so it can be factored.
+  if (Result<solver::Cholesky> system = solver::Cholesky::factor(matrix, places)) {
+    system_.emplace(std::move(*system));
+    workspace_.emplace(system_->make_workspace());
+  }
+}
+
+// The second solve blurs g instead of z.
+template <typename Real>
+void StrokeBlur<Real>::take(std::span<const Real> z) {
+  removed_.assign(points_.size(), 0);
+  if (!system_) return;
+  std::vector<Real> pulled(points_.size()), moved(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Real sum = 0;
+    for (const auto& [to, pull] : links_[i]) sum += pull * (z[to] - z[points_[i]]);
+    pulled[i] = sum;
+  }
+  const auto solve = [&] {
+    system_->solve(std::span<const Real>(pulled), std::span<Real>(moved), *workspace_);
+  };
+  solve();
+  for (std::size_t i = 0; i < points_.size(); ++i) pulled[i] += areas_[i] * moved[i];
+  solve();
+  for (std::size_t i = 0; i < points_.size(); ++i) removed_[i] = -moved[i];
+}
+
+template class StrokeBlur<float>;
+template class StrokeBlur<double>;
+
+}  // namespace relievo

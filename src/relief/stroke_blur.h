@@ -1,0 +1,54 @@
+// Blurs heights under a stroke. Tested by tests/relief/stroke_fields_test.cpp.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/groups.h"
+#include "relievo/scan/surface.h"
+#include "relievo/solver/cholesky.h"
+
+namespace relievo {
+
+// What blurs need of a surface.
+struct SurfaceLinks {
+  struct Link {
+    Index to;
+    float weight;  // edge_weight()
+  };
+  Groups<Link> links;        // around each point: the edges inside the relief that are no depth jumps
+  std::vector<float> areas;  // a third of the area of the triangles around each point, in the view plane
+};
+
+SurfaceLinks surface_links(const Surface& surface);
+
+// What a blur removes from the heights at some points. The heights around the points stay as they are, and depth jumps
+// are not crossed. `Real` is the type of the heights.
+template <typename Real>
+class StrokeBlur {
+ public:
+  // `sigma` is the standard deviation of the blur, in the units of the surface.
+  StrokeBlur(const Surface& surface, const SurfaceLinks& links, std::span<const Index> points, double sigma);
+
+  // Computes removed() for the heights z of all points of the surface.
+  void take(std::span<const Real> z);
+
+  // Returns z minus blurred z, one per point; empty before the first take().
+  const std::vector<Real>& removed() const { return removed_; }
+
+ private:
+  struct Link {
+    Index to;  // number of the point in the surface
+    Real pull;
+  };
+
+  std::vector<Index> points_;
+  Groups<Link> links_;  // around each point
+  std::vector<Real> areas_;
+  std::optional<solver::Cholesky> system_;
+  std::optional<solver::Cholesky::Workspace> workspace_;
+  std::vector<Real> removed_;
+};
+
+}  // namespace relievo
