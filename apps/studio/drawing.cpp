@@ -21,7 +21,8 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
-ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<std::string> remarks) {
+ModelFacts facts_of(const ReliefModel& model, std::size_t outliers, std::vector<std::string> remarks) {
+  const Surface& surface = model.surface();
   const Box box = Box::of(surface.points);
   ModelFacts facts{.scan = ScanReport::of(surface),
                    .points = surface.points.size(),
@@ -31,6 +32,8 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<st
                    .corner = box.min.head<2>(),
                    .delta = surface.curvature.delta,
                    .rotation = surface.view.R_view_model,
+                   .has_colours = !surface.colours.empty(),
+                   .can_be_lit = !model.paper() && !model.subspace(),
                    .remarks = {},
                    .histogram = histogram_of(surface.curvature.k)};
   for (std::string& line : remarks) facts.remarks.push_back({std::move(line)});
@@ -88,7 +91,7 @@ bool is_level(const ReliefOptions& options) {
 }  // namespace
 
 Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)
-    : facts_(facts_of(shown.model->surface(), outliers, std::move(remarks))),
+    : facts_(facts_of(*shown.model, outliers, std::move(remarks))),
       model_(shown.model),
       live_(std::move(shown)) {}
 

@@ -21,6 +21,8 @@ struct ModelFacts {
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // the relief's box, in the scan's units
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
+  bool has_colours = false;            // of the scan's points
+  bool can_be_lit = false;             // whether slopes can be chosen for one light
   std::vector<Remark> remarks;         // each text is a sentence
   std::vector<std::size_t> histogram;  // histogram of sqrt(|k|) for the curvatures k, from 0 to 1
 };

@@ -238,6 +238,8 @@ Json to_json(const ModelFacts& facts) {
           {"noise", scan.removed_noise},
           {"delta", facts.delta},
           {"rotation", rotation},
+          {"has_colours", facts.has_colours},
+          {"can_be_lit", facts.can_be_lit},
           {"remarks", remarks},
           {"histogram", facts.histogram}};
 }

@@ -168,6 +168,9 @@ export const NOT_PRINTED = ["draft", "tool", "finish"];
 // The options of the shape of heights, which one vertical scale does not have.
 const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/.test(name));
 
+// The options of the shape that the paper's method does not have.
+const NOT_OF_PAPER = ["tone", "steps", "planes", "light", "colour"];
+
 // Returns whether one vertical scale gives the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
@@ -189,7 +192,7 @@ export function engineOptions(step) {
     return {...options, method: "linear"};
   }
   delete options["mm-per-value"], delete options.ground; // kept for forms that have a scale
-  if (options.method === "paper") delete options.tone, delete options.steps, delete options.planes; // kept for the other method
+  if (options.method === "paper") for (const name of NOT_OF_PAPER) delete options[name]; // kept for the other method
   return options;
 }
 

@@ -16,6 +16,7 @@ import {shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
+import {LightPanel} from "./light_panel.js";
 import {KindCards, fileName} from "./kinds.js";
 import {Outcome} from "./outcome.js";
 import {PieceRows, inWords} from "./pieces.js";
@@ -50,6 +51,7 @@ const views = new ViewDialog(engine, (view) => doc.change({options: view}), fail
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
+const lightPanel = new LightPanel({doc, sliders: sliders.elements, say: refuse});
 const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
 const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
 const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
@@ -150,6 +152,7 @@ function showDocument() {
   kindPanel.show();
   scanPanel.show();
   depthPanel.show();
+  lightPanel.show();
   cropFrame.refresh();
   entries.show();
   views.tell(doc.now, facts !== null);
@@ -231,6 +234,7 @@ function begun(former) {
   $("#picture").width = $("#before").width = 1;
   scanPanel.tell(null);
   depthPanel.tell(null);
+  lightPanel.tell(null);
   scenePanel.show([]);
   for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";
@@ -269,6 +273,7 @@ async function arrived(status) {
   stage.share = 1;
   scanPanel.tell(facts);
   depthPanel.tell(facts.depth_image).catch(failed);
+  lightPanel.tell(facts);
   cropFrame.refresh();
   scenePanel.show(engine.takesSeveral ? [] : facts.models); // a new scene file would not find the models' files
   tour.offer();
