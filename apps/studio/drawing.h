@@ -9,6 +9,7 @@
 
 #include "common/wording.h"
 #include "relievo/job.h"
+#include "relievo/ornament_places.h"
 #include "relievo/picture/preview.h"
 #include "studio/solid_section.h"
 
@@ -45,14 +46,17 @@ struct PictureRequest {
   std::optional<double> u;   // strength of the compression, if it is given instead of a height
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
-  RenderOptions render;      // its lengths are set from the options
+  std::optional<Error> ornament_error = {};  // why the ornaments of the options were left out
+  RenderOptions render;          // its lengths are set from the options
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
 struct PictureAnswer {
   Picture picture;
-  bool is_finished = false;  // shows the piece as export makes it, or the model itself
-  bool is_plain = false;     // the piece is a relief on a rectangular plate, which frames show, too
+  bool is_finished = false;      // shows the piece as export makes it, or the model itself
+  bool is_plain = false;         // the piece is a relief on a rectangular plate, which frames show, too
+  bool has_ornaments = false;    // shows the ornaments of the options
+  std::optional<Error> ornament_error = {};  // of the request
   double drawing_s = 0;
   double width_mm = 0;                  // the relief's longer side
   Vec3 size_mm = Vec3::Zero();          // the piece's size
@@ -93,6 +97,8 @@ struct PieceHeight {
   bool is_met = true;
 };
 
+ReliefOptions without_ornaments(ReliefOptions options);
+
 // Not for concurrent use.
 class Drawing {
  public:
@@ -111,12 +117,15 @@ class Drawing {
   // requested height, in others within 3 % of it. The finished piece replaces the frame if the request asks
   // for the piece and take() got it. For other options draws a piece, always for exactly the requested
   // height: the finished piece if take() got it, else a coarse one, which is made faster, with fewer samples
-  // and without a draft angle or tool. Errors: those of make_relief().
+  // and without a draft angle or tool. Only the finished piece has ornaments. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the request would show; nothing if take() was called with this
   // piece. Errors: those of with_width().
   Result<std::optional<ReliefOptions>> missing_piece(PictureRequest request);
+
+  // Returns where the ornaments of the options lie. Errors: those of relievo::ornament_places().
+  Result<std::vector<OrnamentPlace>> ornament_places(const ReliefOptions& options) const;
 
   // Keeps the finished piece that was made with these options, until the next one is taken.
   void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);

@@ -65,7 +65,8 @@ class Engine {
   // picture() and profile() draw as Drawing does. While another view is being prepared, pictures show the
   // last frame of the model that is shown until then. A picture of a finished piece waits until the piece is
   // made. Any other picture cancels the making of that piece, so as not to wait for it. A picture that is
-  // neither fine nor of a finished piece also cancels all pictures that are. Errors: also those of piece().
+  // neither fine nor of a finished piece also cancels all pictures that are. If ornaments have no room, the
+  // finished piece is made without them, and the answer says so. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
@@ -74,6 +75,9 @@ class Engine {
   // not of a finished piece cancels this. Errors: those of Drawing::reachable_height() and
   // highest_with_draft(); kind cancelled.
   Result<double> reachable_height(PictureRequest request);
+
+  // Returns where the ornaments of the options lie on the piece, whether they have room or not.
+  Result<std::vector<OrnamentPlace>> ornament_places(const ReliefOptions& options);
 
   // Draws the scan itself as it looks in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);

@@ -32,6 +32,7 @@ nlohmann::json to_json(const ModelFacts& facts);
 
 // Returns the facts that are sent with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
+nlohmann::json to_json(const OrnamentPlace& place);
 
 // Returns the six sides, each with its name, the direction towards the viewer, and the direction that is
 // shown upright.

@@ -171,6 +171,10 @@ const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/
 // The options of the shape that the paper's method does not have.
 const NOT_OF_PAPER = ["tone", "steps", "planes", "light", "colour"];
 
+// The options of texts and ornaments, which need ground around the relief. A document keeps them while it has none.
+export const ON_GROUND = ["text", "text-arc", "text-size", "text-height", "font", "ornaments"];
+export const hasGround = ({options}) => options.outline !== "none" && options.form !== "lithophane";
+
 // Returns whether one vertical scale gives the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
@@ -187,6 +191,7 @@ export function engineOptions(step) {
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
+  if (!hasGround(step)) for (const name of ON_GROUND) delete options[name];
   if (hasScale(step)) {
     for (const name of SHAPE) delete options[name];
     return {...options, method: "linear"};

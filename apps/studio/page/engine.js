@@ -88,6 +88,8 @@ export class Engine {
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
+  // Returns {outlines, at, error} of each ornament; an outline is an array x, y, x, y ... in mm from the piece's middle.
+  placeOrnaments = async (options) => (await this.#ask("ornaments", {options})).ornaments;
   // Returns the largest height in mm that the options allow.
   reach = async (options) => (await this.#ask("reach", {options})).height_mm;
   // Throws unless the options can be read.

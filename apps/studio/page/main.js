@@ -16,6 +16,7 @@ import {shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
+import {LettersPanel} from "./letters_panel.js";
 import {LightPanel} from "./light_panel.js";
 import {KindCards, fileName} from "./kinds.js";
 import {Outcome} from "./outcome.js";
@@ -52,6 +53,7 @@ const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const lightPanel = new LightPanel({doc, sliders: sliders.elements, say: refuse});
+const letters = new LettersPanel({engine, doc, stage, say: refuse});
 const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
 const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
 const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
@@ -98,6 +100,7 @@ function chooseUnit(unit) {
   shown.unit = unit;
   localStorage.setItem("unit", unit);
   sliders.showUnit();
+  letters.show();
   pieces.show();
   if (last) stage.invalidate();
 }
@@ -153,6 +156,7 @@ function showDocument() {
   scanPanel.show();
   depthPanel.show();
   lightPanel.show();
+  letters.show();
   cropFrame.refresh();
   entries.show();
   views.tell(doc.now, facts !== null);
@@ -235,6 +239,7 @@ function begun(former) {
   scanPanel.tell(null);
   depthPanel.tell(null);
   lightPanel.tell(null);
+  letters.clear();
   scenePanel.show([]);
   for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";

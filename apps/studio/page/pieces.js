@@ -75,7 +75,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
 }
 
 // The names of options whose controls have other labels.
-const OTHERS = {tone: "Tone curve", view: "View"};
+const OTHERS = {tone: "Tone curve", view: "View", text: "Letters", ornaments: "Letters"};
 // The page's texts for the expected values of an option.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
 // The engine's advice about coloured pictures applies only to the command line, so the page replaces it.
