@@ -29,7 +29,7 @@ Answer answer_of(const Picture& picture, const Json& about) {
   return {200,
           "application/octet-stream",
           {reinterpret_cast<const char*>(pixels.data()), pixels.size()},
-          {{"X-Relievo", about.dump()}}};
+          {{"X-Relievo", about.dump(-1, ' ', true)}}};
 }
 
 Answer refusal(int status, const std::string& text) {

@@ -21,7 +21,8 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
-ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<std::string> remarks) {
+ModelFacts facts_of(const ReliefModel& model, std::size_t outliers, std::vector<std::string> remarks) {
+  const Surface& surface = model.surface();
   const Box box = Box::of(surface.points);
   ModelFacts facts{.scan = ScanReport::of(surface),
                    .points = surface.points.size(),
@@ -31,6 +32,8 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<st
                    .corner = box.min.head<2>(),
                    .delta = surface.curvature.delta,
                    .rotation = surface.view.R_view_model,
+                   .has_colours = !surface.colours.empty(),
+                   .can_be_lit = !model.paper() && !model.subspace(),
                    .remarks = {},
                    .histogram = histogram_of(surface.curvature.k)};
   for (std::string& line : remarks) facts.remarks.push_back({std::move(line)});
@@ -88,8 +91,19 @@ bool is_level(const ReliefOptions& options) {
 
 }  // namespace
 
+ReliefOptions without_ornaments(ReliefOptions options) {
+  options.text.clear();
+  options.font_name.clear();
+  options.font = nullptr;
+  options.text_arc = TextArc::straight;
+  options.text_mm = options.text_height_mm = std::nullopt;
+  options.ornament_source.clear();
+  options.ornaments.clear();
+  return options;
+}
+
 Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)
-    : facts_(facts_of(shown.model->surface(), outliers, std::move(remarks))),
+    : facts_(facts_of(*shown.model, outliers, std::move(remarks))),
       model_(shown.model),
       live_(std::move(shown)) {}
 
@@ -153,12 +167,14 @@ void Drawing::take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& 
 
 Result<DrawnPiece*> Drawing::piece(const ReliefOptions& options) {
   if (is_finished(options)) return &*finished_;
-  if (coarse_ && coarse_->options == options) return &*coarse_;
-  RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(options)));
+  const ReliefOptions bare =
+      without_ornaments(options);  // these take longer than a hand that waits for a frame
+  if (coarse_ && coarse_->options == bare) return &*coarse_;
+  RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(bare)));
   const auto solid = std::make_shared<const Solid>(std::move(made.solid));
   const auto height = options.mm_per_value ? std::optional(made.report.height_mm) : std::nullopt;
   coarse_.reset();
-  coarse_.emplace(options, solid, nullptr, SolidRenderer(solid), height);
+  coarse_.emplace(bare, solid, nullptr, SolidRenderer(solid), height);
   return &*coarse_;
 }
 
@@ -166,11 +182,14 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
                            PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
   const ReliefOptions wanted = piece_options(request, made);
-  answer.is_plain = is_plain(request.options);
+  const bool is_frame = is_plain(request.options), has_ornaments = !wanted.all_ornaments().empty();
+  answer.is_plain = is_frame && !has_ornaments;
   answer.is_finished = (!answer.is_plain || request.is_finished) && is_finished(wanted);
+  answer.has_ornaments = answer.is_finished && has_ornaments;
+  answer.ornament_error = request.ornament_error;
   answer.is_size_exact = answer.is_finished || is_level(request.options);
   answer.relief_height_mm = answer.height_mm;
-  if (answer.is_plain && !answer.is_finished) {
+  if (is_frame && !answer.is_finished) {
     live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
     answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
@@ -216,6 +235,10 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   if (made.is_new) answer.times = frame.times;
   RELIEVO_CHECK(draw(request, options, made, answer));
   return answer;
+}
+
+Result<std::vector<OrnamentPlace>> Drawing::ornament_places(const ReliefOptions& options) const {
+  return relievo::ornament_places(model_->surface(), options);
 }
 
 Result<double> Drawing::reachable_height(const ReliefOptions& asked) {

@@ -9,6 +9,7 @@
 
 #include "common/wording.h"
 #include "relievo/job.h"
+#include "relievo/ornament_places.h"
 #include "relievo/picture/preview.h"
 #include "studio/solid_section.h"
 
@@ -21,6 +22,8 @@ struct ModelFacts {
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // bounding box of the relief, in units of the scan
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
+  bool has_colours = false;            // whether the scan's points have colours
+  bool can_be_lit = false;             // whether slopes can be chosen for one light
   std::vector<Remark> remarks;         // each text is a full sentence
   std::vector<std::size_t> histogram;  // counts of sqrt(|k|) from 0 to 1, over the points' curvatures k
 };
@@ -42,14 +45,17 @@ struct PictureRequest {
   std::optional<double> u;     // strength of the compression; empty if the height is given
   bool is_original = false;    // draw the model itself instead of its relief
   bool is_finished = false;    // draw the piece exactly as it is exported
-  RenderOptions render;        // lengths in it are overwritten by those of the options
+  std::optional<Error> ornament_error = {};       // why the ornaments of the options were left out
+  RenderOptions render;                           // lengths in it are overwritten by those of the options
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
 struct PictureAnswer {
   Picture picture;
-  bool is_finished = false;  // the picture shows the piece as it is exported, or the model itself
-  bool is_plain = false;     // the piece is a relief on a rectangular plate, as is_plain() says
+  bool is_finished = false;    // the picture shows the piece as it is exported, or the model itself
+  bool is_plain = false;       // the piece is a relief on a rectangular plate, as is_plain() says
+  bool has_ornaments = false;  // whether the picture shows the ornaments of the options
+  std::optional<Error> ornament_error = {};  // that of the request
   double drawing_s = 0;
   double width_mm = 0;                  // the longer side of the relief
   Vec3 size_mm = Vec3::Zero();          // the size of the piece
@@ -90,6 +96,8 @@ struct PieceHeight {
   bool is_met = true;
 };
 
+ReliefOptions without_ornaments(ReliefOptions options);
+
 // Not for concurrent use.
 class Drawing {
  public:
@@ -109,13 +117,16 @@ class Drawing {
   // and take() has received it, draws that piece instead.
   // For other options always draws a piece of exactly the requested height: the finished piece if take() has
   // received it, otherwise a coarse one. A coarse piece takes less time: it has fewer samples and no draft
-  // angle or tool.
+  // angle or tool. Only the finished piece has ornaments.
   // Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the picture of this request needs; nothing if take() has received
   // that piece. Errors: those of with_width().
   Result<std::optional<ReliefOptions>> missing_piece(PictureRequest request);
+
+  // Returns where the ornaments of the options lie. Errors: those of relievo::ornament_places().
+  Result<std::vector<OrnamentPlace>> ornament_places(const ReliefOptions& options) const;
 
   // Keeps the finished piece, which was made with these options, until the next call.
   void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);

@@ -25,6 +25,10 @@ Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
 }
 
+bool is_of_ornaments(const Error& error) {
+  return error.kind == ErrorKind::option && (error.input == "text" || error.input == "ornaments");
+}
+
 // Returns a number that no other model has, in this run or another: the time in milliseconds, or a larger
 // number.
 std::uint64_t new_model_number() {
@@ -305,6 +309,11 @@ Result<void> Engine::finish(PictureRequest& request) {
   }));
   if (!missing) return {};
   auto made = piece(*missing, PieceUse::picture);
+  if (!made && is_of_ornaments(made.error()) && !missing->all_ornaments().empty()) {
+    request.options = without_ornaments(request.options);
+    request.ornament_error = std::move(made).error();
+    return finish(request);
+  }
   if (!made) return unless_cancelled(made.error());
   return state_->with_drawing([&](Drawing& drawing) -> Result<void> {
     if (state_->drawn_model == model) drawing.take(std::move(*made), *missing);
@@ -346,6 +355,10 @@ Result<double> Engine::reachable_height(PictureRequest request) {
   }));
   RELIEVO_CHECK(find_draft_limit(request, PieceUse::picture));
   return std::min(height_mm, request.draft_limit_mm.value_or(height_mm));
+}
+
+Result<std::vector<OrnamentPlace>> Engine::ornament_places(const ReliefOptions& options) {
+  return state_->with_drawing([&](Drawing& drawing) { return drawing.ornament_places(options); });
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {

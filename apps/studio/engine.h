@@ -66,7 +66,8 @@ class Engine {
   // Draw as the methods of Drawing do. While another view is being prepared, a picture shows the last frame
   // of the current model. A picture of a finished piece waits until that piece is made. Any other picture
   // cancels the making of that piece instead of waiting for it. Fine pictures and pictures of finished pieces
-  // are also cancelled by any picture that is neither. Errors: also those of piece().
+  // are also cancelled by any picture that is neither. If ornaments have no room, the
+  // finished piece is made without them, and the answer says so. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
@@ -75,6 +76,9 @@ class Engine {
   // not of a finished piece cancels this call. Errors: those of Drawing::reachable_height() and
   // highest_with_draft(); kind cancelled.
   Result<double> reachable_height(PictureRequest request);
+
+  // Returns where the ornaments of the options lie on the piece, whether they have room or not.
+  Result<std::vector<OrnamentPlace>> ornament_places(const ReliefOptions& options);
 
   // Draws the scan itself in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);

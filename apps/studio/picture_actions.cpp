@@ -115,6 +115,15 @@ Result<Answer> reach(Engine& engine, const Json& json) {
   return answer_of(Json{{"height_mm", height_mm}});
 }
 
+// Returns the outlines of the ornaments, as numbers x, y, x, y ... in mm from the middle of the piece.
+Result<Answer> ornaments(Engine& engine, const Json& json) {
+  RELIEVO_TRY(const ReliefOptions options, options_in(json));
+  RELIEVO_TRY(const std::vector<OrnamentPlace> places, engine.ornament_places(options));
+  Json all = Json::array();
+  for (const OrnamentPlace& place : places) all.push_back(to_json(place));
+  return answer_of(Json{{"ornaments", std::move(all)}});
+}
+
 // Returns the height of the front, including the rim.
 double front_mm(const Solid& solid) {
   Box box;
@@ -153,11 +162,20 @@ Result<Answer> make_file(Engine& engine, const Json& json) {
 }  // namespace
 
 EngineAction find_engine_action(std::string_view name) {
-  static constexpr std::pair<std::string_view, EngineAction> actions[] = {
-      {"view", view},       {"cancel", cancel}, {"facts", facts},   {"views", views},
-      {"frame", frame},     {"scan", scan},     {"pixels", pixels}, {"profile", profile},
-      {"points", points},   {"reach", reach},   {"piece", piece},   {"cancel_piece", cancel_piece},
-      {"export", make_file}};
+  static constexpr std::pair<std::string_view, EngineAction> actions[] = {{"view", view},
+                                                                          {"cancel", cancel},
+                                                                          {"facts", facts},
+                                                                          {"views", views},
+                                                                          {"frame", frame},
+                                                                          {"scan", scan},
+                                                                          {"pixels", pixels},
+                                                                          {"profile", profile},
+                                                                          {"points", points},
+                                                                          {"reach", reach},
+                                                                          {"ornaments", ornaments},
+                                                                          {"piece", piece},
+                                                                          {"cancel_piece", cancel_piece},
+                                                                          {"export", make_file}};
   const auto* const found =
       std::ranges::find(actions, name, &std::pair<std::string_view, EngineAction>::first);
   return found == std::end(actions) ? nullptr : found->second;
@@ -176,6 +194,7 @@ nlohmann::json Actions::about() {
               {"readable", readable_formats()},
               {"views", view_list()},
               {"materials", material_list()},
+              {"has_lettering", has_lettering()},
               {"curve", {{"most_points", ToneCurve::most_points}}},
               {"recent", recent_list()},
               {"first", first_},

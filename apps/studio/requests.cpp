@@ -254,6 +254,8 @@ Json to_json(const ModelFacts& facts) {
           {"noise", scan.removed_noise},
           {"delta", facts.delta},
           {"rotation", rotation},
+          {"has_colours", facts.has_colours},
+          {"can_be_lit", facts.can_be_lit},
           {"remarks", remarks},
           {"histogram", facts.histogram}};
 }
@@ -268,6 +270,8 @@ Json to_json(const PictureAnswer& answer) {
           {"pixels_per_mm", answer.picture.pixels_per_mm},
           {"is_finished", answer.is_finished},
           {"is_plain", answer.is_plain},
+          {"has_ornaments", answer.has_ornaments},
+          {"ornament_error", answer.ornament_error ? error_json(*answer.ornament_error) : Json()},
           {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},
           {"relief_height_mm", answer.relief_height_mm},
@@ -286,6 +290,22 @@ Json to_json(const PictureAnswer& answer) {
           {"after_solve_ms", answer.times.after_solve_s * 1e3},
           {"normals_ms", answer.times.normals_s * 1e3},
           {"drawing_ms", answer.drawing_s * 1e3}};
+}
+
+Json to_json(const OrnamentPlace& place) {
+  const auto in_micrometres = [](double mm) { return std::round(mm * 1e3) / 1e3; };
+  Json outlines = Json::array();
+  for (const std::vector<Vec2>& outline : place.outlines) {
+    Json& numbers = outlines.emplace_back(Json::array());
+    for (const Vec2& p : outline) {
+      numbers.push_back(in_micrometres(p.x()));
+      numbers.push_back(in_micrometres(p.y()));
+    }
+  }
+  Json at, error;
+  if (place.at_mm) at = {in_micrometres(place.at_mm->x()), in_micrometres(place.at_mm->y())};
+  if (place.error) error = error_json(*place.error);
+  return {{"outlines", std::move(outlines)}, {"at", at}, {"error", error}};
 }
 
 Json view_list() {

@@ -33,6 +33,7 @@ nlohmann::json to_json(const ModelFacts& facts);
 
 // Returns the facts that are sent with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
+nlohmann::json to_json(const OrnamentPlace& place);
 
 // Returns the six sides: their names, the directions towards the viewer, and the directions that are shown
 // upwards.

@@ -128,13 +128,13 @@ std::vector<OptionRow> limit_rows() {
       {.name = "light", .unit = "AZ,EL", .stage = shape,
        .help = "azimuth and elevation in degrees of a light under which the piece will hang, for which slopes are chosen: "
                "135,30 is from the upper left",
-       .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::light, parse_light>},
+       .otherwise = "none", .access = text<&ReliefOptions::light, parse_light>},
       {.name = "light-contrast", .unit = "C", .stage = shape, .min = 0, .max = 1,
        .help = "how much of the model's contrast under the light the relief gets", .initial = NumericOptions{}.light_contrast,
-       .is_hidden = true, .access = number<&ReliefOptions::light_contrast>},
+       .access = number<&ReliefOptions::light_contrast>},
       {.name = "colour", .unit = "MM", .stage = shape, .min = 0, .max = 100,
        .help = "depth by which dark lines of a coloured scan sink, such as pupils and painted letters",
-       .initial = NumericOptions{}.colour_mm, .is_hidden = true, .access = number<&ReliefOptions::colour_mm>},
+       .initial = NumericOptions{}.colour_mm, .access = number<&ReliefOptions::colour_mm>},
       {.name = "strokes", .unit = "JSON", .stage = shape,
        .help = "local changes painted onto the model, as JSON or a file with it: brush, amount, radius and points of each",
        .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::strokes, parse_strokes>},
@@ -226,25 +226,25 @@ std::vector<OptionRow> ornament_rows() {
   return {
       {.name = "text", .unit = "TEXT", .stage = plate,
        .help = "text on the ground, in any script that the font has; the margin gives it room, and must be clear",
-       .otherwise = "none", .access = text<&ReliefOptions::text, same>},
+       .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::text, same>},
       {.name = "text-arc", .unit = "LINE", .stage = plate, .choices = names_of(text_arc_choices),
        .help = "line on which the text stands: straight below the relief, or on a circle at the top, at the bottom or "
                "all around",
-       .initial = "straight", .access = word<&ReliefOptions::text_arc, text_arc_choices>},
+       .initial = "straight", .is_hidden = true, .access = word<&ReliefOptions::text_arc, text_arc_choices>},
       {.name = "text-size", .unit = "MM", .stage = plate, .min = .1, .max = 1e4,
        .help = "height of the text's capitals", .otherwise = "0.6 of the margin",
-       .access = number<&ReliefOptions::text_mm>},
+       .is_hidden = true, .access = number<&ReliefOptions::text_mm>},
       {.name = "text-height", .unit = "MM", .stage = plate, .min = -100, .max = 100,
        .help = "height of the text above the ground; a negative one sinks it. Its walls lean as draft says, else by 15 "
                "degrees",
-       .otherwise = "0.2 of its size, below the rim", .access = number<&ReliefOptions::text_height_mm>},
+       .otherwise = "0.2 of its size, below the rim", .is_hidden = true, .access = number<&ReliefOptions::text_height_mm>},
       {.name = "font", .unit = "FILE", .stage = plate,
        .help = "TrueType or OpenType font of the text; none takes its place",
        .otherwise = "the font inside, Noto Serif Bold, for Latin, Greek and Cyrillic", .is_hidden = true,
        .access = text<&ReliefOptions::font_name, same>},
       {.name = "ornaments", .unit = "FILE", .stage = plate,
        .help = "further texts, beads, rope, lines and SVG drawings: a JSON file, or its content",
-       .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::ornament_source, same>},
+       .otherwise = "none", .access = text<&ReliefOptions::ornament_source, same>},
   };
 }
 

@@ -282,6 +282,15 @@ class GroundMaker {
 
 }  // namespace
 
+OrnamentFrame ornament_frame(const PlateOutline& outline, const PlateOptions& options) {
+  OrnamentFrame frame{rim_inner_polygon(outline, options.rim), options.margin_mm};
+  if (options.rim.width_mm > 0) frame.rim_mm = std::abs(options.rim.height_mm);
+  frame.slope = options.ornament_slope;
+  frame.is_mirrored = options.is_mirrored;
+  frame.is_die = options.is_die;
+  return frame;
+}
+
 Result<void> add_shapes(Solid& surface, std::span<const RaisedShape> shapes, std::span<const Vec2> inner) {
   if (shapes.empty()) return {};
   return GroundMaker(surface, inner).add(shapes);

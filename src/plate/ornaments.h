@@ -5,10 +5,14 @@
 #include <span>
 
 #include "geometry/raised_shape.h"
+#include "lettering/ornament_shapes.h"
 #include "plate/plate_ground.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {
+
+// Returns the area for ornaments on a plate of that outline.
+OrnamentFrame ornament_frame(const PlateOutline& outline, const PlateOptions& options);
 
 // Replaces the level ground of a surface by ground with the shapes on it. The shapes are in the surface's
 // coordinates. `inner` is the polygon inside the rim. All other triangles are kept. Sets `surface.ornaments`.

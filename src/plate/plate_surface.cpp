@@ -56,12 +56,7 @@ void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground
 // Adds the ornaments to the ground inside the outline.
 Result<void> add_ornaments(Solid& surface, const PlateOutline& outline, const PlateOptions& options) {
   if (options.ornaments.empty()) return {};
-  const bool has_rim = options.rim.width_mm > 0;
-  OrnamentFrame frame{rim_inner_polygon(outline, options.rim), options.margin_mm};
-  if (has_rim) frame.rim_mm = std::abs(options.rim.height_mm);
-  frame.slope = options.ornament_slope;
-  frame.is_mirrored = options.is_mirrored;
-  frame.is_die = options.is_die;
+  const OrnamentFrame frame = ornament_frame(outline, options);
   RELIEVO_TRY(const std::vector<RaisedShape> shapes, ornament_shapes(options.ornaments, frame));
   return add_shapes(surface, shapes, frame.inner);
 }

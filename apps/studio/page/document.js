@@ -171,6 +171,13 @@ export const NOT_PRINTED = ["draft", "tool", "finish"];
 // The options of the relief's shape that have no effect if mm-per-value is set.
 const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/.test(name));
 
+// The options of the shape that the method `paper` does not have.
+const NOT_OF_PAPER = ["tone", "steps", "planes", "light", "colour", "strokes"];
+
+// The options of texts and ornaments, which need ground around the relief. A document keeps them while it has none.
+export const ON_GROUND = ["text", "text-arc", "text-size", "text-height", "font", "ornaments"];
+export const hasGround = ({options}) => options.outline !== "none" && options.form !== "lithophane";
+
 // Returns whether the option mm-per-value determines the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
@@ -187,14 +194,13 @@ export function engineOptions(step) {
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
+  if (!hasGround(step)) for (const name of ON_GROUND) delete options[name];
   if (hasScale(step)) {
     for (const name of SHAPE) delete options[name];
     return {...options, method: "linear"};
   }
   delete options["mm-per-value"], delete options.ground; // kept in the document for forms with a scale
-  if (options.method === "paper") { // the document keeps them for the other method
-    delete options.tone, delete options.steps, delete options.planes, delete options.strokes;
-  }
+  if (options.method === "paper") for (const name of NOT_OF_PAPER) delete options[name]; // kept for the other method
   return options;
 }
 

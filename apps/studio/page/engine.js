@@ -90,6 +90,8 @@ export class Engine {
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
   // Returns the points of the model under places of its picture; null beside it. A place has shares of the figure's box.
   pointsUnder = async (places) => (await this.#ask("points", {places})).points;
+  // Returns {outlines, at, error} of each ornament; an outline is an array x, y, x, y ... in mm from the piece's middle.
+  placeOrnaments = async (options) => (await this.#ask("ornaments", {options})).ornaments;
   // Returns the largest height, in mm, that the options allow.
   reach = async (options) => (await this.#ask("reach", {options})).height_mm;
   // Throws if the options are invalid.

@@ -17,6 +17,8 @@ import {shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
+import {LettersPanel} from "./letters_panel.js";
+import {LightPanel} from "./light_panel.js";
 import {KindCards, fileName} from "./kinds.js";
 import {Outcome} from "./outcome.js";
 import {PieceRows, inWords} from "./pieces.js";
@@ -54,6 +56,8 @@ const views = new ViewDialog(engine, (view) => doc.change({options: view}), fail
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
+const lightPanel = new LightPanel({doc, sliders: sliders.elements, say: refuse});
+const letters = new LettersPanel({engine, doc, stage, say: refuse});
 const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
 const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
 const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
@@ -100,6 +104,7 @@ function chooseUnit(unit) {
   shown.unit = unit;
   localStorage.setItem("unit", unit);
   sliders.showUnit();
+  letters.show();
   pieces.show();
   if (last) stage.invalidate();
 }
@@ -154,6 +159,8 @@ function showDocument() {
   kindPanel.show();
   scanPanel.show();
   depthPanel.show();
+  lightPanel.show();
+  letters.show();
   cropFrame.refresh();
   strokePanel.show();
   entries.show();
@@ -237,6 +244,8 @@ function begun(former) {
   $("#picture").width = $("#before").width = 1;
   scanPanel.tell(null);
   depthPanel.tell(null);
+  lightPanel.tell(null);
+  letters.clear();
   scenePanel.show([]);
   for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";
@@ -275,6 +284,7 @@ async function arrived(status) {
   stage.share = 1;
   scanPanel.tell(facts);
   depthPanel.tell(facts.depth_image).catch(failed);
+  lightPanel.tell(facts);
   cropFrame.refresh();
   scenePanel.show(engine.takesSeveral ? [] : facts.models); // a new scene file would not find the models' files
   tour.offer();

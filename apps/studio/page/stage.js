@@ -239,6 +239,7 @@ export class Stage {
   drawOverlay() {
     const {width, height} = this.size, marks = [...scaleMarks(this), ...this.comparing.marks(this.size)];
     this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    marks.push(...this.letterMarks?.(this.about) ?? []);
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
     if (this.tool === "brush") marks.push(...this.on.brush.marks(this));

@@ -4,16 +4,17 @@ import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {DESK, browser, button, engine, folder, found, page, scan, soon, startEngine, test, toast, undo, undoAll,
   untilText, withBrowser} from "./page_suite.mjs";
-import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeBallBeforeWall, writeSample} from
-  "./support.mjs";
+import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeBallBeforeWall, writeColouredBall, writeSample}
+  from "./support.mjs";
 
-const depth = path.join(folder, "depth.tif");
+const depth = path.join(folder, "depth.tif"), coloured = path.join(folder, "coloured.ply");
 
 let options;
 
 withBrowser(async () => {
   writeSample("still_life", 5000, scan);
   writeBallBeforeWall(depth);
+  writeColouredBall(coloured);
   // These tests compare requests and not pictures, so pictures have a quarter of the pixels.
   const fewer = found.name === "chromium" ? {deviceScaleFactor: 0.5} : {}; // Firefox's driver may not support this
   const first = await (await browser.newContext({viewport: DESK, ...fewer})).newPage();
@@ -37,6 +38,7 @@ const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
   alpha: {value: 3, first: {saturation: 0.5}},
   method: {value: "paper"}, mode: {value: "exact"}, steepest: {value: 66}, draft: {value: 12},
+  light: {value: "135,35"}, "light-contrast": {value: 0.5, first: {light: "135,35"}}, colour: {value: 0.2, isColoured: true},
   steps: {value: 0.2}, planes: {value: 0.1}, tone: {value: "0,0.8;0.5,0.6;1,0.45"}, view: {value: "left"}, up: {value: "1,0,0"},
   crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, plane: {value: "drop"}, gap: {value: 3}, denoise: {value: "0.5"},
   points: {value: 20000},
@@ -78,6 +80,7 @@ async function set(name, value) {
     await page.locator(`#sides [data-side="${value}"]`).click();
     return button("Use this view").click();
   }
+  if (name === "light") return it.check(); // takes the light of the picture
   if (name === "crumbs" || name === "plane") return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
   if (kind === "select") return name === "tone" ? it.selectOption({index: 1}) : it.selectOption(value);
@@ -115,9 +118,9 @@ async function show(file) {
   await untilReady(page);
 }
 
-for (const [name, {value, first = {}, kind, isDepth}] of cases)
+for (const [name, {value, first = {}, kind, isDepth, isColoured}] of cases)
   test(`passes ${name} on to the engine`, async () => {
-    await show(isDepth ? depth : scan);
+    await show(isDepth ? depth : isColoured ? coloured : scan);
     if (kind) await page.locator(`[data-kind="${kind}"]`).click();
     for (const [other, set_to] of Object.entries(first)) {
       await set(other, set_to);

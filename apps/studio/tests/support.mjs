@@ -181,6 +181,21 @@ export const writeBallBeforeWall = (file) => writeDepths(file, 120, 90, (x, y) =
   return off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
 });
 
+// Writes a coloured half ball of radius 1 as a PLY file: grey, with dark lines at x and y of -0.3 and 0.3.
+export function writeColouredBall(file, points = 20000) {
+  const rows = Array.from({length: points}, (_, i) => {
+    const z = 1 - (i + 0.5) / points, r = Math.sqrt(1 - z * z), turn = i * Math.PI * (3 - Math.sqrt(5));
+    const [x, y] = [r * Math.cos(turn), r * Math.sin(turn)];
+    const grey = [x, y].some((side) => Math.abs(Math.abs(side) - 0.3) < 0.03) ? 20 : 200;
+    const place = [x, y, z].map((side) => side.toFixed(5)).join(" ");
+    return `${place} ${place} ${grey} ${grey} ${grey}`;
+  });
+  const properties = (type, names) => names.map((name) => `property ${type} ${name}`);
+  writeFileSync(file, ["ply", "format ascii 1.0", `element vertex ${points}`,
+    ...properties("float", ["x", "y", "z", "nx", "ny", "nz"]), ...properties("uchar", ["red", "green", "blue"]),
+    "end_header", ...rows, ""].join("\n"));
+}
+
 export const openPanels = (page) => page.locator("details").evaluateAll((all) =>
   all.forEach((panel) => (panel.open = true)));
 

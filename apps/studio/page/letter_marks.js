@@ -1,0 +1,142 @@
+// Draws the outlines of texts and borders over the picture while it does not show them, and the handle that moves the
+// chosen one. A drag moves the outlines at once; the picture follows.
+
+import {ARROWS, Pause, make} from "./controls.js";
+import {degrees} from "./lights.js";
+import {angleOf, hasPlace, isOnArc, nameOf} from "./ornaments.js";
+import {REST_MS} from "./slider.js";
+
+const rounded = (mm) => Math.round(mm * 100) / 100;
+const whole = (angle) => ((Math.round(angle) % 360) + 360) % 360;
+const radians = (angle) => angle * Math.PI / 180;
+
+// Returns the outlines as the data of an SVG path, in mm.
+const pathOf = (outlines) => outlines.map((numbers) => {
+  let path = "";
+  for (let i = 0; i < numbers.length; i += 2) path += `${i ? "L" : "M"}${numbers[i]} ${numbers[i + 1]}`;
+  return `${path}Z`;
+}).join("");
+
+// Returns the middle of the outlines' box, and the mean of their least and largest distance from the piece's middle.
+function extentOf(outlines) {
+  const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+  let nearest = Infinity, farthest = 0;
+  for (const numbers of outlines)
+    for (let i = 0; i < numbers.length; i += 2) {
+      const place = [numbers[i], numbers[i + 1]], far = Math.hypot(...place);
+      [nearest, farthest] = [Math.min(nearest, far), Math.max(farthest, far)];
+      place.forEach((x, k) => ([low[k], high[k]] = [Math.min(low[k], x), Math.max(high[k], x)]));
+    }
+  return {middle: low.map((x, k) => (x + high[k]) / 2), radius: (nearest + farthest) / 2};
+}
+
+export class LetterMarks {
+  // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, stroke).
+  constructor({stage, doc, panel}) {
+    Object.assign(this, {stage, doc, panel, placed: [], drag: null});
+    this.rest = new Pause(() => doc.endStroke("letters"), REST_MS);
+    this.handle = make("button", {type: "button", class: "letter-handle", hidden: true});
+    this.listen();
+    stage.element.append(this.handle);
+    stage.letterMarks = (about) => this.marks(about);
+  }
+
+  // Takes the outlines of the list's ornaments, as the engine has placed them.
+  take(list, places) {
+    this.placed = places.map(({outlines, at}, i) =>
+      ({ornament: list[i], at, path: pathOf(outlines), ...extentOf(outlines)}));
+    this.stage.drawOverlay();
+  }
+
+  get isMirrored() {
+    return ["mirror", "die"].includes(this.doc.now.options.form);
+  }
+
+  // Returns the movement of an ornament since it was placed: an SVG transform, and the place of its handle, in mm.
+  movement(ornament, {ornament: was, at, middle, radius}) {
+    const sign = this.isMirrored ? -1 : 1;
+    if (isOnArc(ornament) && isOnArc(was)) {
+      const turn = sign * (angleOf(ornament) - angleOf(was));
+      const angle = radians(sign * angleOf(ornament) + (this.isMirrored ? 180 : 0));
+      return {transform: `rotate(${turn})`, handle: [radius * Math.cos(angle), radius * Math.sin(angle)]};
+    }
+    const to = ornament.at ?? at, by = to && at && hasPlace(ornament) ? [sign * (to[0] - at[0]), to[1] - at[1]] : [0, 0];
+    return {transform: `translate(${by})`, handle: hasPlace(ornament) ? middle.map((x, i) => x + by[i]) : null};
+  }
+
+  // Returns the marks over a picture, and shows the handle at its place. There are none while the piece is seen
+  // obliquely or is bent.
+  marks(about) {
+    const {stage, panel} = this, {yaw, pitch} = stage.camera, {list, chosen} = panel;
+    const isFlat = about && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !about.isTurned;
+    this.handle.hidden = true;
+    if (!isFlat || !panel.isShown) return [];
+    const [x, y] = stage.toPixels([0, 0]), scale = stage.pixelsPerMm;
+    const base = `translate(${x} ${y}) scale(${scale} ${-scale}) `;
+    return this.placed.flatMap((placed, i) => {
+      if (!list[i] || !placed.path) return [];
+      const {transform, handle} = this.movement(list[i], placed), isChosen = i === chosen;
+      if (isChosen && handle) this.showHandle(list[i], handle);
+      const isHidden = about.has_ornaments && !(isChosen && this.drag);
+      const look = about.ornament_error ? " refused" : "";
+      return isHidden ? [] : [make("path", {class: `letter${look}`, d: placed.path, transform: base + transform})];
+    });
+  }
+
+  showHandle(ornament, place) {
+    const [left, top] = this.stage.toPixels(place), label = `Move ${nameOf(ornament)} by dragging or arrow keys`;
+    this.handle.hidden = false;
+    Object.assign(this.handle.style, {left: `${left}px`, top: `${top}px`});
+    if (this.handle.ariaLabel !== label) Object.assign(this.handle, {ariaLabel: label, title: label});
+  }
+
+  listen() {
+    const {handle} = this, place = ({clientX, clientY}) => {
+      const {left, top} = this.stage.element.getBoundingClientRect();
+      return this.stage.toPlace(clientX - left, clientY - top);
+    };
+    handle.onpointerdown = (event) => {
+      event.stopPropagation(); // the picture's tool must not take it
+      handle.setPointerCapture(event.pointerId);
+      this.doc.endStroke();
+      this.drag = {from: place(event), ornament: this.panel.list[this.panel.chosen], at: this.placed[this.panel.chosen]?.at};
+    };
+    handle.onpointermove = (event) => {
+      event.stopPropagation();
+      if (this.drag) this.move(place(event));
+    };
+    handle.onlostpointercapture = () => {
+      this.drag = null;
+      this.doc.endStroke("letters");
+      this.stage.drawOverlay();
+      this.panel.refresh();
+    };
+    handle.ondblclick = (event) => event.stopPropagation();
+    handle.onkeydown = (event) => this.step(event);
+  }
+
+  // Moves the chosen ornament from its place at the beginning of the drag to that of the pointer.
+  move([x, y]) {
+    const {from, ornament, at} = this.drag, sign = this.isMirrored ? -1 : 1;
+    if (!isOnArc(ornament)) return this.change({at: [(at?.[0] ?? 0) + sign * (x - from[0]), (at?.[1] ?? 0) + y - from[1]]});
+    const turn = degrees(Math.atan2(y, x) - Math.atan2(from[1], from[0]));
+    this.change({angle: angleOf(ornament) + sign * turn});
+  }
+
+  step(event) {
+    const step = ARROWS[event.key], {list, chosen} = this.panel, ornament = list[chosen];
+    if (!step || !ornament) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const sign = this.isMirrored ? -1 : 1, [right, up] = step;
+    const {at = this.placed[chosen]?.at ?? [0, 0]} = ornament, mm = event.shiftKey ? 0.1 : 0.5;
+    if (!isOnArc(ornament)) this.change({at: [at[0] + sign * right * mm, at[1] + up * mm]});
+    else this.change({angle: angleOf(ornament) - sign * (right || up) * (event.shiftKey ? 1 : 5)});
+    this.rest.begin();
+  }
+
+  change({at, angle}) {
+    this.panel.set(this.panel.chosen, at ? {at: at.map(rounded)} : {angle: whole(angle)}, "letters");
+    this.stage.drawOverlay();
+  }
+}

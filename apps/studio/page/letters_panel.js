@@ -1,0 +1,196 @@
+// The panel of texts and borders on the ground: their list, buttons that add one, and the fields of the chosen one.
+
+import {about} from "./about.js";
+import {$, make, oneAtATime, pair, textField} from "./controls.js";
+import {hasGround, shownOptions} from "./document.js";
+import {isUnfinished} from "./inputs.js";
+import {LetterMarks} from "./letter_marks.js";
+import {shortLength, shown, typedNumber} from "./lengths.js";
+import {ARCS, KINDS, fileOf, hasPlace, isOnArc, listOf, nameOf, partOf, withoutEmpty} from "./ornaments.js";
+import {inWords} from "./pieces.js";
+
+const OFFERED = ["text", "beads", "rope", "line"];
+const NEW = {text: {kind: "text", text: "TEXT"}, beads: {kind: "beads"}, rope: {kind: "rope"}, line: {kind: "line"}};
+const COIN_ARC = {arc: "top"}; // of a new text on a round plate
+
+// The numbers of an ornament: their labels, and the values that the engine takes.
+const NUMBERS = {
+  size: {label: "Size", unit: "mm", min: 0.01, max: 1e4},
+  height: {label: "Height", unit: "mm", min: -100, max: 100},
+  inset: {label: "From the rim", unit: "mm", min: 0, max: 1e4},
+  tracking: {label: "Between letters", unit: "mm", min: -100, max: 100},
+  angle: {label: "Angle", unit: "°", min: -360, max: 360},
+  count: {label: "Number", unit: "", min: 3, max: 2000},
+};
+const TIPS = {size: "Height of capitals, diameter of beads, width of borders", tracking: "Distance that is added",
+  height: "Above the ground; a negative height sinks it", inset: "Distance from the rim",
+  angle: "Where the middle is, counter-clockwise from the right", count: "Number of beads or strands"};
+
+// Returns the names of the numbers that an ornament has.
+function numbersOf(ornament) {
+  const {kind = "text"} = ornament, own = ["size", "height", ...(hasPlace(ornament) ? [] : ["inset"])];
+  if (kind === "text") own.push("tracking", ...(isOnArc(ornament) ? ["angle"] : []));
+  return kind === "beads" || kind === "rope" ? [...own, "count"] : own;
+}
+
+export class LettersPanel {
+  // `say` shows a line to the user.
+  constructor({engine, doc, stage, say}) {
+    Object.assign(this, {engine, doc, stage, say, chosen: -1, rows: [], errors: []});
+    this.marks = new LetterMarks({stage, doc, panel: this});
+    this.refresh = oneAtATime(() => this.place().catch(() => {})); // a picture of the same state reports its error
+    $("#ornament-kinds").append(...OFFERED.filter((kind) => kind !== "text" || about.has_lettering).map((kind) =>
+      make("button", {type: "button", class: "quiet", onclick: () => this.add(kind),
+        ...(kind === "beads" && {"data-option": "ornaments"})}, `Add ${kind === "text" ? "a text" : kind === "line" ? "a line"
+        : kind === "rope" ? "a rope" : kind}`)));
+    stage.element.addEventListener("picture", ({detail}) => this.pictured(detail.about));
+  }
+
+  // Returns the document's ornaments.
+  get list() {
+    return listOf(this.doc.now.options);
+  }
+
+  // Returns whether the piece has ground for ornaments.
+  get isShown() {
+    return hasGround(this.doc.now);
+  }
+
+  clear() {
+    Object.assign(this, {chosen: -1, key: "", placedKey: "", told: ""});
+    this.marks.take([], []);
+  }
+
+  add(kind) {
+    const isRound = kind === "text" && this.doc.now.options.outline === "circle";
+    this.chosen = this.list.length;
+    this.doc.change(partOf([...this.list, {...NEW[kind], ...(isRound && COIN_ARC)}]));
+    $("#ornaments li:last-child input")?.select();
+  }
+
+  remove(at) {
+    this.chosen = -1;
+    this.doc.change(partOf(this.list.filter((_, i) => i !== at)));
+    $("#ornament-kinds button").focus();
+  }
+
+  // Changes an ornament. A key without a value gets the engine's default.
+  set(at, part, stroke = null) {
+    this.doc.change(partOf(this.list.map((each, i) => (i === at ? withoutEmpty({...each, ...part}) : each))), stroke);
+  }
+
+  choose(at) {
+    this.chosen = at === this.chosen ? -1 : at;
+    this.show();
+    this.stage.drawOverlay();
+  }
+
+  // Shows the list. Rows stay while only their values change, so that a field keeps the focus.
+  show() {
+    const {list} = this, {options} = this.doc.now, file = fileOf(options);
+    if (this.chosen >= list.length) this.chosen = -1;
+    const key = JSON.stringify([list.map(({kind, arc}) => [kind, arc]), this.chosen, shown.unit, file]);
+    if (key !== this.key) this.makeRows(list, file);
+    this.key = key;
+    for (const [i, row] of this.rows.entries()) row.show(list[i]);
+    for (const button of $("#ornament-kinds").children) button.disabled = !this.isShown || file !== "";
+    this.tell();
+  }
+
+  makeRows(list, file) {
+    this.rows = list.map((ornament, i) => this.row(ornament, i));
+    const drop = () => this.doc.change({options: {ornaments: ""}});
+    const ofFile = file && make("li", {class: "pair"}, `Those in ${file.split(/[/\\]/).at(-1)}`,
+      make("button", {class: "quiet", onclick: drop}, "Remove"));
+    $("#ornaments").replaceChildren(...this.rows.map(({element}) => element), ...(ofFile ? [ofFile] : []));
+  }
+
+  // Returns {element, show} of an ornament.
+  row(ornament, at) {
+    const isChosen = at === this.chosen;
+    const name = make("button", {type: "button", class: "name quiet", "aria-expanded": isChosen,
+      onclick: () => this.choose(at)});
+    const remove = make("button", {type: "button", class: "quiet", onclick: () => this.remove(at)}, "Remove");
+    const fields = isChosen ? this.fields(ornament, at) : [];
+    const element = make("li", {}, make("div", {class: "pair"}, name, remove), ...fields.map((field) => field.row));
+    return {element, show: (now) => {
+      name.textContent = nameOf(now);
+      remove.setAttribute("aria-label", `Remove ${nameOf(now)}`);
+      for (const {show} of fields) show(now);
+    }};
+  }
+
+  // Returns {row, show} of the fields of an ornament.
+  fields(ornament, at) {
+    const {kind = "text"} = ornament;
+    return [...(kind === "text" ? [this.textRow(at), this.arcRow(at)] : []),
+      ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
+  }
+
+  // The text changes with each letter that is typed. All letters are one step of undo.
+  textRow(at) {
+    const show = ({text}) => isUnfinished(input) || (input.value = text);
+    const input = textField({"aria-label": "Text", maxlength: 500}, {
+      take: (text) => (text ? this.set(at, {text}, "letters") : 0, this.doc.endStroke("letters"), this.show()),
+      show: () => (this.doc.cancelStroke(), show(this.list[at]))});
+    input.oninput = () => input.value.trim() && this.set(at, {text: input.value.trim()}, "letters");
+    return {row: pair("Text", input), show};
+  }
+
+  arcRow(at) {
+    const input = make("select", {"aria-label": "Line of the text", onchange: ({target: {value}}) =>
+      this.set(at, {arc: value, at: null, angle: null})}, ...Object.entries(ARCS).map(([value, label]) =>
+      make("option", {value}, label)));
+    return {row: pair("Line", input), show: ({arc = "straight"}) => (input.value = arc)};
+  }
+
+  numberRow(name, at) {
+    const about = NUMBERS[name], {label, unit} = about, isLength = unit === "mm";
+    const show = (ornament) => {
+      const value = ornament[name] ?? "";
+      if (!isUnfinished(input)) input.value = isLength && value !== "" ? shortLength(value) : value;
+    };
+    const input = textField({inputmode: "decimal", "aria-label": label, placeholder: "automatic"}, {
+      take: (text) => {
+        const value = text === "" ? null : typedNumber(text, about, this.say);
+        if (text === "" || value !== null) this.set(at, {[name]: value});
+        this.show();
+      }, show: () => show(this.list[at])});
+    const shownUnit = isLength ? shown.unit : unit;
+    return {row: pair(shownUnit ? `${label} (${shownUnit})` : label, input, {title: TIPS[name]}), show};
+  }
+
+  engravedRow(at) {
+    const input = make("input", {type: "checkbox", "aria-label": "Engraved", onchange: ({target}) =>
+      this.set(at, {engraved: target.checked})});
+    return {row: pair("Engraved", input), show: ({engraved}) => (input.checked = engraved === true)};
+  }
+
+  // Takes the facts about the newest picture, which may say that ornaments have no room.
+  pictured(frame) {
+    this.frame = frame;
+    this.refresh();
+    this.tell();
+  }
+
+  // Asks the engine where the ornaments lie, unless it has said so for these options or a drag moves one.
+  async place() {
+    const {list} = this, options = shownOptions(this.doc.now), key = JSON.stringify([options, this.stage.model]);
+    if (key === this.placedKey || this.marks.drag || !this.stage.isReady) return;
+    const places = list.length && this.isShown ? await this.engine.placeOrnaments(options) : [];
+    this.placedKey = key;
+    this.errors = places.map(({error}) => error).filter(Boolean);
+    this.marks.take(list, places);
+    this.tell();
+  }
+
+  // Shows why ornaments are not made.
+  tell() {
+    const error = this.errors[0] ?? this.frame?.ornament_error, hasList = this.list.length > 0;
+    const noGround = "There is no ground around the relief for them.";
+    const text = hasList && !this.isShown ? noGround : hasList && error ? inWords({...error, message: error.text}) : "";
+    if ($("#ornaments-note").textContent !== text) $("#ornaments-note").textContent = text;
+    if (text && text !== this.told && !$("#letters").open) this.say(text);
+    this.told = text;
+  }
+}
