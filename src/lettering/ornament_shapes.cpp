@@ -177,7 +177,12 @@ Result<RaisedShape> drawing_shape(const Ornament& ornament, const OrnamentFrame&
   if (!(box.size().x() > 0) || !(box.size().y() > 0))
     return option_error("ornaments", "expected a drawing with an area, found none");
   if (!ornament.size_mm) return option_error("ornaments", "expected a drawing with its size, found none");
-  const double scale = *ornament.size_mm / box.size().x();
+  const double scale = *ornament.size_mm / box.size().x(), high = scale * box.size().y();
+  const double room = Box::of(frame.inner).diagonal();
+  if (std::max(*ornament.size_mm, high) > room)
+    return option_error(
+        "ornaments", cat("expected a drawing of at most ", room, " mm, the diagonal within the rim, found ",
+                         *ornament.size_mm, " x ", high, " mm"));
   const Vec2 middle = middle_of(frame) + ornament.at_mm.value_or(Vec2::Zero());
   Outlines outlines = ornament.outlines;
   for (std::vector<Vec2>& outline : outlines)

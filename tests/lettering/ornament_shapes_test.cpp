@@ -207,6 +207,11 @@ TEST(OrnamentShapes, RefuseWhatHasNoRoom) {
   Ornament sizeless{.kind = OrnamentKind::drawing};
   sizeless.outlines = {{{0, 0}, {2, 0}, {2, 1}}};
   EXPECT_NE(refusal(sizeless).find("expected a drawing with its size, found none"), std::string::npos);
+  // A drawing without almost any width is as high as its size demands.
+  Ornament thin = sizeless;
+  thin.outlines = {{{0, 0}, {1, 0}, {1, 1e14}}};
+  thin.size_mm = 10;
+  EXPECT_NE(refusal(thin).find("expected a drawing of at most "), std::string::npos);
   Ornament flat = text_on(TextArc::top, "A");
   flat.height_mm = 0;
   EXPECT_NE(refusal(flat).find("lengths"), std::string::npos);
