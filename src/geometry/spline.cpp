@@ -1,4 +1,4 @@
-// Section numbers are those of Lee, Wolberg and Shin, 1997.
+// Section and equation numbers are those of Lee, Wolberg and Shin, 1997.
 #include "relievo/geometry/spline.h"
 
 #include <algorithm>

@@ -26,7 +26,7 @@ inline double curvature_weight(double k, double delta, const Coefficients& c) {
   return 1 - std::exp(-c.u * power);
 }
 
-// Equation (7), whose boundary is 2 rho wide: 1 - exp(-(distance / (2 rho))^2).
+// Equation (7): 1 - exp(-(distance / width)^2). The paper's width is 2 rho.
 inline double boundary_weight(double distance, double width) {
   return 1 - std::exp(-(distance / width) * (distance / width));
 }
@@ -38,7 +38,8 @@ inline Vec3 expected_normal(const Vec3& normal, double w) {
 
 // Returns the slope (dz/dx, dz/dy) of a surface with this normal, which may have any length. Slopes above
 // `max_slope` are shortened to it. The limit is needed because the paper's matrix in (9) is constant only if
-// each row is divided by the z of the expected normal, which is 0 at silhouettes.
+// each row is divided by the z of the expected normal, 1 - w (1 - n_z). This z is 1 on the boundary, but goes
+// to 0 where w is near 1 and the surface turns away from the viewer, as beside depth jumps.
 inline Vec2 slope_of(const Vec3& normal, double max_slope) {
   const double length = normal.head<2>().norm();
   if (!(length <= max_slope * normal.z())) return -max_slope / length * normal.head<2>();

@@ -8,7 +8,7 @@
 
 namespace relievo::paper {
 
-// Returns the indices of about two thirds of `count` points, chosen by region growing. A point is chosen if
+// Returns the indices of about 0.6 times `count` points, chosen by region growing. A point is chosen if
 // no point chosen before is nearer than r2 = sqrt(n1 / n2) r1, where n1 is the number of points, n2 is
 // `count`, and r1 is rho. Boundary points come first, so that the boundary is sampled as densely as the rest.
 // If `count` is not less than the number of points, all of them are chosen.

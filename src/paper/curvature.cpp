@@ -14,21 +14,22 @@ constexpr double h_in_rho = 3, radius_in_h = 3;
 constexpr double least_curvature = 1e-6;  // in 1 / rho
 
 struct Neighbour {
-  Vec3 y;  // x - q
+  Vec3 offset;  // x - q
   Vec3 normal;
 };
 
 // theta(x, q), the Gaussian weight of a neighbour.
-Jet weight(const Vec3& y, double h) {
-  const double scale = -2 / (h * h), value = std::exp(-y.squaredNorm() / (h * h));
-  return {value, scale * value * y, value * (scale * scale * y * y.transpose() + scale * Mat3::Identity())};
+Jet weight(const Vec3& offset, double h) {
+  const double scale = -2 / (h * h), value = std::exp(-offset.squaredNorm() / (h * h));
+  return {value, scale * value * offset,
+          value * (scale * scale * offset * offset.transpose() + scale * Mat3::Identity())};
 }
 
 // n(x), the weighted mean of the neighbours' normals, normalised.
 JetVector mean_normal(std::span<const Neighbour> neighbours, double h) {
   JetVector sum;
   for (const Neighbour& q : neighbours) {
-    const Jet theta = weight(q.y, h);
+    const Jet theta = weight(q.offset, h);
     for (std::size_t i = 0; i < 3; ++i) sum[i] += q.normal[static_cast<Eigen::Index>(i)] * theta;
   }
   Jet square;
@@ -39,18 +40,19 @@ JetVector mean_normal(std::span<const Neighbour> neighbours, double h) {
   return sum;
 }
 
-// Equation (2): g(x) = n(x)^T (de(y, n(x)) / dy at y = x), where e is the sum of ((y - q)^T n(x))^2 theta(y,
-// q). With d = (x - q)^T n(x), the derivative of each term is 2 theta d (n - d (x - q) / h^2).
+// Equation (2): g(x) = n(x)^T (de(y, n(x)) / dy at y = x), where e is the sum of
+// ((y - q)^T n(x))^2 theta(y, q). With d = (x - q)^T n(x), the derivative of each term is
+// 2 theta d (n - d (x - q) / h^2); its product with n, of length 1, is 2 theta (d - d^3 / h^2).
 Jet surface_function(std::span<const Neighbour> neighbours, double h) {
   const JetVector n = mean_normal(neighbours, h);
   const double inverse = 1 / (h * h);
   Jet g;
   for (const Neighbour& q : neighbours) {
-    const Jet distance = dot(q.y, n);
+    const Jet distance = dot(q.offset, n);
     const double d = distance.value;
     const Jet term =
         chain({2 * (d - d * d * d * inverse), 2 - 6 * d * d * inverse, -12 * d * inverse}, distance);
-    g += weight(q.y, h) * term;
+    g += weight(q.offset, h) * term;
   }
   return g;
 }
@@ -60,8 +62,8 @@ double mean_curvature(const Jet& g) {
   const Vec3& v = g.gradient;
   const double length = v.norm();
   if (!(length > 0)) return 0;
-  const double printed = v.dot(g.hessian * v) - length * length * g.hessian.trace();
-  return -printed / (2 * length * length * length);
+  const double numerator = v.dot(g.hessian * v) - length * length * g.hessian.trace();
+  return -numerator / (2 * length * length * length);
 }
 
 }  // namespace

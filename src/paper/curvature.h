@@ -15,8 +15,8 @@ namespace relievo::paper {
 // gradient of g is 0. If no curvature exceeds 1e-6 / rho, the surface is flat up to the rounding of normals,
 // and all curvatures are set to 0. After cancellation, returns early with meaningless values.
 //
-// The printed equation (3) gives twice the mean curvature, negated for outward normals. Here the sign and the
-// factor are corrected; otherwise the detail of the second equation (9) would flatten ridges.
+// The printed (3) is -2 times the mean curvature if normals point outwards (see docs/decisions/paper.md).
+// It is divided by -2: otherwise detail, the second (9), would flatten ridges.
 std::vector<double> mean_curvature(const Cloud& cloud, double rho, std::span<const Index> queries,
                                    const Progress* progress = nullptr);
 

@@ -44,8 +44,8 @@ std::vector<Index> points_on_base(std::span<const std::uint8_t> is_boundary, con
   return on_base;
 }
 
-// Returns A^T A.
-Eigen::SparseMatrix<double> normal_matrix(const Neighbours& neighbours, std::span<const Index> on_base) {
+// Returns A^T A, the Gram matrix of (9).
+Eigen::SparseMatrix<double> gram_matrix(const Neighbours& neighbours, std::span<const Index> on_base) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(4 * neighbours_of_each * neighbours.size() + on_base.size());
   for (const Index p : on_base) entries.emplace_back(p, p, 1);
@@ -68,7 +68,7 @@ Result<NormalEquations> NormalEquations::build(std::span<const Vec2> points,
                                                std::span<const std::uint8_t> is_boundary) {
   const Neighbours neighbours = nearest_in_plane(points);
   const std::vector<Index> on_base = points_on_base(is_boundary, neighbours);
-  RELIEVO_TRY(auto factor, solver::Cholesky::factor(normal_matrix(neighbours, on_base), points));
+  RELIEVO_TRY(auto factor, solver::Cholesky::factor(gram_matrix(neighbours, on_base), points));
   NormalEquations made(std::move(factor));
   made.steps_.assign(points.size(), Vec2f::Zero());
   made.rows_ = grouped<Row>(points.size(), [&](auto&& add) {

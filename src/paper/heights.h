@@ -1,4 +1,4 @@
-// The heights of the control points (section 3.4), equations (8) and (9).
+// The heights of the control points (section 3.4): equation (4), in the form of (8) and the first (9).
 #pragma once
 
 #include <span>

@@ -42,12 +42,12 @@ inline Jet chain(const Derivatives& f, const Jet& a) {
 
 using JetVector = std::array<Jet, 3>;
 
-// Returns the scalar product of two vectors; `y` is the position relative to a fixed point.
-inline Jet dot(const Vec3& y, const JetVector& n) {
+// Returns the scalar product of two vectors; `offset` is the position relative to a fixed point.
+inline Jet dot(const Vec3& offset, const JetVector& n) {
   Jet sum;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Jet& n_i = n[static_cast<std::size_t>(i)];
-    sum += y[i] * n_i;
+    sum += offset[i] * n_i;
     sum.gradient[i] += n_i.value;
     sum.hessian.row(i) += n_i.gradient.transpose();
     sum.hessian.col(i) += n_i.gradient;

@@ -12,7 +12,7 @@ namespace relievo::paper {
 // Heights below this share of the largest height have no well-defined ratio.
 inline constexpr float faint_share = .02F;
 
-// Returns the compression ratio z / z0, which fades to 0 where z0 is below `faint`.
+// Returns the compression ratio z / z0 times z0^2 / (z0^2 + faint^2), which is 1/2 at z0 = `faint`.
 inline float compression_ratio(float z, float z0, float faint) {
   return z * z0 / std::max(z0 * z0 + faint * faint, 1e-30F);
 }
@@ -29,8 +29,9 @@ class HeightMapping {
     MultilevelSpline::Workspace fit;
   };
 
-  // The heights from (9) with w_k = 1, at the control points and at all visible points. They do not contain
-  // the model's depth jumps ("prediscontinuous removal" in Fig. 6).
+  // The heights from (9) with w_k = 1, at the control points and at all visible points, and with the usual
+  // w_b and slope limit, whatever the shape's. They do not contain the model's depth jumps ("prediscontinuous
+  // removal" in Fig. 6).
   struct Uncompressed {
     std::vector<float> control, visible;
   };

@@ -10,8 +10,8 @@ namespace relievo::paper {
 // `measured.serves(view)` must be true, and the view must not remove noise. Errors: kind geometry if fewer
 // than 4 points face the viewer or all visible points are collinear; kind cancelled.
 //
-// The paper does not say how P_b is found. Here a triangle is outside the relief if its empty circle is
-// larger than 3 rho; its corners are in P_b.
+// The paper does not say how P_b is found. Here a triangle is outside the relief if its empty circle has a
+// radius above 3 rho. P_b is the corners of these triangles, the hull, and the points of no triangle.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo::paper

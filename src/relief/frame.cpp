@@ -36,7 +36,7 @@ SolverWorkspace make_workspace(const ReliefModel& model) {
 struct OwnFrames {
   const ReliefModel& model;
   const Surface& surface = model.surface();
-  SlicedEllMatrix normal_matrix =
+  SlicedEllMatrix vertex_normals_matrix =
       vertex_normal_matrix(in_plane(surface.points), surface.triangulation, surface.boundary,
                            model.system() ? &model.system()->divergence_matrix() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
@@ -209,7 +209,7 @@ struct OwnFrames {
       raise(frame.options.shape, std::nullopt, frame);
     finish(frame);
     const Stopwatch watch;
-    normal_matrix.normals(frame.heights, frame.normals);
+    vertex_normals_matrix.normals(frame.heights, frame.normals);
     frame.times.normals_s = watch.seconds();
   }
 
@@ -224,7 +224,7 @@ struct OwnFrames {
 
   std::size_t memory() const {
     const std::size_t solver = std::visit([](const auto& w) { return w.memory(); }, workspace);
-    return normal_matrix.memory() + solver + correction_workspace.memory() + bytes(slopes) +
+    return vertex_normals_matrix.memory() + solver + correction_workspace.memory() + bytes(slopes) +
            bytes(boundary_weight);
   }
 };

@@ -25,8 +25,8 @@ class PaperFrames {
  public:
   explicit PaperFrames(const ReliefModel& model)
       : relief_(*model.paper()),
-        normal_matrix_(vertex_normal_matrix(in_plane(model.surface().points), model.surface().triangulation,
-                                            model.surface().boundary)) {}
+        vertex_normals_matrix_(vertex_normal_matrix(
+            in_plane(model.surface().points), model.surface().triangulation, model.surface().boundary)) {}
 
   // Makes the relief. `frame` already has its options and memory for its points.
   void make(Frame& frame) {
@@ -61,7 +61,7 @@ class PaperFrames {
     return frames_begun_ == ahead_.size();
   }
 
-  std::size_t memory() const { return relief_.memory() + normal_matrix_.memory(); }
+  std::size_t memory() const { return relief_.memory() + vertex_normals_matrix_.memory(); }
 
  private:
   struct Found {
@@ -88,7 +88,7 @@ class PaperFrames {
 
   void find_normals(Frame& frame) const {
     const Stopwatch watch;
-    normal_matrix_.normals(frame.heights, frame.normals);
+    vertex_normals_matrix_.normals(frame.heights, frame.normals);
     frame.times.normals_s = watch.seconds();
   }
 
@@ -123,7 +123,7 @@ class PaperFrames {
   }
 
   PaperRelief relief_;
-  SlicedEllMatrix normal_matrix_;
+  SlicedEllMatrix vertex_normals_matrix_;
   std::optional<Found> last_;   // the shape of the last locked height
   std::array<Frame, 3> ahead_;  // the frames in the stages: solve, map, normals
   std::size_t frames_begun_ = 0;

@@ -84,8 +84,8 @@ inline Relief make_paper_relief(const PaperModel& model, const Shape& shape) {
   return {{heights.begin(), heights.end()}, height, shape};
 }
 
-// Returns the relief of that height, see ReliefModel::make_at_height(). Scaling removes the remaining error
-// of the search.
+// Returns the relief that search_paper_height() finds, scaled to exactly that height. Errors: those of
+// ReliefModel::make_at_height().
 template <typename IsCancelled>
 Result<Relief> make_paper_relief_at(const PaperModel& model, double height, Shape shape, double unit_mm,
                                     const IsCancelled& is_cancelled) {

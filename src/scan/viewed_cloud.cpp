@@ -12,7 +12,8 @@
 namespace relievo {
 namespace {
 
-// Returns the points, normals and outlines of a cloud in a view, without colours.
+// Returns the points, normals and outlines of a cloud in a view, without colours. This is the paper's
+// equation (1), up to a turn about the line of sight.
 Cloud turned(const Cloud& cloud, const Mat3& R) {
   const Eigen::Matrix3f rotation = R.cast<float>();
   Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};

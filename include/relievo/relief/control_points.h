@@ -1,5 +1,6 @@
-// Control points (stage 7): a few thousand visible points that represent all visible points. Section 4.2 of
-// the paper.
+// Control points (stage 7): a few thousand visible points that represent all visible points. They follow
+// section 4.2 of the paper, but are denser at the boundary; the source file src/paper/control_points.h has
+// the paper's.
 #pragma once
 
 #include <span>

@@ -61,11 +61,12 @@ class FrameMaker {
   // search starts with the last u.
   void make(const FrameOptions& options, Frame& frame);
 
-  // Makes frames in a pipeline, as in section 3.5 of the paper, with a thread per stage. At the same time the
-  // heights of the requested frame are solved, the previous frame is mapped to all points, and the frame
-  // before that gets its normals and is written to `frame`. Returns false, and no frame, in the first two
-  // calls and in the first two calls after make(). Frames have the same bits as those of make(). The pipeline
-  // is used for models of Method::paper and options without a height; other frames are made immediately.
+  // Makes frames in a pipeline, as in section 3.5 of the paper; its three stages run at once, on up to three
+  // threads. At the same time the heights of the requested frame are solved, the previous frame is mapped to
+  // all points, and the frame before that gets its normals and is written to `frame`. Returns false, and no
+  // frame, in the first two calls and in the first two calls after make(). Frames have the same bits as those
+  // of make(). The pipeline is used for models of Method::paper and options without a height; other frames
+  // are made by make(), in the same call.
   bool make_ahead(const FrameOptions& options, Frame& frame);
 
   // Writes a gain for each point of the last frame: the derivative of the relief's slope with respect to the

@@ -1,4 +1,5 @@
-// Heights (stage 8): computes the surface that fits given slopes. Equation (9) of the paper.
+// Heights (stage 8): computes the surface that fits given slopes. This is our form of the paper's equation
+// (9); the source file src/paper/heights.h has the paper's.
 #pragma once
 
 #include <memory>
@@ -13,8 +14,8 @@ namespace relievo {
 
 class SlicedEllMatrix;
 
-// Equation (9) for a fixed set of points. It fits z_p - z_q to (s_p + s_q) / 2 . (p - q) for all edges pq of
-// triangles inside the relief, by least squares with cotangent weights; s is the slope (dz/dx, dz/dy). At
+// Our equation (9) for a fixed set of points. It fits z_p - z_q to (s_p + s_q) / 2 . (p - q) for all edges pq
+// of triangles inside the relief, by least squares with cotangent weights; s is the slope (dz/dx, dz/dy). At
 // boundary points z is exactly 0. The matrix does not depend on the slopes and is factored once. Concurrent
 // solves are safe if each has its own workspace.
 class HeightSystem {

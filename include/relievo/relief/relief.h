@@ -100,8 +100,10 @@ class ReliefModel {
   // Returns the relief whose height, including detail, is `height`. Searches u of the compression for that,
   // while beta, gamma and the slope limit stay as requested (the intent of Algorithm 1, section 3.6). If no u
   // gives that height, u is infinite, and depth jumps of at most their real depth supply the missing height;
-  // Shape::steps of the result is their share. Errors: kind geometry if that does not suffice; the message
-  // states the largest possible height in millimetres, for `unit_mm` millimetres per unit. Kind cancelled.
+  // Shape::steps of the result is their share. In models of Method::paper, beta changes, too, if
+  // Shape::is_beta_free is set, and depth jumps supply nothing; see search_paper_height() in the source file
+  // src/relief/paper_relief.h. Errors: kind geometry if no relief has that height; the message states the
+  // largest possible height in millimetres, for `unit_mm` millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

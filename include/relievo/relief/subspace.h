@@ -1,5 +1,6 @@
-// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. The time for a
-// relief depends little on the size of the cloud.
+// Our subspace mode, after the paper's (stages 7, 8 and 10): reliefs from a few thousand control points. The
+// time for a relief depends little on the size of the cloud. The source file src/paper/mapping.h has the
+// paper's mapping.
 #pragma once
 
 #include <memory>

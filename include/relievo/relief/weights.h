@@ -1,5 +1,5 @@
-// Normal space compression (stages 8 and 9): the share of each normal in the relief. Equations (5) to (7) of
-// the paper.
+// Normal space compression (stages 8 and 9): the share of each normal in the relief, by equations (5) to (7)
+// of the paper. The source file src/paper/compression.h has those of Method::paper.
 #pragma once
 
 #include <algorithm>
