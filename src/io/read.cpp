@@ -74,6 +74,7 @@ void drop_unusable(CloudFile& file) {
   keep_where(cloud.points, is_kept);
   keep_where(cloud.normals, is_kept);
   keep_where(cloud.colours, is_kept);
+  keep_where(cloud.axes, is_kept);
 }
 
 constexpr std::uint64_t stl_header_bytes = 84, stl_triangle_bytes = 50;
