@@ -71,6 +71,8 @@ struct RawCloud {
   std::size_t missing_points = 0;         // points that are missing because the file ends early
   std::size_t left_out_points = 0;        // points that do not count, which leave_out() counts; they are NaN
   std::vector<std::string> remarks = {};  // as in CloudFile
+  std::size_t columns =
+      0;  // columns of the picture whose pixels the points are, row by row; 0 if they are none
 
   // Counts points that the file says do not count, and says so.
   void leave_out(std::size_t points, std::string_view which) {
