@@ -41,6 +41,7 @@ struct XyzLayout {
   bool has_names = false;                                   // whether a line names the columns
   bool has_normals = false, has_colours = false;
   bool has_scan_positions = false;              // the first two columns are a scanner's row and column
+  bool is_numbered = false;                     // the first column is the number of the point
   std::optional<std::int64_t> promised_points;  // number of points, if a first line states it
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // first line of data, counted from 1
@@ -60,13 +61,17 @@ bool has_degrees(const ColumnNames& names);
 // Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
 // find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
 // first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
-// with a number, or the three after a scanner's row and column.
+// with a number, or the three after a scanner's row and column or after the point's number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
 // Returns up to 256 rows from all over the file as numbers, without rows that have a different number of
 // columns. Words that are not numbers become NaN.
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
+
+// Sets the separator, the decimal mark and the number of columns from a line of data, whose number is
+// layout.first_line. Errors: kind input, for a comma that could be both.
+Result<void> take_separators(const Source& source, std::string_view line, XyzLayout& layout);
 
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data
 // (separator, number of columns) and from lines throughout the file (normals, colours).
