@@ -60,7 +60,8 @@ bool is_text(const Source& source);
 //   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //) and a line of column names, which then
 //   decide. Other columns may contain anything. Numbers have a decimal point, or a decimal comma if
 //   semicolons separate them; they may be in quotation marks. Two columns of whole numbers before three of
-//   fractions are a scanner's rows and columns, and x y z come third.
+//   fractions are a scanner's rows and columns, and x y z come third. A first column that numbers the points is
+//   skipped.
 // - PTX: all scans, moved by their matrices. Points at 0 0 0 of their scanner are not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
@@ -149,6 +150,7 @@ inline constexpr std::array foreign_contents = {
     ForeignFormat{"jP  ", "a JPEG 2000 picture; save it as PNG", 4},
     ForeignFormat{"JXL ", "a JPEG XL picture; save it as PNG", 4},
     ForeignFormat{"\xFF\x0A", "a JPEG XL picture; save it as PNG"},
+    ForeignFormat{"P7\n", "a PAM picture; save it as PNG or PGM"},
     ForeignFormat{"GIF8", "a GIF picture; save it as PNG"},
     ForeignFormat{"8BPS", "a Photoshop picture; save it as a PNG or TIFF of 16 bits"},
     ForeignFormat{"SIMPLE  =", "a FITS picture; save it as a TIFF of 32-bit fractions"},

@@ -75,10 +75,11 @@ struct PictureChannels {
 //
 // - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are more transparent than opaque
 //   are missing.
-// - TIFF: grey, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64 bits, in strips or
-//   tiles, with any compression that libtiff supports: the first picture that is neither a thumbnail nor a
-//   mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values that GDAL's
-//   no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large values.
+// - TIFF: grey, also in equal colours, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64
+//   bits, in strips or tiles, with any compression that libtiff supports: the first picture that is neither a
+//   thumbnail nor a mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values
+//   that GDAL's no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large
+//   values.
 //   GeoTIFF's tags give the size of pixels, also in degrees.
 // - JPEG: grey, or colours that are equal or of which a channel or the luminance is wanted, turned as the tag
 //   Orientation of Exif says. No CMYK.
@@ -93,7 +94,7 @@ Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::strin
                                     const PictureChannels& channels = {});
 
 // Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by
-// commas or white space. Errors: kind option for any other text, or a focal length that is not positive.
+// commas, semicolons or white space. Errors: kind option for any other text, or a focal length that is not positive.
 Result<DepthCamera> parse_camera(std::string_view text);
 
 // The size of a scan. It is found from the beginning of the file, so that the needed memory is known before
