@@ -64,7 +64,8 @@ bool is_text(const std::string& ending) {
 // Returns whether the file is a model and not a licence, a texture or a preview, which often lie beside
 // models.
 bool is_model(const std::string& name) {
-  constexpr std::array pictures = {"png", "tif", "tiff", "jpg", "jpeg"};
+  constexpr std::array pictures = {"png", "tif", "tiff", "jpg", "jpeg", "npy",
+                                   "pfm", "pgm", "ppm",  "bmp", "dat"};
   const std::string ending = ending_of(name);
   return is_readable(name) && !is_text(ending) && std::ranges::find(pictures, ending) == pictures.end();
 }
@@ -133,7 +134,12 @@ Result<std::string> find_model(const std::vector<std::string>& names, std::strin
   std::vector<std::string> files;
   std::ranges::copy_if(names, std::back_inserter(files), [](const auto& name) { return !is_hidden(name); });
   if (files.size() == 1 && is_text(ending_of(files[0]))) models = files;
-  if (models.empty()) return broken(archive, "expected an archive with a cloud or a mesh, found none in it");
+  if (models.empty()) {
+    const auto is_other = [](const auto& name) { return is_readable(name) && !is_text(ending_of(name)); };
+    const auto other = std::ranges::find_if(names, is_other);
+    return broken(archive, cat("expected an archive with a cloud or a mesh, found none in it",
+                               other == names.end() ? "" : cat(", but ", *other, "; unpack it first")));
+  }
   // The other models of a 3MF are parts of its main one.
   for (const std::string& model : models)
     if (model == "3D/3dmodel.model" || model == "3D/3DModel.model") return model;

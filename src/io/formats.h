@@ -57,14 +57,14 @@ bool is_text(const Source& source);
 // normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
 // right.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
-// first. Three columns that are unit vectors in nine of ten rows are normals. Three columns of whole numbers
-// from 0 to 255, or of fractions from 0 to 1, are colours. Comments (#, //) are allowed. A first line may
-// state the number of points: there may be more, but not fewer; in PTS another number and its points may
-// follow. A line of column names, if any, determines the columns. Other columns may contain anything. Numbers
-// have a decimal point, or a decimal comma if semicolons separate them; they may be in quotation marks. Two
-// columns of whole numbers before three columns of fractions are a scanner's row and column; x y z begin in
-// the third column.
-// - PTX: all scans, transformed by their matrices. Points at 0 0 0 of their scanner are not measured.
+//   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
+//   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
+//   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //) and a line of column names, which then
+//   decide. Other columns may contain anything. Numbers have a decimal point, or a decimal comma if
+//   semicolons separate them; they may be in quotation marks. Two columns of whole numbers before three of
+//   fractions are a scanner's rows and columns, and x y z come third. A first column that numbers the points is
+//   skipped.
+// - PTX: all scans, moved by their matrices. Points at 0 0 0 of their scanner are not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_laz(const Source& source);
@@ -154,6 +154,7 @@ inline constexpr std::array foreign_contents = {
     ForeignFormat{"jP  ", "a JPEG 2000 picture; save it as PNG", 4},
     ForeignFormat{"JXL ", "a JPEG XL picture; save it as PNG", 4},
     ForeignFormat{"\xFF\x0A", "a JPEG XL picture; save it as PNG"},
+    ForeignFormat{"P7\n", "a PAM picture; save it as PNG or PGM"},
     ForeignFormat{"GIF8", "a GIF picture; save it as PNG"},
     ForeignFormat{"8BPS", "a Photoshop picture; save it as a PNG or TIFF of 16 bits"},
     ForeignFormat{"SIMPLE  =", "a FITS picture; save it as a TIFF of 32-bit fractions"},

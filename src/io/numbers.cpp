@@ -49,6 +49,8 @@ void decode_block(const Records& records, const char* first, std::size_t rows, C
   for (std::size_t i = 0; records.left_out && i < rows; ++i)
     if (records.left_out->is_left_out(first + i * records.stride))
       cloud.points[begin + i].setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; records.axis && i < rows; ++i)
+    cloud.axes[begin + i] = records.axis(first + i * records.stride);
   if (records.normal) {
     decode_columns(records, *records.normal, first, rows, v);
     for (std::size_t i = 0; i < rows; ++i)
@@ -95,6 +97,7 @@ Cloud sized_cloud(const Records& records, std::size_t points) {
   cloud.points.resize(points);
   if (records.normal) cloud.normals.resize(points);
   if (records.colour) cloud.colours.resize(points);
+  if (records.axis) cloud.axes.resize(points);
   return cloud;
 }
 

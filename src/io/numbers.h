@@ -71,6 +71,7 @@ struct Records {
   std::array<RecordColumn, 3> position;
   std::optional<std::array<RecordColumn, 3>> normal, colour;  // colours scaled to [0, 255]
   std::optional<LeftOutRows> left_out;                        // the points of these rows become NaN
+  std::function<Vec3f(const char* row)> axis;                 // see Cloud::axes; empty if rows have none
 };
 
 // The location of rows that can be read in blocks.

@@ -22,8 +22,9 @@ struct PcdHeader {
   PcdData data = PcdData::ascii;
   Records records;                       // layout of the points; ascii files use only `count`
   std::vector<std::size_t> field_sizes;  // bytes of each field of a point
-  std::size_t lines = 0;                 // number of lines of the header
-  // For ascii rows: the number of words, and the indices of the words that are read.
+  std::size_t lines = 0;                 // lines of the header
+  std::size_t columns_of_picture = 0;    // 0 if the points are no picture
+  // For ascii rows: the number of words, and the indices of the words to read.
   std::size_t columns = 0;
   std::array<std::size_t, 3> position_columns = {}, normal_columns = {};
   std::size_t colour_column = 0;
@@ -136,6 +137,8 @@ class PcdHeaderReader {
                                            : "none"));
     Records& records = header_.records;
     records.count = static_cast<std::uint64_t>(points_);
+    if (height_ > 1 && fits && points_ == width_ * height_)
+      header_.columns_of_picture = static_cast<std::size_t>(width_);
     records.offset = lines_.offset();
     header_.lines = lines_.number();
     for (Field& f : fields_) {
@@ -324,7 +327,8 @@ Result<RawCloud> read_pcd(const Source& source) {
   constexpr std::array<std::string_view, 3> names = {"PCD ascii", "PCD binary", "PCD binary compressed"};
   const auto kind = static_cast<std::size_t>(header.data);
   RELIEVO_TRY(auto cloud, readers[kind](source, header));
-  return RawCloud{std::move(cloud), std::string(names[kind])};
+  return RawCloud{
+      .cloud = std::move(cloud), .format = std::string(names[kind]), .columns = header.columns_of_picture};
 }
 
 }  // namespace relievo::io

@@ -4,17 +4,18 @@
 #include <utility>
 
 #include "io/formats.h"
+#include "io/splat.h"
 #include "io/text.h"
 
 namespace relievo::io {
 namespace {
 
 constexpr std::array<std::string_view, VertexColumns::most> column_names = {
-    "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "opacity"};
+    "x",       "y",       "z",       "nx",      "ny",    "nz",    "red",   "green", "blue",
+    "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"};
 
-// The properties that only Gaussian splats have; the first three are colours.
-constexpr std::array<std::string_view, 10> splat_names = {"f_dc_0",  "f_dc_1", "f_dc_2", "scale_0", "scale_1",
-                                                          "scale_2", "rot_0",  "rot_1",  "rot_2",   "rot_3"};
+// The colours of Gaussian splats.
+constexpr std::array<std::string_view, 3> harmonic_names = {"f_dc_0", "f_dc_1", "f_dc_2"};
 
 // Returns the index of the property with that name or, if there is none, with that name in another case, such
 // as X. Returns the number of properties if there is none, either.
@@ -43,11 +44,15 @@ bool is_number(const PlyElement& element, std::size_t property) {
 // If the vertex is a Gaussian splat, uses f_dc as its colours, unless it has others. If not, ignores opacity,
 // whose meaning is then unknown.
 void take_splat(const PlyElement& vertex, VertexColumns& columns) {
-  std::array<std::size_t, splat_names.size()> places = {};
-  std::ranges::transform(splat_names, places.begin(), [&](auto name) { return find_property(vertex, name); });
+  std::array<std::size_t, harmonic_names.size()> places = {};
+  std::ranges::transform(harmonic_names, places.begin(),
+                         [&](auto name) { return find_property(vertex, name); });
+  const std::span splat = std::span(columns.is_there).subspan(9);
+  // Flat splats have two scales.
   const bool is_splat =
+      std::ranges::count(splat, false) <= (columns.is_there[12] ? 0 : 1) && !has_lists(vertex) &&
       std::ranges::all_of(places, [&](std::size_t place) { return is_number(vertex, place); });
-  if (!is_splat || has_lists(vertex)) columns.is_there[9] = false;
+  if (!is_splat) std::ranges::fill(splat, false);
   if (!columns.has_opacity() || columns.has_colours()) return;
   columns.are_colours_harmonics = true;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -100,6 +105,35 @@ Result<std::vector<PlyElement>::const_iterator> find_vertex(const Source& source
   return source.error_in_line(header.lines, "expected an element vertex before end_header, found none");
 }
 
+// Returns where a column is in the rows of vertices, which have no lists.
+RecordColumn column_of(const PlyElement& vertex, const VertexColumns& wanted, std::size_t c) {
+  const auto& properties = vertex.properties;
+  const NumberType type = properties[wanted.property[c]].type;
+  RecordColumn found = c >= 6 && c < 9 ? colour_column(wanted, type) : RecordColumn{type};
+  for (std::size_t i = 0; i < wanted.property[c]; ++i) found.at += size_in_bytes(properties[i].type);
+  return found;
+}
+
+// Adds to the records what Gaussian splats have besides points: opacity, scales and rotation.
+void add_splats(const PlyElement& vertex, const VertexColumns& wanted, Records& records) {
+  std::array<RecordColumn, VertexColumns::most> columns;
+  for (std::size_t c = 9; c < columns.size(); ++c)
+    if (wanted.is_there[c]) columns[c] = column_of(vertex, wanted, c);
+  const auto number = [columns, is_big_endian = records.is_big_endian](const char* row, std::size_t c) {
+    double value = 0;
+    decoder(columns[c].type, is_big_endian)(row + columns[c].at, 0, 1, &value);
+    return value;
+  };
+  records.axis = [number, has_depth = wanted.is_there[12]](const char* row) {
+    const double depth = has_depth ? number(row, 12) : no_depth;
+    return splat_axis(Vec3(number(row, 10), number(row, 11), depth),
+                      {number(row, 13), number(row, 14), number(row, 15), number(row, 16)});
+  };
+  if (wanted.keeps_faint) return;
+  records.left_out =
+      LeftOutRows{[number](const char* row) { return is_faint(number(row, 9)); }, what_splats_leave_out};
+}
+
 }  // namespace
 
 bool is_ply(const Source& source) {
@@ -114,25 +148,14 @@ Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const 
   records.count = vertex.count;
   records.stride = least_row_size(vertex);
   records.is_big_endian = header.format == PlyFormat::big_endian;
-  const auto column = [&](std::size_t c) {
-    const auto& properties = vertex.properties;
-    const NumberType type = properties[wanted.property[c]].type;
-    RecordColumn found = c >= 6 && c < 9 ? colour_column(wanted, type) : RecordColumn{type};
-    for (std::size_t i = 0; i < wanted.property[c]; ++i) found.at += size_in_bytes(properties[i].type);
-    return found;
+  const auto columns = [&](std::size_t c) {
+    return std::array{column_of(vertex, wanted, c), column_of(vertex, wanted, c + 1),
+                      column_of(vertex, wanted, c + 2)};
   };
-  const auto columns = [&](std::size_t c) { return std::array{column(c), column(c + 1), column(c + 2)}; };
   records.position = columns(0);
   if (wanted.has_normals()) records.normal = columns(3);
   if (wanted.has_colours()) records.colour = columns(6);
-  if (!wanted.has_opacity() || wanted.keeps_faint) return records;
-  const auto is_faint_row = [decode = decoder(column(9).type, records.is_big_endian),
-                             at = column(9).at](const char* row) {
-    double opacity = 0;
-    decode(row + at, 0, 1, &opacity);
-    return is_faint(opacity);
-  };
-  records.left_out = LeftOutRows{is_faint_row, what_splats_leave_out};
+  if (wanted.has_opacity()) add_splats(vertex, wanted, records);
   return records;
 }
 
@@ -170,6 +193,7 @@ Result<RawCloud> read_ply(const Source& source) {
   if (columns.has_opacity() &&
       std::ranges::all_of(content.cloud.normals, [](const Vec3f& n) { return n.isZero(0); }))
     content.cloud.normals.clear();
+  if (content.cloud.has_normals()) content.cloud.axes.clear();
   Mesh mesh = mesh_over(content.cloud, std::move(content.triangles));
   RawCloud raw{std::move(content.cloud), to_string(header.format), std::move(mesh)};
   if (columns.has_opacity()) raw.format += ", Gaussian splats";
@@ -194,7 +218,8 @@ Result<StreamRecords> find_ply_rows(const Source& head) {
                                 cat("expected a number of rows that fits the file, found ", element->count));
     records.offset += size * element->count;
   }
-  if (columns.has_opacity()) records.normal.reset();  // most splats have zeros as normals
+  if (columns.has_opacity()) records.normal.reset();  // most splats state zeros as their normals
+  records.axis = nullptr;                             // means of points need signs
   std::uint64_t faces = 0;
   for (const PlyElement& element : elements)
     if (find_face_list(element)) faces += element.count;

@@ -59,9 +59,10 @@ constexpr bool is_faint(double opacity) {
 }
 
 // The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
-// exist. For Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity is read, too.
+// exist. Of Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity, scale_0 to scale_2, of which flat
+// splats have two, and rot_0 to rot_3 are read, too.
 struct VertexColumns {
-  static constexpr std::size_t most = 10;
+  static constexpr std::size_t most = 17;
   std::array<bool, most> is_there = {};
   std::array<std::size_t, most> property = {};  // per column: index of the property that is read into it
   bool are_colours_harmonics = false;           // f_dc instead of red, green and blue

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "io/ply.h"
+#include "io/splat.h"
 
 namespace relievo::io {
 namespace {
@@ -169,6 +170,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& con
           ? colour_column(body.columns, body.vertex.properties[body.columns.property[6]].type)
           : RecordColumn{};
   std::array<double, VertexColumns::most> values = {};
+  values[12] = no_depth;
   const auto take = [&](std::size_t property, std::string_view word) {
     if (column_of[property] == VertexColumns::most) return true;  // not read; it may be a text, such as True
     const auto value = parse_number(word);
@@ -185,6 +187,9 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& con
     cloud.points[i] = Vec3(values[0], values[1], values[2]);
     if (cloud.has_normals()) cloud.normals[i] = unit_normal(Vec3(values[3], values[4], values[5]));
     if (cloud.has_colours()) cloud.colours[i] = {byte(values[6]), byte(values[7]), byte(values[8])};
+    if (!cloud.axes.empty())
+      cloud.axes[i] = splat_axis(Vec3(values[10], values[11], values[12]),
+                                 {values[13], values[14], values[15], values[16]});
     if (!body.columns.has_faint(values[9])) continue;
     cloud.points[i].setConstant(std::numeric_limits<double>::quiet_NaN());
     ++content.faint;

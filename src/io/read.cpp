@@ -1,6 +1,7 @@
 #include "relievo/io/read.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/lists.h"
 #include "io/formats.h"
@@ -11,6 +12,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/scan_file.h"
+#include "scan/depth/organised_cloud.h"
 
 namespace relievo {
 namespace {
@@ -34,8 +36,21 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
   return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
-// Depth cameras write 0, 0, 0 where they measured nothing. A small number of such points may belong to the
-// model.
+// Smooths the organised cloud of a depth camera as its depth image would be, and says so.
+void smooth(io::RawCloud& raw, bool keeps_blur) {
+  if (raw.columns == 0) return;
+  const std::size_t rows = raw.cloud.size() / raw.columns;
+  OrganisedCloud scan{std::move(raw.cloud), raw.columns, keeps_blur};
+  const auto smoothed = smooth_organised(scan);
+  raw.cloud = std::move(scan.cloud);
+  if (!smoothed) return;
+  raw.remarks.push_back(cat("an organised cloud of ", raw.columns, " x ", rows, " points, smoothed within ",
+                            std::round(smoothed->noise * 100) / 100, " pixels"));
+  raw.leave_out(smoothed->blur, "on blurred or ragged outlines of depths; --doubtful keep keeps them");
+}
+
+// Depth cameras write 0, 0, 0 where they have not measured anything. A small number of such points may belong
+// to the model.
 constexpr std::size_t most_at_origin = 16;
 
 // Returns the number of points at 0, 0, 0 that count as not measured. It is 0 for a mesh, and if most points
@@ -74,6 +89,7 @@ void drop_unusable(CloudFile& file) {
   keep_where(cloud.points, is_kept);
   keep_where(cloud.normals, is_kept);
   keep_where(cloud.colours, is_kept);
+  keep_where(cloud.axes, is_kept);
 }
 
 constexpr std::uint64_t stl_header_bytes = 84, stl_triangle_bytes = 50;
@@ -142,6 +158,7 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
                           options.beside ? &options.beside : nullptr,
                           options.keeps_doubtful};
   RELIEVO_TRY(auto raw, read_by_format(source));
+  smooth(raw, options.keeps_doubtful);
   CloudFile file{.cloud = std::move(raw.cloud),
                  .format = std::move(raw.format),
                  .missing_points = raw.missing_points,

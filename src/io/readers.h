@@ -71,6 +71,8 @@ struct RawCloud {
   std::size_t missing_points = 0;         // number of points missing at the end of the file
   std::size_t left_out_points = 0;        // number of points left out by leave_out(); they are NaN
   std::vector<std::string> remarks = {};  // as in CloudFile
+  std::size_t columns =
+      0;  // columns of the picture whose pixels the points are, row by row; 0 if they are none
 
   // Counts points that are left out according to the file, and adds a remark.
   void leave_out(std::size_t points, std::string_view which) {

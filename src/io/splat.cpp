@@ -1,5 +1,11 @@
-// Reads .splat: Gaussian splats in rows of 32 bytes, without a header. A row has position and scales as
-// floats, then red, green, blue and opacity, and a rotation, as bytes.
+// Reads .splat: Gaussian splats in rows of 32 bytes, without a header. A row has the position and the scales
+// as floats, then red, green, blue and opacity, and a rotation, as bytes.
+#include "io/splat.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
 #include "io/formats.h"
 #include "io/numbers.h"
 #include "relievo/core/text.h"
@@ -7,7 +13,16 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::size_t row_bytes = 32, colour_at = 24, opacity_at = 27;
+constexpr std::size_t row_bytes = 32, scales_at = 12, colour_at = 24, opacity_at = 27, rotation_at = 28;
+
+Vec3f axis_of_row(const char* row) {
+  Vec3 log_scales;
+  std::array<double, 4> rotation{};
+  for (std::size_t i = 0; i < 3; ++i)
+    log_scales[static_cast<Eigen::Index>(i)] = std::log(double{little<float>(row + scales_at + 4 * i)});
+  for (std::size_t i = 0; i < 4; ++i) rotation[i] = little<std::uint8_t>(row + rotation_at + i) - 128.;
+  return splat_axis(log_scales, rotation);
+}
 
 Records records_of(std::uint64_t file_bytes, bool keeps_doubtful) {
   using enum NumberType;
@@ -16,6 +31,7 @@ Records records_of(std::uint64_t file_bytes, bool keeps_doubtful) {
   records.stride = row_bytes;
   records.position = {{{float32, 0}, {float32, 4}, {float32, 8}}};
   records.colour = {{{uint8, colour_at}, {uint8, colour_at + 1}, {uint8, colour_at + 2}}};
+  records.axis = axis_of_row;
   if (keeps_doubtful) return records;
   records.left_out = LeftOutRows{[](const char* row) { return little<std::uint8_t>(row + opacity_at) < 128; },
                                  what_splats_leave_out};
@@ -23,6 +39,20 @@ Records records_of(std::uint64_t file_bytes, bool keeps_doubtful) {
 }
 
 }  // namespace
+
+Vec3f splat_axis(const Vec3& log_scales, const std::array<double, 4>& rotation) {
+  constexpr double least_ratio = 1.5;  // of the middle scale and the smallest
+  const auto& [w, x, y, z] = rotation;
+  const Eigen::Quaterniond turn(w, x, y, z);
+  Eigen::Index thinnest = 0;
+  const double smallest = log_scales.minCoeff(&thinnest);
+  Vec3 others = log_scales;
+  others[thinnest] = log_scales.maxCoeff();
+  // Scales of minus infinity are those of flat splats.
+  const bool is_flat = others.minCoeff() - smallest >= std::log(least_ratio);
+  if (!is_flat || !std::isfinite(turn.norm()) || !(turn.norm() > 0)) return Vec3f::Zero();
+  return (turn.normalized() * Vec3::Unit(thinnest)).cast<float>();
+}
 
 bool is_splat(const Source& source) {
   return has_ending(source.name, ".splat");

@@ -97,7 +97,10 @@ std::string to_string(const XyzLayout& layout) {
                            : layout.has_colours                     ? " with colours"
                                                                     : "";
   return (layout.promised_points ? "PTS text, " : "XYZ text, ") + std::to_string(layout.columns) +
-         " columns" + with + (layout.has_scan_positions ? " after row and column" : "");
+         " columns" + with +
+         (layout.has_scan_positions ? " after row and column"
+          : layout.is_numbered      ? " after the point's number"
+                                    : "");
 }
 
 using Row = std::vector<double>;
@@ -195,6 +198,52 @@ bool has_scan_positions(const std::vector<Row>& rows, std::size_t columns) {
   return true;
 }
 
+// Returns a line's fields as numbers. Words that are not numbers become NaN.
+Row row_of(std::string_view line, const XyzLayout& layout) {
+  Row row;
+  Fields fields(line, layout.separator);
+  while (const auto field = fields.next()) row.push_back(parse_field(*field, layout).value_or(std::nan("")));
+  return row;
+}
+
+// Returns the first rows of the file, up to 64.
+std::vector<Row> first_rows(std::string_view data, const XyzLayout& layout) {
+  constexpr std::size_t most = 64;
+  std::vector<Row> rows;
+  Lines lines(data);
+  while (rows.size() < most) {
+    const auto line = lines.next();
+    if (!line) break;
+    if (const std::string_view plain = without_comment(*line); !plain.empty())
+      rows.push_back(row_of(plain, layout));
+  }
+  return rows;
+}
+
+// Returns whether the first column grows from row to row, or in samples of rows at least never falls.
+bool grows(const std::vector<Row>& rows, bool is_sample) {
+  return std::ranges::adjacent_find(rows, [&](const Row& a, const Row& b) {
+           return !(a[0] < b[0] || (is_sample && a[0] == b[0]));
+         }) == rows.end();
+}
+
+// Returns whether the first column numbers the points: whole numbers that grow from row to row, as x of a surface
+// does not, before three columns that have fractions in most rows.
+bool are_numbered(const std::vector<Row>& samples, const std::vector<Row>& first) {
+  constexpr std::size_t fewest = 8;
+  const auto has_no_row = [](const Row& row) { return row.size() < 4; };
+  if (samples.empty() || first.size() < fewest || std::ranges::any_of(first, has_no_row) ||
+      std::ranges::any_of(samples, has_no_row))
+    return false;
+  // Coordinates and a normal or a colour are all that six columns have.
+  if (samples[0].size() == 6 && (are_unit_vectors(samples, 3) || are_colours(samples, 3))) return false;
+  std::array<std::size_t, 4> fractions = {};
+  for (const Row& row : samples)
+    for (std::size_t c = 0; c < fractions.size(); ++c) fractions[c] += row[c] != std::trunc(row[c]);
+  return fractions[0] == 0 && samples[0][0] >= 0 && grows(first, false) && grows(samples, true) &&
+         std::ranges::all_of(std::span(fractions).last(3), [&](auto n) { return 2 * n > samples.size(); });
+}
+
 bool find_triple(const std::vector<Row>& rows, IsTriple is_triple, std::span<const std::size_t> candidates,
                  std::span<std::size_t> columns) {
   for (const std::size_t column : candidates) {
@@ -221,10 +270,7 @@ std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
   const std::size_t samples = 256;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < samples; ++i) {
-    Row row;
-    Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
-    while (const auto field = fields.next())
-      row.push_back(parse_field(*field, layout).value_or(std::nan("")));
+    Row row = row_of(without_comment(line_around(data, data.size() * i / samples)), layout);
     if (row.size() == layout.columns) rows.push_back(std::move(row));
   }
   return rows;
@@ -250,14 +296,17 @@ void take_columns(const ColumnNames& names, XyzLayout& layout) {
 }
 
 void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
-  if (layout.columns < 5 && !has_name) return;
-  const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
-  // If other rows begin with a number, the first column has no names; a word in it replaces a missing
+  if (layout.columns < 4 && !has_name) return;
+  const std::string_view data = source.bytes.substr(layout.data_offset);
+  const auto rows = sample_rows(data, layout);
+  // If other rows begin with a number, the first column is not a name: a word in it replaces a missing
   // coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
   layout.has_scan_positions = !has_name && has_scan_positions(rows, layout.columns);
-  const std::size_t first = is_named ? 1 : layout.has_scan_positions ? 2 : 0;
+  layout.is_numbered =
+      !has_name && !layout.has_scan_positions && are_numbered(rows, first_rows(data, layout));
+  const std::size_t first = layout.has_scan_positions ? 2 : is_named || layout.is_numbered ? 1 : 0;
   for (std::size_t i = 0; i < 3; ++i) layout.wanted[i] = first + i;
   std::vector<std::size_t> candidates;
   for (std::size_t column = first + 3; column + 3 <= layout.columns; ++column) candidates.push_back(column);

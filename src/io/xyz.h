@@ -41,9 +41,9 @@ struct XyzLayout {
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
   bool has_names = false;                                   // whether a line has names of the columns
   bool has_normals = false, has_colours = false;
-  bool has_scan_positions = false;  // the first two columns are a scanner's row and column
-  // Number of points according to the first line, if that states it.
-  std::optional<std::int64_t> promised_points;
+  bool has_scan_positions = false;              // the first two columns are a scanner's row and column
+  bool is_numbered = false;                     // the first column is the number of the point
+  std::optional<std::int64_t> promised_points;  // number of points, if a first line states it
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // first line of data, counted from 1
   std::size_t data_offset = 0;
@@ -58,10 +58,10 @@ bool has_coordinates(const ColumnNames& names);
 // Returns whether the only coordinates among the names are longitude and latitude.
 bool has_degrees(const ColumnNames& names);
 
-// Set the columns of coordinates, normals and colours. take_columns() uses the names of the columns.
-// find_columns() uses the values in lines from the whole file, which show unit vectors and colours. For it,
-// the coordinates are the first three columns; or the three after the first, if `has_name` and no sampled
-// line begins with a number; or the three after a scanner's row and column.
+// Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
+// find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
+// first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
+// with a number, or the three after a scanner's row and column or after the point's number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
@@ -69,8 +69,12 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 // Words that are not numbers become NaN.
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
 
-// Detects the layout. If the file has names of columns, they determine it. Otherwise the first line of data
-// shows separator and number of columns, and lines from the whole file show normals and colours.
+// Sets the separator, the decimal mark and the number of columns from a line of data, whose number is
+// layout.first_line. Errors: kind input, for a comma that could be both.
+Result<void> take_separators(const Source& source, std::string_view line, XyzLayout& layout);
+
+// Detects the layout: from the names of the columns if the file has any, else from the first line of data
+// (separator, number of columns) and from lines throughout the file (normals, colours).
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

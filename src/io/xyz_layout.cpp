@@ -252,19 +252,23 @@ std::string_view without_comment(std::string_view line) {
   return trim(line);
 }
 
+Result<void> take_separators(const Source& source, std::string_view line, XyzLayout& layout) {
+  RELIEVO_TRY(layout.separator, find_separator(source, line, layout.first_line));
+  // Between semicolons or tabs a comma is not a separator. It is then a decimal comma, which may first occur
+  // in a later line.
+  const bool has_other_separators =
+      layout.separator == ';' || (layout.separator == ' ' && line.contains('\t'));
+  layout.has_decimal_commas = has_other_separators && !line.contains('.');
+  layout.columns = count_fields(line, layout.separator);
+  return {};
+}
+
 Result<XyzLayout> find_layout(const Source& source) {
   XyzLayout layout;
   Preamble preamble(source, layout);
   RELIEVO_TRY(const auto line, preamble.read());
   layout.first_line = preamble.line();
-  RELIEVO_TRY(const auto separator, find_separator(source, line, layout.first_line));
-  layout.separator = separator;
-  // Between semicolons or tabs a comma is not a separator but a decimal comma. The first one may occur in a
-  // later line.
-  const bool has_other_separators =
-      layout.separator == ';' || (layout.separator == ' ' && line.contains('\t'));
-  layout.has_decimal_commas = has_other_separators && !line.contains('.');
-  layout.columns = count_fields(line, layout.separator);
+  RELIEVO_CHECK(take_separators(source, line, layout));
   if (layout.columns < 3) {
     return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(line));
   }

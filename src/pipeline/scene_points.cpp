@@ -111,6 +111,7 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
   for (Vec3f& n : placed.cloud.normals) n = turn * n;
+  for (Vec3f& axis : placed.cloud.axes) axis = turn * axis;
   placed.viewed = in_view(placed.cloud, view);
   placed.spacing = measure_spacing(placed.viewed);
   const OriginalNormals were = orient_normals(placed.viewed, placed.spacing, placed.cloud);

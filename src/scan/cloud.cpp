@@ -57,6 +57,7 @@ Cloud erase_points(const Cloud& cloud, std::span<const Index> erased) {
     if (cloud.has_normals()) kept.normals.push_back(cloud.normals[i]);
     if (cloud.has_colours()) kept.colours.push_back(cloud.colours[i]);
     if (!cloud.own_heights.empty()) kept.own_heights.push_back(cloud.own_heights[i]);
+    if (!cloud.axes.empty()) kept.axes.push_back(cloud.axes[i]);
   }
   return kept;
 }

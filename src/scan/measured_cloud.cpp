@@ -109,7 +109,8 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
                       std::move(measured->cloud_.outlines),
                       cloud.is_height_field,
                       pick(measured->cloud_.own_heights, order),
-                      cloud.units_per_value};
+                      cloud.units_per_value,
+                      pick(measured->cloud_.axes, order)};
   RELIEVO_CHECK(measured->measure_points(view, progress));
   RELIEVO_CHECK(check_digits(cloud, measured->spacing().rho));
   measured->repeated_points_ = cloud.size() - measured->cloud_.size();

@@ -15,15 +15,43 @@ namespace {
 
 constexpr std::size_t most_neighbours = 64;  // size of arrays on the stack
 
-// Returns the direction of least variance of the points with these indices, or (0, 0, 1) if they coincide.
-Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members) {
+using Eigenvectors = Eigen::SelfAdjointEigenSolver<Mat3>;
+
+// Returns the form whose least direction is the likeliest normal of a plane, where the offsets of points from
+// it and the slants of axes are normally distributed: each of the two sums of squares over its variance,
+// which is taken from their own best fit. `covariance` has the trace 1.
+Mat3 with_axes(const Mat3& covariance, std::span<const Vec3f> axes, std::span<const Index> members) {
+  constexpr double fewest = 4, least_variance = 1e-9;
+  Mat3 sum = Mat3::Zero();
+  double known = 0;
+  for (const Index i : members) {
+    const Vec3 axis = axes[i].cast<double>();
+    sum += axis * axis.transpose();
+    known += axis.isZero(0) ? 0 : 1;
+  }
+  const auto count = static_cast<double>(members.size());
+  if (known < fewest || count < fewest) return covariance;
+  const double offsets =
+      Eigenvectors().computeDirect(covariance, Eigen::EigenvaluesOnly).eigenvalues()[0] / (count - 3);
+  const double slants = (known - Eigenvectors().computeDirect(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]) /
+                        (2 * (known - 1));
+  const double ratio = std::max(offsets, least_variance) / std::max(slants, least_variance);
+  const Mat3 both = covariance + ratio * (known * Mat3::Identity() - sum);
+  return both / both.trace();
+}
+
+// Returns the direction of least variance of the members, or (0, 0, 1) if they coincide.
+Vec3f plane_normal(const Cloud& cloud, std::span<const Index> members) {
+  const std::vector<Vec3>& points = cloud.points;
   Vec3 mean = Vec3::Zero();
   for (const Index i : members) mean += points[i];
   mean /= static_cast<double>(members.size());
   Mat3 covariance = Mat3::Zero();
   for (const Index i : members) covariance += (points[i] - mean) * (points[i] - mean).transpose();
-  Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(covariance / std::max(covariance.trace(), 1e-300));
+  covariance /= std::max(covariance.trace(), 1e-300);
+  if (!cloud.axes.empty()) covariance = with_axes(covariance, cloud.axes, members);
+  Eigenvectors solver;
+  solver.computeDirect(covariance);
   const Vec3 normal = solver.eigenvectors().col(0);
   return normal.allFinite() && normal.norm() > .5 ? Vec3f(normal.cast<float>().normalized())
                                                   : Vec3f(Vec3f::UnitZ());
@@ -52,7 +80,7 @@ void estimate_normals(Cloud& cloud, std::size_t neighbours, const Progress* prog
         std::array<Index, most_neighbours> members;
         std::array<double, most_neighbours> distances_sq;
         const std::size_t found = tree.nearest(cloud.points[i], k, members.data(), distances_sq.data());
-        cloud.normals[i] = plane_normal(cloud.points, std::span(members).first(found));
+        cloud.normals[i] = plane_normal(cloud, std::span(members).first(found));
       },
       1024);
 }

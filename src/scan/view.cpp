@@ -131,6 +131,7 @@ Cloud cropped(const Cloud& cloud, const View& view) {
     if (!cloud.normals.empty()) part.normals.push_back(cloud.normals[i]);
     if (!cloud.colours.empty()) part.colours.push_back(cloud.colours[i]);
     if (!cloud.own_heights.empty()) part.own_heights.push_back(cloud.own_heights[i]);
+    if (!cloud.axes.empty()) part.axes.push_back(cloud.axes[i]);
   }
   return part;
 }
@@ -141,12 +142,14 @@ Cloud in_view(const Cloud& cloud, const View& view) {
   Cloud out;
   out.points.resize(cloud.size());
   out.normals.resize(cloud.normals.size());
+  out.axes.resize(cloud.axes.size());
   out.colours = cloud.colours;
   out.own_heights = cloud.own_heights;
   out.is_height_field = cloud.is_height_field && view.R_view_model == Mat3::Identity();
   parallel_for(cloud.size(),
                [&](std::size_t i) { out.points[i] = view.R_view_model * (cloud.points[i] - centre); });
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
+  parallel_for(cloud.axes.size(), [&](std::size_t i) { out.axes[i] = rotation * cloud.axes[i]; });
   const auto turned = [&](const Vec3& p) -> Vec3 { return view.R_view_model * (p - centre); };
   for (const OutlineSegment& s : cloud.outlines)
     out.outlines.push_back({turned(s.from), turned(s.to), s.is_jump});

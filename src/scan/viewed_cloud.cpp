@@ -19,6 +19,8 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
   Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};
   parallel_for(cloud.size(), [&](std::size_t i) { out.points[i] = R * cloud.points[i]; });
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
+  out.axes.resize(cloud.axes.size());
+  parallel_for(cloud.axes.size(), [&](std::size_t i) { out.axes[i] = rotation * cloud.axes[i]; });
   for (const OutlineSegment& s : cloud.outlines)
     out.outlines.push_back({Vec3(R * s.from), Vec3(R * s.to), s.is_jump});
   out.is_height_field = cloud.is_height_field && R == Mat3::Identity();

@@ -39,7 +39,13 @@ TEST(Archive, AGltfAndItsBufferAreRead) {
 }
 
 TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
-  EXPECT_EQ(read(archive_of({{"license.txt", "1 2 3"}, {"a.png", "x"}})).error().message(),
+  EXPECT_EQ(
+      read(archive_of({{"license.txt", "1 2 3"}, {"a.png", "x"}})).error().message(),
+      "a.zip: expected an archive with a cloud or a mesh, found none in it, but a.png; unpack it first");
+  EXPECT_EQ(
+      read(archive_of({{"license.txt", "1 2 3"}, {"depth.npy", "x"}})).error().message(),
+      "a.zip: expected an archive with a cloud or a mesh, found none in it, but depth.npy; unpack it first");
+  EXPECT_EQ(read(archive_of({{"a.txt", "1 2 3"}, {"b.txt", "x"}})).error().message(),
             "a.zip: expected an archive with a cloud or a mesh, found none in it");
   EXPECT_EQ(read(archive_of({{"a.stl", "x"}, {"b.ply", "x"}})).error().message(),
             "a.zip: expected an archive with one cloud or mesh, found 2: a.stl and others; unpack it first");

@@ -1,5 +1,6 @@
-// Fuzz targets of the readers, one for each family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file
-// names. The first byte of an input chooses one of these names; the rest is the file.
+// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names.
+// The first byte of an input chooses one of these names, the rest is the file. In texts of meshes a zero byte ends the
+// file, and the files beside it follow: materials or a buffer up to another zero byte, then a picture.
 #include <array>
 #include <cstdlib>
 #include <string>
@@ -37,6 +38,24 @@ std::string with_checksums(std::string file) {
   return file;
 }
 
+// Splits off the part of the content before the first zero byte, which is left out.
+std::string_view next_part(std::string_view& content) {
+  const std::size_t end = std::min(content.find('\0'), content.size());
+  const std::string_view part = content.substr(0, end);
+  content.remove_prefix(std::min(end + 1, content.size()));
+  return part;
+}
+
+// Returns the files beside a text, which it may call as it likes.
+FilesBeside files_beside(std::string_view rest) {
+  const std::string_view words = next_part(rest);
+  return [words, rest](const std::string& name) -> Result<std::vector<std::byte>> {
+    const bool is_picture = !name.ends_with(".mtl") && !name.ends_with(".bin");
+    const auto bytes = std::as_bytes(std::span(is_picture ? rest : words));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  };
+}
+
 class Bytes : public ByteSource {
  public:
   explicit Bytes(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -60,6 +79,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (name == "a.e57") content = with_checksums(std::move(content));
   const auto bytes = std::as_bytes(std::span(content));
   if (!check_answer(read_cloud(bytes, name), name).empty()) std::abort();
+  if (name == "a.obj" || name == "a.gltf") {
+    std::string_view rest = content;
+    const auto text = std::as_bytes(std::span(next_part(rest)));
+    if (!check_answer(read_cloud(text, name, files_beside(rest)), name).empty()) std::abort();
+  }
   const PictureChannels channels{(data[0] & 64) != 0, data[0] >> 7};
   const auto image = read_depth_image(bytes, name, channels);
   const bool has_all = !image || image->values.size() == image->values.index(0, image->values.height);

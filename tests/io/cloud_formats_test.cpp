@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 
+#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 
@@ -45,6 +46,31 @@ TEST(Pcd, LinesOfOtherProgramsInTheHeaderAreIgnored) {
   const auto file =
       file_of(replaced(ascii_pcd(), "POINTS", "SENSOR_POSE 1 2 3\nTIMESTAMP 9\nPOINTS"), "a.pcd");
   EXPECT_EQ(file.cloud.points, file_of(ascii_pcd(), "a.pcd").cloud.points);
+}
+
+// Rows of points that a camera at the origin sees are its picture: a plane with ripples of a tenth of a pixel.
+TEST(Pcd, OrganisedCloudsAreSmoothedAndHaveNormals) {
+  constexpr int columns = 24, rows = 18;
+  std::string points;
+  for (int i = 0; i < columns * rows; ++i) {
+    const double depth = 2 + .002 * (i * 37 % 11 - 5) / 5, x = (i % columns - 11.5) / 30,
+                 y = (i / columns - 8.5) / 30;
+    points += i == 5 ? "nan nan nan\n" : cat(x * depth, ' ', y * depth, ' ', depth, '\n');
+  }
+  const auto text_of = [&](const std::string& size) {
+    return "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + size +
+           "\nPOINTS 432\nDATA ascii\n" + points;
+  };
+  const auto organised = file_of(text_of("WIDTH 24\nHEIGHT 18"), "a.pcd");
+  ASSERT_EQ(organised.cloud.size(), 431U);
+  EXPECT_EQ(organised.dropped_points, 1U);
+  EXPECT_TRUE(organised.remarks[0].starts_with("an organised cloud of 24 x 18 points, smoothed within "))
+      << organised.remarks[0];
+  ASSERT_TRUE(organised.cloud.has_normals());
+  for (const Vec3f& n : organised.cloud.normals) EXPECT_LT(n.z(), -.99F);
+  const auto scattered = file_of(text_of("WIDTH 432\nHEIGHT 1"), "a.pcd");
+  EXPECT_FALSE(scattered.cloud.has_normals());
+  EXPECT_TRUE(scattered.remarks.empty());
 }
 
 TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {

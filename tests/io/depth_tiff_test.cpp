@@ -149,6 +149,17 @@ TEST(DepthTiff, TakesOneOfSeveralChannelsOrTheirLuminance) {
             "d.tif: expected a channel from 1 to 3, found 4");
 }
 
+TEST(DepthTiff, EqualColoursAreGrey) {
+  std::string pixels;
+  for (int i = 0; i < width * height; ++i)
+    for (int c = 0; c < 3; ++c) pixels += raw(static_cast<std::uint16_t>(100 * i));
+  expect_values({16, 1, 3, 2}, pixels, [](int i) { return 100 * i; });
+  pixels.back() = '\x7F';
+  EXPECT_TRUE(read_tiff({16, 1, 3, 2}, pixels)
+                  .error()
+                  .expected.starts_with("expected one channel of depths, found 3"));
+}
+
 TEST(DepthTiff, InvertsWhereZeroIsWhite) {
   const std::string pixels = pixels_of([](int i) { return static_cast<std::uint16_t>(i); });
   expect_values({16, 1, 1, 0}, pixels, [](int i) { return 65535 - i; });

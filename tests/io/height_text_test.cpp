@@ -2,7 +2,9 @@
 // clouds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
@@ -138,6 +140,89 @@ TEST(HeightTable, IsNotTakenForACloudNorACloudForIt) {
   EXPECT_FALSE(is_picture_text("9\n" + hill(9, 9, " "))) << "the number of points of a PTS";
   EXPECT_FALSE(is_picture_text("v 1 2 3\n"));
   EXPECT_FALSE(is_picture_text(""));
+}
+
+// Returns the lines of a text.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    lines.push_back(text.substr(at, end - at));
+  return lines;
+}
+
+// Returns the hill with the given number before each row, and the number 0 above the first column.
+std::string with_places(const std::string& corner, double wide, double high) {
+  const std::vector<std::string> rows = lines_of(hill(12, 9, ","));
+  std::string text = corner;
+  for (int c = 0; c < 12; ++c) text += cat(",", wide * c);
+  text += '\n';
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    text += cat(high * static_cast<double>(r), ",", rows[r], "\n");
+  return text;
+}
+
+TEST(HeightTable, LeavesOutTheNumbersOfRowsAndColumns) {
+  const auto plain = image_in(hill(12, 9, ","));
+  for (const char* const corner : {"", "y/x", "\"\""}) {
+    const auto image = image_in(with_places(corner, 1, 1));  // as pandas writes it
+    EXPECT_EQ(image.values.pixels, plain.values.pixels) << corner;
+    EXPECT_EQ(image.values.width, 12);
+    EXPECT_EQ(image.pixel_size, Vec2(0, 0));
+    EXPECT_EQ(image.format, "table of heights, without the numbers or places of its rows and columns");
+  }
+  const auto places = image_in(with_places("um", .5, -.25));
+  EXPECT_EQ(places.values.pixels, plain.values.pixels);
+  EXPECT_EQ(places.pixel_size, Vec2(.5, .25));
+  const auto above = image_in("0,1,2,3,4,5,6,7,8,9,10,11\n" + hill(12, 9, ","));
+  EXPECT_EQ(above.values.pixels, plain.values.pixels);
+  std::string left;
+  for (std::size_t r = 0; r < 9; ++r) left += cat(r + 1, ",", lines_of(hill(12, 9, ","))[r], "\n");
+  EXPECT_EQ(image_in(left).values.pixels, plain.values.pixels);
+}
+
+TEST(HeightTable, KeepsHeightsThatCount) {
+  std::string ramp;
+  for (int r = 0; r < 9; ++r)
+    for (int c = 0; c < 12; ++c) ramp += cat(c + .1 * r, c < 11 ? "," : "\n");
+  EXPECT_EQ(image_in(ramp).values.height, 9);
+  EXPECT_EQ(image_in(ramp).values.width, 12);
+}
+
+TEST(HeightTable, BeginsBehindTheLinesOfAnInstrument) {
+  const auto plain = image_in(hill(12, 9, ";"));
+  const std::string words = "Height data\nunit;um\nSize;12;9\nDate;2026-11-29;10:30\n\n";
+  EXPECT_EQ(image_in(words + hill(12, 9, ";")).values.pixels, plain.values.pixels);
+  EXPECT_EQ(image_in("north: 9\nsouth: 0\nrows: 9\ncols: 12\n" + hill(12, 9, " ")).values.pixels,
+            plain.values.pixels);
+  EXPECT_FALSE(is_picture_text("ply\nformat ascii 1.0\n" + hill(40, 9, " "))) << "a format with a mark";
+  EXPECT_FALSE(is_picture_text("Some words\nand no table, 1 2 3\n"));
+}
+
+TEST(HeightTable, EmptyFieldsAreMissing) {
+  const auto plain = image_in(hill(12, 9, ","));
+  for (const char* const word : {"", "BAD", "---", "***"}) {
+    std::string row = word;
+    for (int c = 1; c < 12; ++c) row += cat(",", word);
+    const auto image = image_in(row + "\n" + row + "\n" + hill(12, 9, ","));
+    ASSERT_EQ(image.values.height, 11) << word;
+    EXPECT_TRUE(
+        std::ranges::all_of(std::span(image.values.pixels).first(24), [](float v) { return std::isnan(v); }));
+    EXPECT_TRUE(std::ranges::equal(std::span(image.values.pixels).subspan(24), plain.values.pixels));
+  }
+  std::string margins =
+      "---,---,---,---,---,---,---,---,---,---,---,---,---,---\n---,1,---,---,---,---,---,---,---,---,---,---"
+      ",---,2\n";
+  for (const std::string& row : lines_of(hill(12, 9, ","))) margins += "---," + row + ",---\n";
+  const auto image_with_margins = image_in(margins);
+  EXPECT_EQ(image_with_margins.values.width, 14);
+  EXPECT_EQ(image_with_margins.values.height, 11);
+  EXPECT_EQ(image_with_margins.values.at(13, 1), 2);
+  EXPECT_EQ(image_with_margins.values.at(1, 2), plain.values[0]);
+  std::string text = hill(12, 9, ",");
+  const std::size_t last = text.find('\n', text.find('\n') + 1), comma = text.rfind(',', last);
+  const auto image = image_in(text.erase(comma + 1, last - comma - 1));
+  EXPECT_TRUE(std::isnan(image.values.at(11, 1)));
+  EXPECT_EQ(image.values.at(0, 2), plain.values.at(0, 2));
 }
 
 TEST(HeightTable, NamesTheLineOfAnotherLength) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/angle.h"
 #include "relievo/core/text.h"
 #include "relievo/io/stream.h"
 #include "support/format_samples.h"
@@ -65,6 +66,43 @@ TEST_P(Splats, FaintOnesAreKeptOnRequest) {
   EXPECT_TRUE(file.remarks.empty());
 }
 
+// The axis of a splat that is thin along z, turned by 30 degrees around x, is (0, -sin 30, cos 30).
+TEST_P(Splats, AxesAreThoseOfTheSmallestScale) {
+  const double half = to_radians(15);
+  const auto turned = [&](const Vec3& log_scales, double length) {
+    std::vector<double> row = splat({1, 2, 3}, {0, 0, 0}, 1);
+    std::copy(log_scales.begin(), log_scales.end(), row.begin() + 10);
+    row[13] = length * std::cos(half), row[14] = length * std::sin(half);
+    return row;
+  };
+  const PlyTable table = splats(
+      {turned({-2, -2, -6}, 1), turned({-2, -6, -2}, 9), turned({-2, -6, -6.3}, 1), turned({-1, -2, -3}, 0)});
+  const auto file = file_of(encode_ply({table}, GetParam()), "a.ply");
+  ASSERT_EQ(file.cloud.axes.size(), 4U);
+  EXPECT_LT((file.cloud.axes[0] - Vec3f(0, -.5F, std::sqrt(.75F))).norm(), 1e-6F);
+  EXPECT_LT((file.cloud.axes[1] - Vec3f(0, std::sqrt(.75F), .5F)).norm(), 1e-6F);
+  EXPECT_EQ(file.cloud.axes[2], Vec3f::Zero());  // two small scales are nearly equal
+  EXPECT_EQ(file.cloud.axes[3], Vec3f::Zero());  // no rotation
+}
+
+TEST_P(Splats, NormalsOfTheFileCountMoreThanAxes) {
+  std::vector<double> row = splat({1, 2, 3}, {0, 0, 0}, 1);
+  row[5] = 1, row[12] = -9;
+  const auto file = file_of(encode_ply({splats({row})}, GetParam()), "a.ply");
+  EXPECT_EQ(file.cloud.normals, std::vector<Vec3f>{Vec3f::UnitZ()});
+  EXPECT_TRUE(file.cloud.axes.empty());
+}
+
+TEST_P(Splats, FlatOnesHaveTwoScales) {
+  PlyTable table = splats({splat({1, 2, 3}, {0, 0, 0}, 1), splat({1, 2, 3}, {0, 0, 0}, -1)});
+  table.columns.erase(table.columns.begin() + 12);
+  for (auto& row : table.rows) row.erase(row.begin() + 12);
+  const auto file = file_of(encode_ply({table}, GetParam()), "a.ply");
+  EXPECT_EQ(file.left_out_points, 1U);
+  EXPECT_TRUE(file.cloud.has_colours());
+  EXPECT_EQ(file.cloud.axes, std::vector<Vec3f>{Vec3f::UnitZ()});
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Splats, testing::ValuesIn(ply_encodings), testing::PrintToStringParamName());
 
 TEST(SplatFile, RowsOfBytesAreRead) {
@@ -86,6 +124,16 @@ TEST(SplatFile, RowsOfBytesAreRead) {
       message_of(row(1, 0), "a.splat"),
       "a.splat: expected points that count, found none: left out 1 point of splats that are less than half "
       "opaque; --doubtful keep keeps them");
+}
+
+// A quarter turn around x, in bytes, turns the thin y into z.
+TEST(SplatFile, AxesAreThoseOfTheSmallestScale) {
+  const std::string row = raw(1.F) + raw(2.F) + raw(3.F) + raw(.1F) + raw(.001F) + raw(.2F) +
+                          std::string(3, '\1') + '\xFF' + raw(std::uint8_t{218}) + raw(std::uint8_t{218}) +
+                          std::string(2, '\x80');
+  const auto axes = file_of(row, "a.splat").cloud.axes;
+  ASSERT_EQ(axes.size(), 1U);
+  EXPECT_LT((axes[0] - Vec3f::UnitZ()).norm(), 1e-6F);
 }
 
 TEST(Splats, PackedOnesAreRefusedByName) {

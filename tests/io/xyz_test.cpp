@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "relievo/core/text.h"
@@ -160,6 +161,24 @@ std::string table(const std::function<std::string(int)>& before, const std::stri
     text += before(i) + std::to_string(i + .5) + " " + std::to_string(1.25 * i) + " -" +
             std::to_string(i + .75) + after + "\n";
   return text;
+}
+
+TEST(Xyz, NumbersOfPointsAreNoCoordinates) {
+  std::string numbered, commas, profiles;
+  for (int i = 0; i < 400; ++i) {
+    const std::string place = cat(.5 + i % 20, ",", .25 + i / 20, ",", .125 * (i % 7));
+    commas += cat(i + 1, ",", place, ",", i % 256, "\n");
+    std::string words = place;
+    std::ranges::replace(words, ',', ' ');
+    numbered += cat(1000 + 3 * i, " ", words, "\n");
+    profiles += cat(i / 20, " ", .5 + i % 20, " .25 ", 7 + i % 9, "\n");  // x of a profile is no number
+  }
+  for (const std::string& text : {numbered, commas}) {
+    const auto file = file_of(text);
+    EXPECT_EQ(file.cloud.points[21], Vec3(1.5, 1.25, 0));
+    EXPECT_TRUE(file.format.ends_with(" after the point's number")) << file.format;
+  }
+  EXPECT_EQ(file_of(profiles).cloud.points[21], Vec3(1, 1.5, .25));
 }
 
 TEST(Xyz, RowAndColumnOfAScannerAreNoCoordinates) {

@@ -161,6 +161,22 @@ TEST(DepthConventions, EveryPixelHasItsUse) {
     }
 }
 
+// A camera that counts in steps of 10 mm, with a tooth one pixel wide on the figure's upper side.
+TEST(DepthConventions, TeethHaveTheUseOfBlur) {
+  DepthImage image{filled_image(120, 90, 0.F), 1, "test"};
+  for (int r = 20; r < 90; ++r)
+    for (int c = 0; c < 120; ++c) image.values.at(c, r) = 1000.F + 10.F * static_cast<float>(c / 4);
+  for (int r = 12; r < 20; ++r) image.values.at(61, r) = 1150;
+  DepthOptions options;
+  options.camera = DepthCamera{100, 100, 59.5, 44.5};
+  const auto made = value_of(depth_cloud(image, options));
+  EXPECT_EQ(made.blur, 8U);
+  EXPECT_EQ(made.uses.at(61, 15), PixelUse::blur);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(made.uses.pixels, PixelUse::blur)), made.blur);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(made.uses.pixels, PixelUse::kept)),
+            made.cloud.size());
+}
+
 TEST(DepthConventions, UnknownHeightsOfTerrainAreMissing) {
   for (const float marker : {-9999.F, -32768.F}) {
     const Convention heights{"heights", DepthValues::height, 0, [](double d) { return 5 - d; }, {}};

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/angle.h"
 #include "relievo/scan/view.h"
 #include "relievo/scan/visible.h"
 #include "support/shapes.h"
@@ -28,6 +33,54 @@ TEST(EstimateNormals, LeavesTwoPointsAlone) {
   Cloud two{{Vec3::Zero(), Vec3::UnitX()}, {}};
   estimate_normals(two);
   EXPECT_FALSE(two.has_normals());
+}
+
+// Returns the mean angle in degrees between lines along two lists of directions.
+double mean_angle(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += to_degrees(std::acos(std::min(1., std::abs(a[i].cast<double>().dot(b[i].cast<double>())))));
+  return sum / static_cast<double>(a.size());
+}
+
+// Moves the points of a cloud along its normals, which become axes with errors and any sign, as those of
+// Gaussian splats. `offset` is in sampling distances.
+Cloud with_noisy_axes(const Cloud& truth, double offset, double slant_deg) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const double rho = measure_spacing(truth).rho;
+  Cloud cloud{truth.points, {}};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3 n = truth.normals[i].cast<double>(), side = n.unitOrthogonal();
+    const double slant = std::tan(to_radians(slant_deg));
+    const Vec3 axis = n + slant * (normal(random) * side + normal(random) * n.cross(side));
+    cloud.points[i] += offset * rho * normal(random) * n;
+    cloud.axes.push_back((random() % 2 ? 1.F : -1.F) * axis.normalized().cast<float>());
+  }
+  return cloud;
+}
+
+TEST(EstimateNormals, OfPointsWithAxesAreBetterThanOfEitherAlone) {
+  for (const Cloud& truth : {test::sphere(20000, 1), test::torus(20000, 1, .35)})
+    for (const double offset : {0., .15, .6})
+      for (const double slant : {5., 20.}) {
+        Cloud both = with_noisy_axes(truth, offset, slant), points{both.points, {}};
+        estimate_normals(both), estimate_normals(points);
+        const double found = mean_angle(both.normals, truth.normals);
+        EXPECT_LT(found, .4 * mean_angle(both.axes, truth.normals)) << offset << ' ' << slant;
+        const double share = offset >= .6 ? .5 : 1.03;  // of the angle of what the points alone give
+        EXPECT_LT(found, share * mean_angle(points.normals, truth.normals)) << offset << ' ' << slant;
+      }
+}
+
+// Axes that point anywhere hardly count, and unknown ones do not count at all.
+TEST(EstimateNormals, OfPointsWithWrongAxesAreThoseOfThePoints) {
+  const Cloud truth = test::torus(20000, 1, .35);
+  Cloud random = with_noisy_axes(truth, .15, 89.9), unknown = random, points{random.points, {}};
+  unknown.axes.assign(unknown.size(), Vec3f::Zero());
+  estimate_normals(random), estimate_normals(unknown), estimate_normals(points);
+  EXPECT_LT(mean_angle(random.normals, truth.normals), 1.1 * mean_angle(points.normals, truth.normals));
+  EXPECT_EQ(unknown.normals, points.normals);
 }
 
 TEST(TurnToViewer, LeavesNoNormalFacingAway) {

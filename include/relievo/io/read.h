@@ -71,29 +71,28 @@ struct PictureChannels {
 
 // Returns the depths in a picture; missing ones are NaN.
 //
-// - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are less than half opaque are
-// missing.
-// - TIFF: grey, with integers of 1 to 32 or 64 bits or floating-point numbers of 16, 32 or 64 bits, in strips
-// or tiles, with any compression of libtiff. The first picture that is neither a thumbnail nor a mask is
-// read, and turned according to its tag Orientation. Pixels that are less than half opaque are missing, and
-// so are values that GDAL's no-data tag names. If 0 is white, integers are inverted, so that bright pixels
-// have large values. GeoTIFF's tags determine the pixel size, also in degrees.
-// - JPEG: grey, or with equal colour channels, or with a requested channel or luminance; turned according to
-// Exif's tag Orientation. No CMYK.
-// - NPY: a two-dimensional array of integers or floating-point numbers. PFM, PGM, PPM, and BMP without
-// compression.
-// - Esri ASCII grid, with its no-data value and cell size.
-// - Text with at least 32 numbers per line, or at least 8 if neighbouring numbers correlate. A line is a row
-// of the picture, from the top. Words that are not numbers are missing values.
+// - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are more transparent than opaque
+//   are missing.
+// - TIFF: grey, also in equal colours, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64
+//   bits, in strips or tiles, with any compression that libtiff supports: the first picture that is neither a
+//   thumbnail nor a mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values
+//   that GDAL's no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large
+//   values.
+//   GeoTIFF's tags give the size of pixels, also in degrees.
+// - JPEG: grey, or colours that are equal or of which a channel or the luminance is wanted, turned as the tag
+//   Orientation of Exif says. No CMYK.
+// - NPY: an array of whole numbers or fractions in two dimensions. PFM, PGM, PPM and BMP without compression.
+// - Esri ASCII grid, with its no-data value and the size of its cells.
+// - Text with at least 8 numbers per line, of which neighbours are alike, or at least 32: a line is a row of
+//   the picture, from the top. Other words are missing values.
 //
 // Errors: kind input for other or broken pictures and palettes, for a missing channel, and for more than 2^27
 // pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 
-// Returns the camera in a text "FX,FY,CX,CY", or in a text with the nine numbers of its matrix, row by row,
-// separated by commas or white space. Errors: kind option for any other text, or a focal length that is not
-// positive.
+// Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by
+// commas, semicolons or white space. Errors: kind option for any other text, or a focal length that is not positive.
 Result<DepthCamera> parse_camera(std::string_view text);
 
 // The size of a scan, determined from the beginning of the file, so that the needed memory is known before

@@ -33,6 +33,9 @@ struct Cloud {
   // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
   // if values increase away from the viewer, and 0 if z is not proportional to them.
   std::optional<double> units_per_value = {};
+  // For each point the direction in which the surface is thinnest there, as Gaussian splats state it, with any
+  // sign; zero where it is not known. Empty if the file states none. estimate_normals() uses it.
+  std::vector<Vec3f> axes = {};
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }

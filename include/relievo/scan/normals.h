@@ -13,9 +13,10 @@ namespace relievo {
 // rounding is returned unchanged, so that writing and reading it changes no bit.
 Vec3f unit_normal(const Vec3& n);
 
-// Estimates the normal of every point from the plane through its `neighbours` nearest points, at most 64
-// (principal component analysis). Signs are arbitrary until turn_to_viewer(). Does nothing for fewer than 3
-// points. After cancellation, the remaining normals are 0.
+// Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
+// (principal component analysis). If the cloud has axes, the plane agrees with these, too: points and axes count
+// by how little each of them scatters there. The sign is arbitrary until turn_to_viewer(). Does nothing to a
+// cloud of fewer than 3 points. Once the progress is cancelled, the remaining normals are 0.
 void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 
 // Reverses the normals of a cloud in view coordinates that face away from the viewer, so that all have z >=

@@ -82,7 +82,17 @@ bool takes_luminance(const Layout& layout, const PictureChannels& wanted) {
          layout.channels >= 3;
 }
 
-// Sets the format of the samples. Returns an error that explains why they are not depths.
+std::unexpected<Error> several_channels(const Source& source, const Layout& layout) {
+  return source.error({}, cat("expected one channel of depths, found ", layout.channels, way_out_of_colours));
+}
+
+// Returns whether red, green and blue have to be equal, as in a grey picture that was saved in colours.
+bool must_be_grey(const Layout& layout, const PictureChannels& wanted) {
+  return layout.colours == PHOTOMETRIC_RGB && layout.channels >= 3 && wanted.channel == 0 &&
+         !wanted.is_luminance_wanted;
+}
+
+// Sets the format of the samples, or returns an error that explains why they are not depths.
 Result<void> check_samples(const Source& source, Layout& layout, const PictureChannels& wanted) {
   const bool is_grey = layout.colours <= PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_RGB;
   if (!is_grey)
@@ -92,9 +102,8 @@ Result<void> check_samples(const Source& source, Layout& layout, const PictureCh
     return source.error({},
                         cat("expected a channel from 1 to ", layout.channels, ", found ", wanted.channel));
   const bool is_one_enough = wanted.channel > 0 || layout.channels == 1 || layout.channels == 2;
-  if (!is_one_enough && !takes_luminance(layout, wanted))
-    return source.error({},
-                        cat("expected one channel of depths, found ", layout.channels, way_out_of_colours));
+  if (!is_one_enough && !takes_luminance(layout, wanted) && !must_be_grey(layout, wanted))
+    return several_channels(source, layout);
   const auto samples = find_sample_format(layout.kind, layout.bits);
   if (!samples)
     return source.error({},
@@ -167,7 +176,19 @@ Broken read_luminance(TIFF* tiff, const Layout& layout, Image<float>& to) {
   return {};
 }
 
-// Removes the values of pixels that are less than half opaque.
+// Sets `is_grey` to whether green and blue are equal to red, which is in `red`.
+Broken compare_colours(TIFF* tiff, const Layout& layout, const Image<float>& red, bool& is_grey) {
+  const auto is_same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  Image<float> other;
+  is_grey = true;
+  for (std::uint16_t c = 1; c < 3 && is_grey; ++c) {
+    if (const Broken broken = read_channel(tiff, layout, c, other)) return broken;
+    is_grey = std::ranges::equal(other.pixels, red.pixels, is_same);
+  }
+  return {};
+}
+
+// Removes the values of pixels that are more transparent than opaque.
 Broken remove_transparent(TIFF* tiff, const Layout& layout, Image<float>& image) {
   Image<float> alpha;
   if (const Broken broken = read_channel(tiff, layout, *layout.alpha, alpha)) return broken;
@@ -279,7 +300,11 @@ Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& 
   Broken broken = takes_luminance(layout, channels)
                       ? read_luminance(file.handle(), layout, image.values)
                       : read_channel(file.handle(), layout, channel, image.values);
+  bool is_grey = true;
+  if (!broken && must_be_grey(layout, channels))
+    broken = compare_colours(file.handle(), layout, image.values, is_grey);
   if (broken) return broken_part(source, file, *broken);
+  if (!is_grey) return several_channels(source, layout);
   interpret(layout, no_data(file.handle()), image);
   const bool has_alpha = layout.alpha && channels.channel != *layout.alpha + 1;
   if (has_alpha) broken = remove_transparent(file.handle(), layout, image.values);

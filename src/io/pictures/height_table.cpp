@@ -8,6 +8,7 @@
 
 #include "io/formats.h"
 #include "io/pictures/pictures.h"
+#include "io/pictures/table_labels.h"
 #include "io/xyz.h"
 
 namespace relievo::io {
@@ -16,6 +17,8 @@ namespace {
 // With fewer than `least_columns` columns the text is a cloud; with at least `most_of_cloud` columns it is a
 // table. In between, the values decide.
 constexpr std::size_t least_columns = 8, most_of_cloud = 32;
+
+constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 
 using NumberRows = std::vector<std::vector<double>>;
 
@@ -52,25 +55,40 @@ bool is_table(const Source& source, const XyzLayout& layout) {
   return are_neighbours_alike(sample_rows(source.bytes.substr(layout.data_offset), layout), layout.columns);
 }
 
-// Appends a line of the table. Texts that are not numbers become missing values.
+// Returns the layout of a table; nothing for other texts.
+std::optional<XyzLayout> find_table(const Source& source) {
+  if (!foreign_format(source).empty()) return std::nullopt;
+  std::optional<XyzLayout> layout;
+  const auto is_marked = [&](const Format& format) {
+    return format.is_format != is_text && format.is_format(source);
+  };
+  if (auto found = find_layout(source))
+    layout = *found;
+  else if (std::ranges::none_of(formats, is_marked))
+    layout = find_table_behind_words(source);
+  return layout && is_table(source, *layout) ? layout : std::nullopt;
+}
+
+// Appends a line of the table. What is not a number is missing, and so is an empty last field.
 void take_row(std::string_view line, const XyzLayout& layout, std::vector<float>& values) {
+  const std::size_t before = values.size();
   Fields fields(line, layout.separator);
   while (const auto field = fields.next()) {
     const auto value = parse_field(*field, layout);
-    values.push_back(value ? static_cast<float>(*value) : std::numeric_limits<float>::quiet_NaN());
+    values.push_back(value ? static_cast<float>(*value) : nowhere);
   }
+  if (values.size() + 1 == before + layout.columns && line.ends_with(layout.separator))
+    values.push_back(nowhere);
 }
 
 }  // namespace
 
 bool is_height_table(const Source& source) {
-  if (!foreign_format(source).empty()) return false;
-  const auto layout = find_layout(source);
-  return layout && is_table(source, *layout);
+  return find_table(source).has_value();
 }
 
 Result<DepthImage> read_height_table(const Source& source, const PictureChannels&) {
-  RELIEVO_TRY(const XyzLayout layout, find_layout(source));
+  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // is_height_table() has found it before
   SourceLines lines(source, layout.data_offset, layout.first_line - 1);
   std::vector<float> values;
   std::size_t rows = 0;
@@ -86,6 +104,7 @@ Result<DepthImage> read_height_table(const Source& source, const PictureChannels
   }
   DepthImage image{{}, 0, "table of heights"};
   image.values = {static_cast<int>(layout.columns), static_cast<int>(rows), 1, std::move(values)};
+  drop_labels(image);
   image.step = step_of(image.values);
   return image;
 }

@@ -102,10 +102,11 @@ DepthGrid kept_grid(const GridMaker& maker, const DepthOptions& options, DepthCl
     out.blur += added;
     grid = maker.make(is_left_out);
   }
-  note(is_left_out, PixelUse::blur, out.uses);
   for (std::size_t i = 0; i < is_left_out.size(); ++i)
     if (is_left_out[i]) grid.bounds.is_known[i] = 0;
   if (limits && grid.is_sensor) out.blur += drop_teeth(grid.bounds);
+  for (std::size_t i = 0; i < out.uses.size(); ++i)
+    if (out.uses[i] == PixelUse::kept && !grid.bounds.is_known[i]) out.uses[i] = PixelUse::blur;
   return grid;
 }
 

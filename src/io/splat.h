@@ -1,0 +1,19 @@
+// The shape of Gaussian splats, in whatever file they are. Tested by tests/io/splat_test.cpp.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "relievo/core/types.h"
+
+namespace relievo::io {
+
+// The logarithm of the third scale of splats that are flat discs, of which files have only two.
+constexpr double no_depth = -std::numeric_limits<double>::infinity();
+
+// Returns the unit vector along which a splat is thinnest, with any sign. `log_scales` are the logarithms of its
+// scales, `rotation` is a quaternion w, x, y, z of any length. The result is zero if the two smallest scales
+// are nearly equal, so that the direction means little, and for a rotation that is zero or not finite.
+Vec3f splat_axis(const Vec3& log_scales, const std::array<double, 4>& rotation);
+
+}  // namespace relievo::io

@@ -1,0 +1,31 @@
+// Organised clouds of depth cameras whose points are the pixels of a picture. Tested by
+// tests/scan/organised_cloud_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "relievo/scan/cloud.h"
+
+namespace relievo {
+
+// The points of a camera at the origin, which are the pixels of a picture, row by row. Pixels without a depth are
+// not finite or at the origin.
+struct OrganisedCloud {
+  Cloud cloud;
+  std::size_t columns = 0;
+  bool keeps_blur = false;
+};
+
+// What smooth_organised() did.
+struct OrganisedSmoothing {
+  double noise = 0;      // median uncertainty of a depth, in pixels
+  std::size_t blur = 0;  // number of points that lay between two levels; they are NaN now
+};
+
+// Smooths an organised cloud as depth_cloud() smooths a depth image: its points move along their rays, and get
+// normals that face the camera. Returns nothing, and leaves the cloud as it is, unless it has at least 4 x 4 pixels
+// without normals and its points lie on the rays of a pinhole camera at the origin, in any direction.
+std::optional<OrganisedSmoothing> smooth_organised(OrganisedCloud& scan);
+
+}  // namespace relievo
