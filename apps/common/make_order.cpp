@@ -13,18 +13,7 @@ namespace relievo::app {
 
 namespace {
 
-// Replaces the path of a file of strokes by the text of that file.
-Result<void> read_strokes(OptionValues& values) {
-  const auto strokes = values.find("strokes");
-  if (strokes == values.end() || !std::holds_alternative<std::string>(strokes->second)) return {};
-  auto& text = std::get<std::string>(strokes->second);
-  if (text.empty() || text.starts_with('[') || !is_there(text)) return {};
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(text));
-  text = text_in(bytes);
-  return {};
-}
-
-// Returns the options of an order, and those options of its project that the order does not set.
+// Returns the values of an order, and those of its project that the order does not give.
 OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   return stored ? with_given(stored->project.options, order.values) : order.values;
 }
@@ -34,10 +23,13 @@ OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
   if (stored) project = stored->project;
-  if (project) find_ornament_files(project->options, stored->folder);
+  if (project) {
+    find_ornament_files(project->options, stored->folder);
+    RELIEVO_CHECK(read_strokes(project->options, stored->folder));
+  }
   OptionValues values = project ? with_given(project->options, order.values) : order.values;
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
-  RELIEVO_CHECK(read_strokes(values));
+  RELIEVO_CHECK(read_strokes(values, {}));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,

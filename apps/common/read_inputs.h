@@ -97,4 +97,8 @@ void find_ornament_files(OptionValues& own, const std::string& folder);
 // brace, it is JSON itself and not a path. Errors: those of read_file() and parse_ornaments().
 Result<void> read_ornaments(ReliefOptions& options);
 
+// Replaces the name of a file of strokes by its text. A relative path starts at the folder. Errors: those of
+// read_file().
+Result<void> read_strokes(OptionValues& values, const std::string& folder);
+
 }  // namespace relievo::app

@@ -13,19 +13,43 @@
 namespace relievo {
 namespace {
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+double distance_to_segment_sq(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;
   const double length_sq = along.squaredNorm();
   const double t = length_sq > 0 ? std::clamp((p - a).dot(along) / length_sq, 0.0, 1.0) : 0;
-  return (p - a - t * along).norm();
+  return (p - a - t * along).squaredNorm();
 }
 
-double distance_to_line(const Vec3& p, std::span<const Vec3> line) {
-  double least = (p - line.front()).norm();
-  for (std::size_t i = 1; i < line.size(); ++i)
-    least = std::min(least, distance_to_segment(p, line[i - 1], line[i]));
-  return least;
-}
+// A line in pieces of a few corners, so that most points need the distances from few of them.
+class Line {
+ public:
+  explicit Line(std::span<const Vec3> corners) : corners_(corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i % piece == 0) boxes_.emplace_back();
+      // The segment before a corner belongs to the corner's piece.
+      for (const Vec3& end : {corners[i], corners[i == 0 ? 0 : i - 1]}) boxes_.back().extend(end);
+    }
+  }
+
+  // Returns the square of a point's distance from the line; `most_sq` if that is no less.
+  double distance_sq(const Vec3& p, double most_sq) const {
+    double least = most_sq;
+    for (std::size_t k = 0; k < boxes_.size(); ++k) {
+      const Vec3 outside = (boxes_[k].min - p).cwiseMax(p - boxes_[k].max).cwiseMax(0);
+      if (outside.squaredNorm() >= least) continue;
+      const std::size_t end = std::min(corners_.size(), (k + 1) * piece);
+      for (std::size_t i = k * piece; i < end; ++i)
+        least = std::min(least, distance_to_segment_sq(p, corners_[i == 0 ? 0 : i - 1], corners_[i]));
+    }
+    return least;
+  }
+
+ private:
+  static constexpr std::size_t piece = 8;
+
+  std::span<const Vec3> corners_;
+  std::vector<Box> boxes_;  // one per piece
+};
 
 // The points within the radius of a line, and their distances from it.
 struct Near {
@@ -37,15 +61,23 @@ Near points_near(const Surface& surface, std::span<const Vec3> line, double radi
   Box box;
   for (const Vec3& p : line) box.extend(p);
   const Vec3 least = box.min.array() - radius, most = box.max.array() + radius;
-  Near near;
+  std::vector<Index> in_box;
   for (Index i = 0; i < surface.points.size(); ++i) {
     const Vec3& p = surface.points[i];
     if ((p.array() < least.array()).any() || (p.array() > most.array()).any()) continue;
-    if (surface.boundary.is_boundary[i]) continue;
-    const double distance = distance_to_line(p, line);
-    if (distance >= radius) continue;
-    near.points.push_back(i);
-    near.distances.push_back(distance);
+    if (!surface.boundary.is_boundary[i]) in_box.push_back(i);
+  }
+  const Line pieces(line);
+  std::vector<double> distances(in_box.size());
+  const auto measure = [&](std::size_t k) {
+    distances[k] = std::sqrt(pieces.distance_sq(surface.points[in_box[k]], radius * radius));
+  };
+  parallel_for(in_box.size(), measure, 256);
+  Near near;
+  for (std::size_t k = 0; k < in_box.size(); ++k) {
+    if (distances[k] >= radius) continue;
+    near.points.push_back(in_box[k]);
+    near.distances.push_back(distances[k]);
   }
   return near;
 }

@@ -61,6 +61,25 @@ TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
   }
 }
 
+TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
+  const Surface surface = square();
+  Stroke stroke{.name = {}, .brush = Brush::raise, .radius = .07};
+  for (int i = 0; i < 45; ++i) stroke.points.emplace_back(-.8 + .035 * i, .6 * std::sin(.9 * i), 0);
+  std::vector<float> weights(surface.points.size(), 0);
+  const StrokeMask mask = stroke_mask(surface, stroke);
+  for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
+  const auto nearest = [&](const Vec3& p) {  // from places on the line that are less than a 500th apart
+    double least = 9;
+    for (std::size_t i = 1; i < stroke.points.size(); ++i)
+      for (int t = 0; t <= 300; ++t)
+        least = std::min(
+            least, (p - stroke.points[i - 1] - (stroke.points[i] - stroke.points[i - 1]) * t / 300).norm());
+    return least;
+  };
+  for (Index i = 0; i < weights.size(); i += 37)
+    EXPECT_NEAR(weights[i], profile(nearest(place_of(surface, i)), .07), .003);
+}
+
 TEST(StrokeMask, IsFullInsideAHardStroke) {
   const Surface surface = square();
   Stroke stroke = dab(Brush::raise, {0, 0, 0}, .4);

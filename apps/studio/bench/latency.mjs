@@ -18,6 +18,7 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
+  brush: {tool: "Brush", from: 0.45, to: 0.6},
 };
 
 const found = await findBrowser();

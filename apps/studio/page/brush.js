@@ -21,7 +21,7 @@ const SLIDERS = {
 };
 const KEPT = "brush"; // key of the kept settings
 const APART = 1 / 6, LEAST_APART = 2; // of places along a stroke, in radii and in pixels
-const TOLERANCE = 1 / 40; // by which a finished line may differ from the drawn one, in radii
+const TOLERANCE = 1 / 40; // by which a line may differ from the drawn one, in radii
 const DIGITS = 1e5; // points are rounded to this part of the longer side
 const KEY_STEP = 12, RESIZE = 1.15; // pixels of an arrow key, factor of a bracket
 
@@ -73,7 +73,7 @@ class Painting {
       this.lines[1].push(...found(points.slice(places.length)));
       this.show();
     }
-    if (this.isOver && this.waiting.length === 0) this.finish();
+    if (this.isOver && this.waiting.length === 0) this.doc.endStroke(this.id);
   }
 
   rounded(x) {
@@ -87,12 +87,6 @@ class Painting {
     this.look();
   }
 
-  finish() {
-    this.lines = this.lines.map((line) => line.length > 0 ? simplified(line, TOLERANCE * this.radius) : []);
-    this.show();
-    this.doc.endStroke(this.id);
-  }
-
   // Returns the strokes of the document with this one.
   strokes() {
     const {kind, strength, softness} = this.settings, lines = this.lines.filter((line) => line.length > 0);
@@ -101,8 +95,8 @@ class Painting {
     const pressure = this.pressures.reduce((sum, x) => sum + x, 0) / this.pressures.length;
     const amount = Number((KINDS[kind].most * strength / 100 * pressure).toPrecision(3));
     const radius = Number(this.radius.toPrecision(5));
-    return [...this.before, ...lines.map((points, i) => ({name: i === 0 ? this.name : `${this.name}, mirrored`,
-      brush: kind, amount, radius, softness: softness / 100, points}))];
+    return [...this.before, ...lines.map((line, i) => ({name: i === 0 ? this.name : `${this.name}, mirrored`,
+      brush: kind, amount, radius, softness: softness / 100, points: simplified(line, TOLERANCE * this.radius)}))];
   }
 
   // Changes the document, unless another change came between.

@@ -8,7 +8,7 @@ import http from "node:http";
 import path from "node:path";
 import {test} from "node:test";
 import {engine, folder, scan, studioIn, withEngine} from "./engine_suite.mjs";
-import {EngineProcess, PROGRAM, eventually, pageModule, sleep} from "./support.mjs";
+import {EngineProcess, PROGRAM, eventually, pageModule, run, sleep, temporaryFolder} from "./support.mjs";
 
 const {Keeper} = await pageModule("keeper.js");
 
@@ -193,6 +193,25 @@ test("sends what a drag changes every 60 ms, so that 100 ms are lost at most", a
     assert.ok(longest + answerMs <= 100, `${longest} ms, with answers of ${answerMs}`);
     assert.ok(times <= 51, `${times} times`); // more requests would leave the engine no time for pictures
   }
+});
+
+test("reads the strokes of a project from a file beside it, as make does", async () => {
+  const strokes = [{name: "brow", brush: "raise", amount: 0.2, radius: 0.2, points: [[0.14, -0.11, 0.02]]}];
+  const [list, project] = ["strokes.json", "painted.relievo"].map((name) => path.join(folder, name));
+  writeFileSync(list, JSON.stringify(strokes));
+  const options = {width: 40, strokes: "strokes.json"};
+  writeFileSync(project, JSON.stringify({relievo: 1, input: {path: scan}, options}));
+  const make = (...args) => {
+    const out = path.join(folder, "painted.stl");
+    run("make", ...args, "-o", out, "--quiet");
+    return readFileSync(out);
+  };
+  const made = make(project);
+  assert.ok(made.equals(make(scan, "--width", 40, "--strokes", list)));
+  assert.ok(!made.equals(make(scan, "--width", 40)));
+  const other = await new EngineProcess(temporaryFolder(), project).ready(), {first} = await other.about();
+  await other.stop();
+  assert.deepEqual(JSON.parse(first.options.strokes), strokes);
 });
 
 test("packs a scan into a project, from which make and another machine make the same", async () => {
