@@ -49,6 +49,13 @@ export const STATES = {
   ...Object.fromEntries(["Turn", "Orbit", "Pan", "Place", "Crop", "Section", "Measure"].map((name) =>
     [`tool ${name}`, tool(name)])),
   ...Object.fromEntries(["Coin", "Carving", "Seal", "Lithophane", "Bent"].map((name) => [`kind ${name}`, kind(name)])),
+  "light for which the relief is made": {
+    enter: (page) => page.getByLabel("Made for one light").check(), leave: undone(1),
+  },
+  "letters and a line": {enter: async (page) => {
+    for (const name of ["Add a line", "Add a text"]) await press(name)(page);
+    await untilReady(page);
+  }, leave: undone(2)},
   "a height out of reach": {enter: highest, leave: undone(2)},
   comparison: {enter: press("Compare"), leave: press("Compare")},
   "light table": {enter: press("Light table"), leave: press("Light table")},

@@ -13,7 +13,7 @@ const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no
   "--disable-background-networking", "--disable-component-update"];
 
 // The longest time that a test waits for anything. It is long, as the machine may be busy with other work.
-export const PATIENCE_MS = 20000;
+export const PATIENCE_MS = 240000;
 
 const folders = [];
 const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true, maxRetries: 5});
