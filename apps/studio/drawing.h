@@ -46,16 +46,16 @@ struct PictureRequest {
   std::optional<double> u;   // strength of the compression, if it is given instead of a height
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
-  std::optional<Error> ornament_error = {};  // why the ornaments of the options were left out
-  RenderOptions render;          // its lengths are set from the options
+  std::optional<Error> ornament_error = {};       // why the ornaments of the options were left out
+  RenderOptions render;                           // its lengths are set from the options
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
 struct PictureAnswer {
   Picture picture;
-  bool is_finished = false;      // shows the piece as export makes it, or the model itself
-  bool is_plain = false;         // the piece is a relief on a rectangular plate, which frames show, too
-  bool has_ornaments = false;    // shows the ornaments of the options
+  bool is_finished = false;    // shows the piece as export makes it, or the model itself
+  bool is_plain = false;       // the piece is a relief on a rectangular plate, which frames show, too
+  bool has_ornaments = false;  // shows the ornaments of the options
   std::optional<Error> ornament_error = {};  // of the request
   double drawing_s = 0;
   double width_mm = 0;                  // the relief's longer side
