@@ -6,6 +6,8 @@ import {degrees} from "./lights.js";
 import {angleOf, hasPlace, isOnArc, nameOf} from "./ornaments.js";
 import {REST_MS} from "./slider.js";
 
+const BESIDE = 30; // pixels from the middle of letters to their handle
+
 const rounded = (mm) => Math.round(mm * 100) / 100;
 const whole = (angle) => ((Math.round(angle) % 360) + 360) % 360;
 const radians = (angle) => angle * Math.PI / 180;
@@ -69,23 +71,33 @@ export class LetterMarks {
   marks(about) {
     const {stage, panel} = this, {yaw, pitch} = stage.camera, {list, chosen} = panel;
     const isFlat = about && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !about.isTurned;
-    this.handle.hidden = true;
-    if (!isFlat || !panel.isShown) return [];
+    if (!isFlat || !panel.isShown) return this.showHandle(null), [];
     const [x, y] = stage.toPixels([0, 0]), scale = stage.pixelsPerMm;
+    if (!this.placed[chosen]?.path || !list[chosen]) this.showHandle(null);
     const base = `translate(${x} ${y}) scale(${scale} ${-scale}) `;
     return this.placed.flatMap((placed, i) => {
       if (!list[i] || !placed.path) return [];
       const {transform, handle} = this.movement(list[i], placed), isChosen = i === chosen;
-      if (isChosen && handle) this.showHandle(list[i], handle);
+      if (isChosen) this.showHandle(list[i], handle);
       const isHidden = about.has_ornaments && !(isChosen && this.drag);
       const look = about.ornament_error ? " refused" : "";
       return isHidden ? [] : [make("path", {class: `letter${look}`, d: placed.path, transform: base + transform})];
     });
   }
 
-  showHandle(ornament, place) {
-    const [left, top] = this.stage.toPixels(place), label = `Move ${nameOf(ornament)} by dragging or arrow keys`;
-    this.handle.hidden = false;
+  // Returns the pixel of the handle: beside the letters, towards the middle of the piece.
+  besides(ornament, place) {
+    const [x, y] = this.stage.toPixels(place), [middleX, middleY] = this.stage.toPixels([0, 0]);
+    if (!isOnArc(ornament)) return [x, y > middleY ? y - BESIDE : y + BESIDE];
+    const far = Math.hypot(x - middleX, y - middleY), near = far > 0 ? Math.max(0, far - BESIDE) / far : 1;
+    return [middleX + near * (x - middleX), middleY + near * (y - middleY)];
+  }
+
+  // Shows the handle of an ornament at a place, or hides it. Hiding it only for a moment would take its focus.
+  showHandle(ornament, place = null) {
+    this.handle.hidden = place === null;
+    if (place === null) return;
+    const [left, top] = this.besides(ornament, place), label = `Move ${nameOf(ornament)} by dragging or arrow keys`;
     Object.assign(this.handle.style, {left: `${left}px`, top: `${top}px`});
     if (this.handle.ariaLabel !== label) Object.assign(this.handle, {ariaLabel: label, title: label});
   }
@@ -99,7 +111,8 @@ export class LetterMarks {
       event.stopPropagation(); // the picture's tool must not take it
       handle.setPointerCapture(event.pointerId);
       this.doc.endStroke();
-      this.drag = {from: place(event), ornament: this.panel.list[this.panel.chosen], at: this.placed[this.panel.chosen]?.at};
+      const {list, chosen} = this.panel, at = list[chosen].at ?? this.placed[chosen]?.at ?? [0, 0];
+      this.drag = {from: place(event), ornament: list[chosen], at};
     };
     handle.onpointermove = (event) => {
       event.stopPropagation();
@@ -118,7 +131,7 @@ export class LetterMarks {
   // Moves the chosen ornament from its place at the beginning of the drag to that of the pointer.
   move([x, y]) {
     const {from, ornament, at} = this.drag, sign = this.isMirrored ? -1 : 1;
-    if (!isOnArc(ornament)) return this.change({at: [(at?.[0] ?? 0) + sign * (x - from[0]), (at?.[1] ?? 0) + y - from[1]]});
+    if (!isOnArc(ornament)) return this.change({at: [at[0] + sign * (x - from[0]), at[1] + y - from[1]]});
     const turn = degrees(Math.atan2(y, x) - Math.atan2(from[1], from[0]));
     this.change({angle: angleOf(ornament) + sign * turn});
   }

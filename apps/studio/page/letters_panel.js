@@ -16,7 +16,7 @@ const COIN_ARC = {arc: "top"}; // of a new text on a round plate
 // The numbers of an ornament: their labels, and the values that the engine takes.
 const NUMBERS = {
   size: {label: "Size", unit: "mm", min: 0.01, max: 1e4},
-  height: {label: "Height", unit: "mm", min: -100, max: 100},
+  height: {label: "Above ground", unit: "mm", min: -100, max: 100},
   inset: {label: "From the rim", unit: "mm", min: 0, max: 1e4},
   tracking: {label: "Between letters", unit: "mm", min: -100, max: 100},
   angle: {label: "Angle", unit: "°", min: -360, max: 360},

@@ -3,8 +3,7 @@
 import {FIRST, ON_GROUND} from "./document.js";
 
 export const KINDS = {text: "Text", beads: "Beads", rope: "Rope", line: "Line", drawing: "Drawing"};
-export const ARCS = {straight: "Straight", top: "On an arc at the top", bottom: "On an arc at the bottom",
-  around: "All around"};
+export const ARCS = {straight: "Straight", top: "Arc at the top", bottom: "Arc at the bottom", around: "All around"};
 
 const isPath = (source) => source !== "" && !source.startsWith("{");
 

@@ -46,8 +46,7 @@ const CASES = {
   plate: {value: "140x120"}, shift: {value: "5,-3", first: {plate: "180x160"}},
   margin: {value: 6}, thickness: {value: 4}, rim: {value: 3, kind: "coin"},
   "rim-height": {value: 1.5, kind: "coin"}, "rim-bevel": {value: 0.5, kind: "coin"},
-  text: {value: "LIBERTAS"}, "text-arc": {value: "top", first: {text: "LEX"}},
-  "text-size": {value: 2, first: {text: "LEX"}}, "text-height": {value: 0.3, first: {text: "LEX"}}, base: {value: "dome:height=5"},
+  ornaments: {value: '{"ornaments":[{"kind":"beads"}]}'}, base: {value: "dome:height=5"},
   wrap: {value: "cylinder:turn=90", kind: "shell"}, form: {value: "mirror"}, tool: {value: "ball:3"},
   finish: {value: "reachable", first: {tool: "ball:3"}}, resolution: {value: 0.5}, tolerance: {value: 0.02},
   triangles: {value: 5000},
@@ -81,6 +80,7 @@ async function set(name, value) {
     return button("Use this view").click();
   }
   if (name === "light") return it.check(); // takes the light of the picture
+  if (name === "ornaments") return it.click(); // adds beads
   if (name === "crumbs" || name === "plane") return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
   if (kind === "select") return name === "tone" ? it.selectOption({index: 1}) : it.selectOption(value);

@@ -63,6 +63,13 @@ export const STATES = {
     [`tool ${name}`, tool(name)])),
   ...Object.fromEntries(["Coin", "Carving", "Seal", "Lithophane", "Bent"].map((name) => [`kind ${name}`, kind(name)])),
   "a stroke": {enter: painting, leave: painted},
+  "light for which the relief is made": {
+    enter: (page) => page.getByLabel("Made for one light").check(), leave: undone(1),
+  },
+  "letters and a line": {enter: async (page) => {
+    for (const name of ["Add a line", "Add a text"]) await press(name)(page);
+    await untilReady(page);
+  }, leave: undone(2)},
   "a height out of reach": {enter: highest, leave: undone(2)},
   comparison: {enter: press("Compare"), leave: press("Compare")},
   "light table": {enter: press("Light table"), leave: press("Light table")},
