@@ -58,6 +58,9 @@ struct OutlineCurve {
   bool is_jump = false;
 };
 
+// Returns how smooth the curves of jumps are.
+FairCurveOptions jump_curve_options(double rho);
+
 // The points of a surface in the view plane.
 struct PlanePoints {
   std::vector<Vec2> places;
