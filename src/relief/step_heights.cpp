@@ -16,25 +16,38 @@ namespace {
 // too inaccurate to predict depth.
 constexpr double steepest_slope = 4;
 
-struct JumpEdge {
+struct SteppedEdge {
   Index a, b;
   float weight;
 };
 
-// Returns the edges of triangles inside the relief across which the depth jumps, with their weights in (9).
-std::vector<JumpEdge> jump_edges(const Surface& surface) {
-  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
-  const auto is_wanted = [&](const TriangleSide& side) {
-    return jumps[side.triangle] && is_jump(surface, side.from, side.to);
-  };
-  std::vector<JumpEdge> edges;
+// Returns the edges of triangles inside the relief that `is_wanted` takes, with their weights in (9).
+template <typename IsWanted>
+std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wanted) {
+  std::vector<SteppedEdge> edges;
   each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
     edges.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
   });
   return edges;
 }
 
-// Returns the depth of b minus the depth of a, minus the difference that the slopes at both points explain.
+// Returns the edges across which the depth jumps.
+std::vector<SteppedEdge> jump_edges(const Surface& surface) {
+  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
+  return stepped_edges(surface, [&](const TriangleSide& side) {
+    return jumps[side.triangle] && is_jump(surface, side.from, side.to);
+  });
+}
+
+// Returns the edges across walls.
+std::vector<SteppedEdge> wall_edges(const Surface& surface) {
+  const Boundary& boundary = surface.boundary;
+  return stepped_edges(surface, [&](const TriangleSide& side) {
+    return boundary.is_inside[side.triangle] && boundary.is_across_wall(side.from, side.to);
+  });
+}
+
+// Returns by how much the depth of b exceeds that of a beyond the difference that their slopes explain.
 double step_between(const Surface& surface, Index a, Index b) {
   const Vec3 step = surface.points[b] - surface.points[a];
   const auto rise = [&](Index i) {
@@ -48,14 +61,14 @@ double step_between(const Surface& surface, Index a, Index b) {
   return jump * step.z() > 0 ? jump : 0;
 }
 
-// Returns the least-squares solution of (9) for given height differences across the jump edges. difference(a,
-// b) is the wanted height of b minus that of a.
+// Returns the least-squares solution of (9) for a difference across each of the edges, and 0 across all others:
+// difference(a, b) is by how much the height of b should exceed that of a.
 template <typename Difference>
-StepHeights solve_steps(const Boundary& boundary, std::span<const JumpEdge> edges, const HeightSystem& system,
-                        Difference difference) {
+StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> edges,
+                        const HeightSystem& system, Difference difference) {
   if (edges.empty()) return {};
   std::vector<double> z(boundary.is_boundary.size(), 0);
-  for (const JumpEdge& e : edges) {
+  for (const SteppedEdge& e : edges) {
     const double pull = static_cast<double>(e.weight) * difference(e.a, e.b);
     z[e.a] -= pull;
     z[e.b] += pull;
@@ -71,19 +84,14 @@ StepHeights solve_steps(const Boundary& boundary, std::span<const JumpEdge> edge
 StepFields StepFields::find(const Surface& surface, const HeightSystem& system) {
   constexpr double deep = .05;  // depth of a deep jump, as a share of the longer side
   const double scale = deep * surface.longer_side();
-  const Boundary& boundary = surface.boundary;
-  const std::vector<JumpEdge> edges = jump_edges(surface);
   const auto step = [&](Index a, Index b) { return step_between(surface, a, b); };
   const auto plane = [&](Index a, Index b) {
-    // Standard libraries differ in the last bits of tanh. Rounding to single precision hides that.
-    const auto saturated = [&] {
-      return static_cast<double>(static_cast<float>(std::tanh(step(a, b) / scale)));
-    };
-    return boundary.is_across_wall(a, b) ? saturated() : 0;
+    // Single precision hides the last bits, in which the standard libraries differ.
+    return static_cast<double>(static_cast<float>(std::tanh(step(a, b) / scale)));
   };
   StepFields found;
-  parallel_both([&] { found.steps = solve_steps(boundary, edges, system, step); },
-                [&] { found.planes = solve_steps(boundary, edges, system, plane); });
+  parallel_both([&] { found.steps = solve_steps(surface.boundary, jump_edges(surface), system, step); },
+                [&] { found.planes = solve_steps(surface.boundary, wall_edges(surface), system, plane); });
   return found;
 }
 

@@ -15,9 +15,10 @@ namespace {
 
 // Lengths in rho.
 constexpr double change_radius = 3.0, stride = .75, line_window = 3, shortest = 8;
-constexpr double apart_at_start = 1.5, apart = 1.2, apart_from_outlines = .8;
-constexpr std::size_t least_points = 4;  // number of points needed on either side of a line
-// A line may begin at an edge between two points if the cosine between their normals is below this.
+// Lines nearer to each other or to outlines would leave too few points between them.
+constexpr double apart = 2;
+constexpr std::size_t least_points = 4;  // on each side of a line
+// A line may begin at an edge if the cosine between the normals at its ends is below this.
 constexpr float bent_below = .75F;
 
 // The change of a surface across a line through a position. The normals on each side are fitted by a linear
@@ -196,7 +197,7 @@ class LineFinder {
   void add_lines() {
     for (const auto& [a, b] : bent_edges()) {
       const Vec2 place = (plane_.places[a] + plane_.places[b]) / 2;
-      if (starts_.is_near(place, stride * rho_) || !is_free(place, apart_at_start, apart_at_start)) continue;
+      if (starts_.is_near(place, stride * rho_) || !is_free(place)) continue;
       starts_.add(place, 0);
       const Vec2 direction = direction_at(place);
       if (!(direction.norm() > 0)) continue;
@@ -268,24 +269,23 @@ class LineFinder {
           best = change, towards = along;
       }
       const Vec2 to = from + stride * rho_ * towards;
-      if (best.scatter == 1 || !is_free(to, apart_from_outlines, apart, own) || returns(line.places, to))
-        return;
+      if (best.scatter == 1 || !is_free(to, own) || returns(line.places, to)) return;
       line.places.push_back(to);
       line.steps += best.step;
       direction = (direction + towards).normalized();
     }
   }
 
-  bool is_free(const Vec2& place, double from_outlines, double from_lines, Index own = no_index) const {
-    return grid_.nearest(place, from_outlines * rho_, own).segment == no_index &&
-           !lines_.is_near(place, from_lines * rho_);
+  bool is_free(const Vec2& place, Index own = no_index) const {
+    return grid_.nearest(place, apart * rho_, own).segment == no_index &&
+           !lines_.is_near(place, apart * rho_);
   }
 
   // Returns whether a position is near an earlier part of its own line.
   bool returns(const std::vector<Vec2>& places, const Vec2& to) const {
     constexpr std::size_t latest = 8;  // number of latest positions that may be near
     for (std::size_t k = 0; k + latest < places.size(); ++k)
-      if ((places[k] - to).norm() < apart_at_start * rho_) return true;
+      if ((places[k] - to).norm() < apart * rho_) return true;
     return false;
   }
 

@@ -11,6 +11,7 @@
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 #include "scan/outlines/inner_lines.h"
+#include "scan/outlines/joined_jumps.h"
 #include "scan/outlines/outlines.h"
 #include "scan/outlines/row_points.h"
 #include "scan/outlines/row_smoothing.h"
@@ -285,6 +286,7 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
   std::vector<OutlineCurve> outlines = find_outlines(before, plane, exact);
   if (outlines.empty() || outlines.front().is_jump) return;
   add_inner_lines(before, plane, outlines);
+  join_jumps(outlines, before.rho);
   NewSurface now(before, plane, measures, outlines);
   now.gather();
   PointMeasures new_measures;

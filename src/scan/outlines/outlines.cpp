@@ -18,7 +18,8 @@ namespace {
 
 // Lengths and areas in rho.
 constexpr double least_piece = 20, hole_area = 4;
-constexpr double point_spacing = .75, fair_window = 3;
+// Jumps scatter more than silhouettes, because the places between two surfaces are known to a rho at best.
+constexpr double point_spacing = .75, fair_window = 3, jump_window = 6;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
 // The least weight of a node. Nodes whose positions the normals do not determine have this weight.
@@ -114,7 +115,8 @@ OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, con
   std::vector<CurveNode> nodes(places.size());
   parallel_for(
       nodes.size(), [&](std::size_t i) { nodes[i] = guess(i); }, 64);
-  outline.curve = fair_curve(nodes, kind.is_closed, {point_spacing * rho, fair_window * rho});
+  const FairCurveOptions silhouette{point_spacing * rho, fair_window * rho};
+  outline.curve = fair_curve(nodes, kind.is_closed, kind.is_jump ? jump_curve_options(rho) : silhouette);
   return outline;
 }
 
@@ -265,6 +267,10 @@ class JumpLines {
 };
 
 }  // namespace
+
+FairCurveOptions jump_curve_options(double rho) {
+  return {point_spacing * rho, jump_window * rho};
+}
 
 bool is_occlusion(const Surface& surface, Index a, Index b) {
   const Vec3 step = surface.points[b] - surface.points[a];

@@ -58,7 +58,10 @@ struct OutlineCurve {
   bool is_jump = false;
 };
 
-// The points of a surface, projected to the view plane.
+// Returns how smooth the curves of jumps are.
+FairCurveOptions jump_curve_options(double rho);
+
+// The points of a surface in the view plane.
 struct PlanePoints {
   std::vector<Vec2> places;
   KdTree<Vec2> tree;

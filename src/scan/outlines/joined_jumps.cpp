@@ -1,0 +1,94 @@
+#include "scan/outlines/joined_jumps.h"
+
+#include <algorithm>
+#include <ranges>
+#include <tuple>
+
+namespace relievo {
+namespace {
+
+constexpr double widest_break = 4;     // in rho
+constexpr double likeness = .5;        // least cosine between the directions of both ends, and of the gap
+constexpr std::size_t end_points = 4;  // at each end, which show its direction
+
+// A place where a jump begins or ends, and the jump's direction there.
+struct End {
+  Index curve;
+  Vec2 place, direction;
+};
+
+// The open jumps, and for each the one that follows it and the one that it follows.
+class JumpJoiner {
+ public:
+  JumpJoiner(std::vector<OutlineCurve>& outlines, double rho)
+      : outlines_(outlines), rho_(rho), next_(outlines.size(), no_index), previous_(next_) {}
+
+  void join() {
+    for (const auto& [gap, from, to] : gaps())
+      if (next_[from] == no_index && previous_[to] == no_index && last_of(to) != from)
+        next_[from] = to, previous_[to] = from;
+    for (Index c = 0; c < outlines_.size(); ++c)
+      if (next_[c] != no_index && previous_[c] == no_index) outlines_[c].curve = joined(c);
+    std::vector<OutlineCurve> kept;
+    for (Index c = 0; c < outlines_.size(); ++c)
+      if (previous_[c] == no_index) kept.push_back(std::move(outlines_[c]));
+    outlines_ = std::move(kept);
+  }
+
+ private:
+  // Returns the gaps that can be closed as width, jump before and jump after, the narrowest first.
+  std::vector<std::tuple<double, Index, Index>> gaps() const {
+    std::vector<End> ends, begins;
+    std::vector<Vec2> places;
+    for (Index c = 0; c < outlines_.size(); ++c) {
+      const std::vector<Vec2>& p = outlines_[c].curve.points;
+      if (!outlines_[c].is_jump || outlines_[c].is_closed || p.size() <= end_points) continue;
+      ends.push_back({c, p.back(), (p.back() - p[p.size() - 1 - end_points]).normalized()});
+      begins.push_back({c, p.front(), (p[end_points] - p.front()).normalized()});
+      places.push_back(p.front());
+    }
+    const KdTree<Vec2> tree(places);
+    std::vector<KdTree<Vec2>::Match> matches;
+    std::vector<std::tuple<double, Index, Index>> found;
+    for (const End& end : ends) {
+      tree.within(end.place, widest_break * rho_, matches);
+      for (const auto& [b, distance_sq] : matches)
+        if (begins[b].curve != end.curve && continues(end, begins[b]))
+          found.emplace_back(distance_sq, end.curve, begins[b].curve);
+    }
+    std::ranges::sort(found);
+    return found;
+  }
+
+  static bool continues(const End& end, const End& begin) {
+    const Vec2 gap = begin.place - end.place;
+    const double most = likeness * gap.norm();
+    return end.direction.dot(begin.direction) > likeness && gap.dot(end.direction) > most &&
+           gap.dot(begin.direction) > most;
+  }
+
+  Index last_of(Index c) const {
+    while (next_[c] != no_index) c = next_[c];
+    return c;
+  }
+
+  // Returns the fair curve through all points of a jump and of those that follow it.
+  FairCurve joined(Index first) const {
+    std::vector<CurveNode> nodes;
+    for (Index c = first; c != no_index; c = next_[c])
+      for (const Vec2& place : outlines_[c].curve.points) nodes.push_back({place, 1});
+    return fair_curve(nodes, false, jump_curve_options(rho_));
+  }
+
+  std::vector<OutlineCurve>& outlines_;
+  double rho_;
+  std::vector<Index> next_, previous_;  // per outline; no_index for none
+};
+
+}  // namespace
+
+void join_jumps(std::vector<OutlineCurve>& outlines, double rho) {
+  JumpJoiner(outlines, rho).join();
+}
+
+}  // namespace relievo
