@@ -25,6 +25,11 @@ typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
+// Returns the sum of the four, in the same order everywhere.
+RELIEVO_INLINE double total(const Double4& four) {
+  return (four[0] + four[1]) + (four[2] + four[3]);
+}
+
 // Returns whether RELIEVO_WIDE() shall use AVX2. This is initially true if the processor has AVX2.
 bool uses_avx2();
 

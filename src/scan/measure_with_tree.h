@@ -1,5 +1,5 @@
 // Measures scattered points with a k-d tree that the caller already has. Tested by
-// tests/scan/spacing_test.cpp and tests/scan/curvature_test.cpp.
+// tests/scan/spacing_test.cpp, tests/scan/normals_test.cpp and tests/scan/curvature_test.cpp.
 #pragma once
 
 #include "geometry/neighbours.h"
@@ -20,6 +20,11 @@ struct SearchableCloud {
   const Spacing& spacing;
   const KdTree<Vec3>& tree;
 };
+
+// Returns the normals of planes through the nearest points of some points, in their order, at most 64 each; see
+// estimate_normals() in normals.h.
+std::vector<Vec3f> estimated_normals(const SearchableCloud& searchable, std::span<const Index> points,
+                                     std::size_t neighbours, const Progress* progress = nullptr);
 
 // See mean_curvature() in curvature.h.
 std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,

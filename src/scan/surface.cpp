@@ -117,7 +117,7 @@ std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Inde
                                  const Progress* progress) {
   if (viewed.measured.has_estimated_normals())
     return mean_curvature(viewed.cloud, viewed.spacing(), visible, {}, progress);
-  std::vector<double> k = viewed.measured.curvature(visible, progress);
+  std::vector<double> k = viewed.measured.curvature(*viewed.clean, visible, progress);
   for (double& each : k) each *= viewed.sign;
   return k;
 }
@@ -193,7 +193,8 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* pro
 
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
-  ViewedCloud viewed = look_at(measured, surface);
+  ViewedCloud viewed = look_at(measured, surface, progress);
+  RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_CHECK(check_side(viewed, view));
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
 

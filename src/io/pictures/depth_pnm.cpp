@@ -68,17 +68,21 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
 
 Result<void> fill_from_bytes(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
                              const PnmValues& stored, Image<float>& values) {
+  // Copies, which the values that are written cannot change, stay in registers.
   const char* const data = source.bytes.data() + header.data;
-  const unsigned bytes = stored.format.bits / 8;
-  return fill_values(source, wanted, stored.channels, values, [&](std::size_t i) {
-    const std::size_t row = i / header.width, from = stored.is_upside_down ? header.height - 1 - row : row,
-                      first = (from * header.width + i % header.width) * stored.channels;
+  const auto pixel_colour = [=, format = stored.format, channels = stored.channels,
+                             is_big_endian = stored.is_big_endian](std::size_t pixel) {
+    const unsigned bytes = format.bits / 8;
     PixelColour colour{};
-    for (std::size_t c = 0; c < stored.channels; ++c)
+    for (std::size_t c = 0; c < channels; ++c)
       colour[c] =
-          decode_sample(stored.format, whole_number(data + bytes * (first + c), bytes, stored.is_big_endian));
+          decode_sample(format, whole_number(data + bytes * (pixel * channels + c), bytes, is_big_endian));
     return colour;
-  });
+  };
+  if (!stored.is_upside_down) return fill_values(source, wanted, stored.channels, values, pixel_colour);
+  const std::size_t width = header.width, last_row = header.height - 1;
+  return fill_values(source, wanted, stored.channels, values,
+                     [=](std::size_t i) { return pixel_colour((last_row - i / width) * width + i % width); });
 }
 
 // Returns the numbers of a picture in text, which may have comments and line breaks anywhere.
