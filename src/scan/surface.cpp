@@ -197,6 +197,7 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
   RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_CHECK(check_side(viewed, view));
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
+  viewed.cloud.points = {}, viewed.cloud.normals = {};  // leaves their memory to what follows
 
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));
   RELIEVO_CHECK(triangulate(surface, measures, progress));
