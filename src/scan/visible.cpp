@@ -67,8 +67,11 @@ class Visibility {
 
   Facing all_facing() const {
     Facing facing;
+    const auto faces_viewer = [](const Vec3f& n) { return n.z() > 0; };
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(cloud_.normals, faces_viewer));
+    facing.points.reserve(count), facing.discs.reserve(count);
     for (Index i = 0; i < cloud_.size(); ++i) {
-      if (!(cloud_.normals[i].z() > 0)) continue;
+      if (!faces_viewer(cloud_.normals[i])) continue;
       facing.points.push_back(i);
       facing.box.extend(cloud_.points[i]);
       facing.discs.push_back(

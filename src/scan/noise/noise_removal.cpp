@@ -218,8 +218,8 @@ CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& remov
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing) {
   constexpr float least_facing =
-      -.25F;  // cosine of 104 degrees; removing noise turns few normals by more than 14
-  constexpr std::uint8_t rings = 2;  // of neighbours, which reach about as far as the fits of curvature
+      -.1F;  // cosine of 96 degrees; beyond it removing noise turns few normals to front
+  constexpr std::uint8_t rings = 3;  // of neighbours, which reach farther than the fits of curvature
   std::vector<std::uint8_t> level(normals.size(), 0);
   for (std::size_t i = 0; i < normals.size(); ++i)
     if (normals[i].dot(towards_viewer) > least_facing) level[i] = rings + 1;
