@@ -26,7 +26,12 @@ typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
-// Returns whether RELIEVO_WIDE() uses AVX2; initially true if the processor has AVX2.
+// Returns the sum of the four, in the same order everywhere.
+RELIEVO_INLINE double total(const Double4& four) {
+  return (four[0] + four[1]) + (four[2] + four[3]);
+}
+
+// Returns whether RELIEVO_WIDE() shall use AVX2. This is initially true if the processor has AVX2.
 bool uses_avx2();
 
 template <typename F>

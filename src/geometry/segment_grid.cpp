@@ -98,4 +98,42 @@ bool SegmentGrid::is_crossed(const Vec2& a, const Vec2& b) const {
   return false;
 }
 
+void LinesFrom::begin(const SegmentGrid& grid, const Vec2& from, double radius) {
+  fours_.clear();
+  from_ = from;
+  if (grid.segments_.empty()) return;
+  const Vec2 low = from - Vec2::Constant(radius), high = from + Vec2::Constant(radius);
+  const SegmentGrid::Cells c = grid.cells_of(low, high);
+  std::size_t lane = 4;
+  for (int y = c.y0; y <= c.y1; ++y)
+    for (int x = c.x0; x <= c.x1; ++x)
+      for (const Index i : grid.in_cell_[static_cast<std::size_t>(y) * grid.width_ + x]) {
+        const Segment& s = grid.segments_[i];
+        if ((s.from.cwiseMin(s.to).array() > high.array()).any()) continue;
+        if ((s.from.cwiseMax(s.to).array() < low.array()).any()) continue;
+        if (lane == 4) fours_.emplace_back(), lane = 0;
+        Four& four = fours_.back();
+        const Vec2 u = s.from - from, v = s.to - from, step = s.to - s.from;
+        four.from_x[lane] = s.from.x(), four.from_y[lane] = s.from.y();
+        four.u_x[lane] = u.x(), four.u_y[lane] = u.y(), four.v_x[lane] = v.x(), four.v_y[lane] = v.y();
+        four.step_x[lane] = step.x(), four.step_y[lane] = step.y();
+        four.place_is_beside[lane++] = cross(step, from - s.from);
+      }
+}
+
+bool LinesFrom::is_crossed(const Vec2& to) const {
+  return RELIEVO_WIDE(is_any_crossed(to));
+}
+
+bool LinesFrom::is_any_crossed(const Vec2& to) const {
+  const double x = to.x() - from_.x(), y = to.y() - from_.y();
+  auto crossed = Double4{} > 0;
+  for (const Four& s : fours_) {
+    const auto are_apart = (x * s.u_y - y * s.u_x > 0) ^ (x * s.v_y - y * s.v_x > 0);
+    const Double4 end_is_beside = s.step_x * (to.y() - s.from_y) - s.step_y * (to.x() - s.from_x);
+    crossed |= are_apart & ((s.place_is_beside > 0) ^ (end_is_beside > 0));
+  }
+  return (crossed[0] | crossed[1] | crossed[2] | crossed[3]) != 0;
+}
+
 }  // namespace relievo

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/groups.h"
+#include "core/simd.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -43,6 +44,7 @@ class SegmentGrid {
   bool is_crossed(const Vec2& a, const Vec2& b) const;
 
  private:
+  friend class LinesFrom;
   struct Cells {
     int x0, y0, x1, y1;
   };
@@ -55,6 +57,28 @@ class SegmentGrid {
   double cell_ = 1;
   int width_ = 0, height_ = 0;
   Groups<Index, std::size_t> in_cell_;
+};
+
+// Answers SegmentGrid::is_crossed() for many short lines from one place, four segments at a time.
+class LinesFrom {
+ public:
+  // Keeps the segments that lines from `from` may cross if their other ends are at most `radius` away from it.
+  void begin(const SegmentGrid& grid, const Vec2& from, double radius);
+
+  // Returns what SegmentGrid::is_crossed() returns for the line to `to`.
+  bool is_crossed(const Vec2& to) const;
+
+ private:
+  // Four segments. Missing ones have no length, which nothing crosses.
+  struct Four {
+    Double4 from_x = {}, from_y = {};                        // where they begin
+    Double4 u_x = {}, u_y = {}, v_x = {}, v_y = {};          // their ends, seen from the place
+    Double4 step_x = {}, step_y = {}, place_is_beside = {};  // twice the area of the segment with the place
+  };
+  RELIEVO_INLINE bool is_any_crossed(const Vec2& to) const;
+
+  Vec2 from_ = Vec2::Zero();
+  std::vector<Four> fours_;
 };
 
 }  // namespace relievo

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/groups.h"
+#include "core/simd.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
@@ -23,17 +25,34 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// A least-squares fit of x^2, x y, y^2, x and y, in this order, to heights around the origin. Points nearer
-// to the origin have more weight.
+// Four places around the origin, in units of the farthest one, and the heights there.
+struct FourHeights {
+  Double4 x = {}, y = {}, z = {};
+  Double4 is_there = {};  // 1, or 0 for a missing one
+};
+
+// A least squares fit of x^2, x y, y^2, x and y, in this order, to heights around the origin. Nearer ones count more.
 class Quadratic {
  public:
-  void add(double x, double y, double z) {
-    const std::array<double, terms> row{x * x, x * y, y * y, x, y};
-    const double weight = 1 / (x * x + y * y + .05);
-    for (std::size_t i = 0; i < terms; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) moments_[i][j] += weight * row[i] * row[j];
-      products_[i] += weight * row[i] * z;
+  RELIEVO_INLINE explicit Quadratic(std::span<const FourHeights> heights) {
+    // The sums of the weighted products of as many x and y as their names have.
+    Double4 xx{}, xy{}, yy{}, xxx{}, xxy{}, xyy{}, yyy{}, xxxx{}, xxxy{}, xxyy{}, xyyy{}, yyyy{};
+    Double4 xz{}, yz{}, xxz{}, xyz{}, yyz{};
+    for (const auto& [x, y, z, is_there] : heights) {
+      const Double4 x_sq = x * x, y_sq = y * y, weight = is_there / (x_sq + y_sq + .05);
+      const Double4 wx = weight * x, wy = weight * y, wxx = wx * x, wxy = wx * y, wyy = wy * y;
+      xx += wxx, xy += wxy, yy += wyy, xz += wx * z, yz += wy * z;
+      xxx += wxx * x, xxy += wxx * y, xyy += wyy * x, yyy += wyy * y;
+      xxxx += wxx * x_sq, xxxy += wxy * x_sq, xxyy += wxx * y_sq, xyyy += wxy * y_sq, yyyy += wyy * y_sq;
+      xxz += wxx * z, xyz += wxy * z, yyz += wyy * z;
     }
+    const double mixed = total(xxyy), half_x = total(xxy), half_y = total(xyy);
+    moments_ = {{{total(xxxx)},
+                 {total(xxxy), mixed},
+                 {mixed, total(xyyy), total(yyyy)},
+                 {total(xxx), half_x, half_y, total(xx)},
+                 {half_x, half_y, total(yyy), total(xy), total(yy)}}};
+    products_ = {total(xxz), total(xyz), total(yyz), total(xz), total(yz)};
   }
 
   // Returns the coefficients of x and y. Solves by L D L^T; the last two unknowns are found without computing
@@ -66,27 +85,46 @@ class Quadratic {
   std::array<double, terms> products_{};
 };
 
-// Returns the slope at the point `centre` of the quadratic through it that best fits the neighbours;
-// `fallback` if there are too few neighbours.
+// Returns the slope at the point `centre` of the quadratic through this point that best fits the neighbours;
+// `fallback` if there are too few neighbours. `heights` is room to work in.
 Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
-                  const Vec2& fallback) {
+                  const Vec2& fallback, std::vector<FourHeights>& heights) {
   if (neighbours.size() < 6) return fallback;
   double radius_sq = 0;
   for (const Index j : neighbours)
     radius_sq = std::max(radius_sq, (points[j] - points[centre]).head<2>().squaredNorm());
   const double unit = std::sqrt(radius_sq);
   if (!(unit > 0)) return fallback;
-  Quadratic fit;
-  for (const Index j : neighbours) {
-    const Vec3 step = points[j] - points[centre];
-    fit.add(step.x() / unit, step.y() / unit, step.z());
+  heights.assign((neighbours.size() + 3) / 4, {});
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const Vec3 step = points[neighbours[k]] - points[centre];
+    FourHeights& four = heights[k / 4];
+    four.x[k % 4] = step.x() / unit, four.y[k % 4] = step.y() / unit, four.z[k % 4] = step.z();
+    four.is_there[k % 4] = 1;
   }
-  const Vec2 slope = fit.slope() / unit;
+  const Vec2 slope = RELIEVO_WIDE(Quadratic(heights)).slope() / unit;
   return slope.allFinite() ? slope : fallback;
 }
 
-// Returns the barycentric weights of `place` in the triangle a, b, s. If `place` is outside or the triangle
-// is too thin, returns the weights of the nearest point on the side a-b.
+// Leaves one of each number, in ascending order.
+void leave_one_of_each(std::vector<Index>& numbers) {
+  constexpr std::size_t slots = 256, most = slots / 2;
+  if (numbers.size() <= most) {
+    // A table of the numbers that were found leaves fewer to sort.
+    std::array<Index, slots> found;
+    found.fill(no_index);
+    std::erase_if(numbers, [&](Index number) {
+      std::size_t slot = number * 2654435761U >> 24;
+      while (found[slot] != no_index && found[slot] != number) slot = (slot + 1) % slots;
+      return std::exchange(found[slot], number) == number;
+    });
+  }
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// Returns the barycentric weights of a place in the triangle a, b, s. If the place lies outside or the
+// triangle is too thin, returns the weights of the nearest place on the side a-b.
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
   const Vec2 side = b - a;
   const Vec3 areas =
@@ -189,13 +227,10 @@ void SmoothSurface::find_slopes() {
       if (is_open[i]) ring.push_back(i == a ? c : i == b ? a : b);
     }
   };
-  const auto leave_one_of_each = [](std::vector<Index>& ring) {
-    std::ranges::sort(ring);
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  };
   parallel_ranges(points_.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> near, all;
     std::vector<Vec2> slopes;
+    std::vector<FourHeights> heights;
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       if (around[i].empty()) continue;
       near.clear();
@@ -208,7 +243,7 @@ void SmoothSurface::find_slopes() {
       Fan fan{around[i], slopes};
       fan.is_closed = !is_open[i];
       measure(fan);
-      slopes_[i] = limited(fitted_slope(points_, i, all, fan.mean), fan);
+      slopes_[i] = limited(fitted_slope(points_, i, all, fan.mean, heights), fan);
     }
   });
 }

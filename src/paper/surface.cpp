@@ -26,7 +26,8 @@ Boundary boundary_of(std::span<const Vec2> points, const Triangulation& mesh, do
 
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
-  const ViewedCloud viewed = look_at(measured, surface);
+  const ViewedCloud viewed = look_at(measured, surface, progress);
+  RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_CHECK(check_side(viewed, view));
 
   RELIEVO_CHECK(begin_stage(progress, "visible points", .1));

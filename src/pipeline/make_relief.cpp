@@ -247,8 +247,11 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOptions& options,
                             Progress* progress) {
   return within_memory({.points = points.size()}, [&]() -> Result<ReliefModel> {
-    RELIEVO_TRY(const auto measured, MeasuredCloud::measure(points, view, progress));
-    return ReliefModel::of_view(*measured, view, options, progress);
+    RELIEVO_TRY(auto measured, MeasuredCloud::measure(points, view, progress));
+    if (view.is_paper) return ReliefModel::of_view(*measured, view, options, progress);
+    RELIEVO_TRY(Surface surface, find_surface(*measured, view, progress));
+    measured.reset();  // leaves its memory to the solver
+    return ReliefModel::prepare(std::move(surface), progress, options);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/quantile.h"
+#include "core/simd.h"
 #include "geometry/near_search.h"
 #include "relievo/core/parallel.h"
 #include "scan/measure_with_tree.h"
@@ -17,35 +18,61 @@ namespace {
 // The radius of the neighbourhood, in h. With this radius fit_weight() approximates exp(-d^2 / h^2) best.
 constexpr double support = 1.7;
 
-struct Neighbour {
-  Vec3 d;  // vector from the neighbour to the point
-  Vec3 n;  // unit normal of the neighbour
+// Four neighbours of a point. A missing one lies beyond the radius, where it has no weight.
+struct FourNeighbours {
+  Double4 x{2, 2, 2, 2}, y = {}, z = {};  // from the neighbour to the point, in radii
+  Double4 n_x = {}, n_y = {}, n_z = {};   // its unit normal
 };
 
-// Returns the weight of a neighbour, which falls from 1 at the point to 0 at the radius. For a radius of 1.7
-// h it approximates exp(-d^2 / h^2) without an exponential.
-double fit_weight(const Neighbour& s, double radius) {
-  const double rest = std::max(0.0, 1 - s.d.squaredNorm() / (radius * radius));
-  return rest * rest;
+// Returns the weights of neighbours, which fall from 1 at the point to 0 at the radius. For a radius of 1.7 h they
+// are close to exp(-d^2 / h^2), but need no exponential.
+RELIEVO_INLINE Double4 fit_weights(const FourNeighbours& s) {
+  const Double4 rest = 1 - (s.x * s.x + s.y * s.y + s.z * s.z), inside = rest > 0 ? rest : Double4{};
+  return inside * inside;
 }
 
-// Returns half the divergence of a linear normal field n(x) = n0 + J x, fitted to the neighbours in the
-// tangent plane by weighted least squares. This is exact where the normals vary linearly, as on spheres and
-// cylinders, for any distribution of the points.
-double fitted_curvature(std::span<const Neighbour> neighbours, double radius) {
-  if (neighbours.size() < 6) return 0;
-  Vec3 mean = Vec3::Zero();
-  for (const Neighbour& s : neighbours) mean += fit_weight(s, radius) * s.n;
-  const Vec3 axis = mean.normalized();
-  const Vec3 t1 = axis.unitOrthogonal(), t2 = axis.cross(t1);
-  Mat3 moments = Mat3::Zero();
-  Eigen::Matrix<double, 3, 2> products = Eigen::Matrix<double, 3, 2>::Zero();
-  for (const Neighbour& s : neighbours) {
-    const Vec3 place(1, -s.d.dot(t1) / radius, -s.d.dot(t2) / radius);
-    const Vec3 weighted = fit_weight(s, radius) * place;
-    moments += weighted * place.transpose();
-    products += weighted * Eigen::RowVector2d(s.n.dot(t1), s.n.dot(t2));
+RELIEVO_INLINE Vec3 mean_normal(std::span<const FourNeighbours> neighbours) {
+  Double4 x = {}, y = {}, z = {};
+  for (const FourNeighbours& s : neighbours) {
+    const Double4 w = fit_weights(s);
+    x += w * s.n_x, y += w * s.n_y, z += w * s.n_z;
   }
+  return {total(x), total(y), total(z)};
+}
+
+// The weighted moments of 1, u and v, the places of neighbours in a tangent plane, and their products with the
+// components of the normals in this plane.
+struct TangentSums {
+  Mat3 moments;
+  Eigen::Matrix<double, 3, 2> products;
+};
+
+RELIEVO_INLINE TangentSums sums_in(const Vec3& t1, const Vec3& t2,
+                                   std::span<const FourNeighbours> neighbours) {
+  Double4 one = {}, u1 = {}, v1 = {}, uu = {}, uv = {}, vv = {}, p1 = {}, pu = {}, pv = {}, q1 = {}, qu = {},
+          qv = {};
+  for (const FourNeighbours& s : neighbours) {
+    const Double4 w = fit_weights(s);
+    const Double4 u = -(s.x * t1.x() + s.y * t1.y() + s.z * t1.z()),
+                  v = -(s.x * t2.x() + s.y * t2.y() + s.z * t2.z()), wu = w * u, wv = w * v;
+    const Double4 p = s.n_x * t1.x() + s.n_y * t1.y() + s.n_z * t1.z(),
+                  q = s.n_x * t2.x() + s.n_y * t2.y() + s.n_z * t2.z();
+    one += w, u1 += wu, v1 += wv, uu += wu * u, uv += wu * v, vv += wv * v;
+    p1 += w * p, pu += wu * p, pv += wv * p, q1 += w * q, qu += wu * q, qv += wv * q;
+  }
+  const double u = total(u1), v = total(v1), mixed = total(uv);
+  return {
+      Mat3{{total(one), u, v}, {u, total(uu), mixed}, {v, mixed, total(vv)}},
+      Eigen::Matrix<double, 3, 2>{{total(p1), total(q1)}, {total(pu), total(qu)}, {total(pv), total(qv)}}};
+}
+
+// Returns half the divergence of the normal field n(x) = n0 + J x, fitted to the neighbours by weighted least
+// squares in the tangent plane. This is exact where the normals vary linearly, as on spheres and cylinders,
+// however the points are scattered.
+double fitted_curvature(std::span<const FourNeighbours> neighbours, double radius) {
+  const Vec3 axis = RELIEVO_WIDE(mean_normal(neighbours)).normalized();
+  const Vec3 t1 = axis.unitOrthogonal(), t2 = axis.cross(t1);
+  const auto [moments, products] = RELIEVO_WIDE(sums_in(t1, t2, neighbours));
   const double spread = moments(0, 0) * moments(1, 1) * moments(2, 2);
   if (!(moments.determinant() > 1e-6 * spread)) return 0;  // the neighbours are on a line
   const Eigen::Matrix<double, 3, 2> field = moments.inverse() * products;
@@ -64,14 +91,21 @@ class CurvatureEstimator {
     return {cloud_.points[i], support * options_.scale * unit};
   }
 
-  double at(Index i, std::span<const Index> near, std::vector<Neighbour>& neighbours) const {
-    neighbours.clear();
+  double at(Index i, std::span<const Index> near, std::vector<FourNeighbours>& neighbours) const {
+    const double radius = ball(i).radius;
+    neighbours.assign((near.size() + 3) / 4, {});
+    std::size_t count = 0;
     for (const Index j : near) {
       if (cloud_.normals[j].dot(cloud_.normals[i]) <= 0) continue;
-      neighbours.push_back({cloud_.points[i] - cloud_.points[j], cloud_.normals[j].cast<double>()});
+      FourNeighbours& four = neighbours[count / 4];
+      const std::size_t lane = count++ % 4;
+      const Vec3 d = (cloud_.points[i] - cloud_.points[j]) / radius, n = cloud_.normals[j].cast<double>();
+      four.x[lane] = d.x(), four.y[lane] = d.y(), four.z[lane] = d.z();
+      four.n_x[lane] = n.x(), four.n_y[lane] = n.y(), four.n_z[lane] = n.z();
     }
-    const double k = fitted_curvature(neighbours, ball(i).radius);
-    // Points at a distance of rho cannot represent a smaller radius of curvature.
+    if (count < 6) return 0;
+    // Points at a distance of rho cannot resolve a smaller radius of curvature.
+    const double k = fitted_curvature(std::span(neighbours).first((count + 3) / 4), radius);
     return std::clamp(k, -1 / spacing_.rho, 1 / spacing_.rho);
   }
 
@@ -96,7 +130,7 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
   parallel_ranges(queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
     if (progress && progress->is_cancelled()) return;
     NearSearch<Vec3> search(searchable.tree, searchable.cloud.points);
-    std::vector<Neighbour> neighbours;
+    std::vector<FourNeighbours> neighbours;
     search.each(
         begin, end, [&](std::size_t q) { return estimator.ball(queries[q]); },
         [&](std::size_t q, std::span<const Index> near) {

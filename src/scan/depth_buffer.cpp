@@ -37,6 +37,7 @@ DepthBuffer::DepthBuffer(const Box& box, double pixel) : origin_(box.min.head<2>
       std::max({pixel, std::sqrt(size.x() * size.y() / most_pixels), (size.x() + size.y()) / most_pixels});
   columns_ = 1 + static_cast<long>(size.x() / pixel_);
   rows_ = 1 + static_cast<long>(size.y() / pixel_);
+  squares_ = columns_ / square_side + 1;
   depth_.assign(static_cast<std::size_t>(columns_ * rows_), -std::numeric_limits<float>::infinity());
 }
 
@@ -78,12 +79,38 @@ void DepthBuffer::splat(const std::vector<Disc>& discs) {
       1);
 }
 
+// Returns the pixels in the box of a disc.
+DepthBuffer::Pixels DepthBuffer::pixels_of(const Disc& disc) const {
+  const double half_x = half_width(disc), half_y = half_height(disc);
+  return {std::max(0L, column(disc.centre.x() - half_x)),
+          std::min(columns_ - 1, column(disc.centre.x() + half_x)),
+          std::max(0L, row(disc.centre.y() - half_y)), std::min(rows_ - 1, row(disc.centre.y() + half_y))};
+}
+
+void DepthBuffer::take_away(const std::vector<Disc>& gone, const std::vector<Disc>& rest) {
+  is_redrawn_.assign(static_cast<std::size_t>((rows_ / square_side + 1) * squares_), 0);
+  const auto any_square = [&](const Disc& disc, auto&& is_one) {
+    const auto [c0, c1, r0, r1] = pixels_of(disc);
+    for (long r = r0 / square_side; r <= r1 / square_side; ++r)
+      for (long c = c0 / square_side; c <= c1 / square_side; ++c)
+        if (is_one(is_redrawn_[static_cast<std::size_t>(r * squares_ + c)])) return true;
+    return false;
+  };
+  for (const Disc& disc : gone) any_square(disc, [](std::uint8_t& mark) { return mark = 1, false; });
+  for (long r = 0; r < rows_; ++r)
+    for (long c = 0; c < columns_; ++c)
+      if (is_redrawn_[square(c, r)])
+        depth_[static_cast<std::size_t>(r * columns_ + c)] = -std::numeric_limits<float>::infinity();
+  std::vector<Disc> again;
+  for (const Disc& disc : rest)
+    if (any_square(disc, [](std::uint8_t mark) { return mark != 0; })) again.push_back(disc);
+  splat(again);
+}
+
 void DepthBuffer::splat_into_rows(const Disc& disc, long first_row, long last_row) {
-  const double half_x = half_width(disc), half_y = half_height(disc), radius_sq = disc.radius * disc.radius;
-  const long r0 = std::max(first_row, row(disc.centre.y() - half_y));
-  const long r1 = std::min(last_row, row(disc.centre.y() + half_y));
-  const long c0 = std::max(0L, column(disc.centre.x() - half_x));
-  const long c1 = std::min(columns_ - 1, column(disc.centre.x() + half_x));
+  const double radius_sq = disc.radius * disc.radius;
+  const auto [c0, c1, top, bottom] = pixels_of(disc);
+  const long r0 = std::max(first_row, top), r1 = std::min(last_row, bottom);
   const double slope_x = depth_along_plane(disc.normal, 1, 0), slope_y = depth_along_plane(disc.normal, 0, 1);
   for (long r = r0; r <= r1; ++r) {
     const double dy = origin_.y() + pixel_ * (static_cast<double>(r) + .5) - disc.centre.y();

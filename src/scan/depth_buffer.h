@@ -24,7 +24,14 @@ class DepthBuffer {
   // there.
   void splat(const std::vector<Disc>& discs);
 
-  // Returns the depth of the pixel that contains (x, y); -infinity where there is no disc and outside the
+  // Takes away discs that were drawn: draws the squares of pixels that they touch anew, with those of the other
+  // discs, `rest`, that touch these squares, too.
+  void take_away(const std::vector<Disc>& gone, const std::vector<Disc>& rest);
+
+  // Returns whether take_away() has drawn the pixel that contains (x, y), which must lie in the box, anew.
+  bool is_redrawn(double x, double y) const { return is_redrawn_[square(column(x), row(y))] != 0; }
+
+  // Returns the depth of the pixel that contains (x, y); -infinity where there is no disc, or outside the
   // box.
   float depth(double x, double y) const;
 
@@ -33,14 +40,23 @@ class DepthBuffer {
 
  private:
   static constexpr double most_pixels = 64e6;
+  static constexpr long square_side = 8;
+  struct Pixels {
+    long c0, c1, r0, r1;
+  };
+  Pixels pixels_of(const Disc& disc) const;
+  std::size_t square(long column, long row) const {
+    return static_cast<std::size_t>(row / square_side * squares_ + column / square_side);
+  }
   long column(double x) const;
   long row(double y) const;
   void splat_into_rows(const Disc& disc, long first_row, long last_row);
 
   Vec2 origin_;
   double pixel_;
-  long columns_, rows_;
+  long columns_, rows_, squares_;  // squares in a row
   std::vector<float> depth_;
+  std::vector<std::uint8_t> is_redrawn_;  // per square of pixels
 };
 
 // Returns how much higher the disc's plane is at the offset (dx, dy) than at the disc's centre. Slopes are

@@ -1,5 +1,5 @@
-// Measurements of scattered points that use an existing k-d tree. Tested by tests/scan/spacing_test.cpp and
-// tests/scan/curvature_test.cpp.
+// Measures scattered points with a k-d tree that the caller already has. Tested by
+// tests/scan/spacing_test.cpp, tests/scan/normals_test.cpp and tests/scan/curvature_test.cpp.
 #pragma once
 
 #include "geometry/neighbours.h"
@@ -21,7 +21,12 @@ struct SearchableCloud {
   const KdTree<Vec3>& tree;
 };
 
-// Like mean_curvature() in curvature.h.
+// Returns the normals of planes through the nearest points of some points, in their order, at most 64 each; see
+// estimate_normals() in normals.h.
+std::vector<Vec3f> estimated_normals(const SearchableCloud& searchable, std::span<const Index> points,
+                                     std::size_t neighbours, const Progress* progress = nullptr);
+
+// See mean_curvature() in curvature.h.
 std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,
                                    const CurvatureOptions& options, const Progress* progress);
 

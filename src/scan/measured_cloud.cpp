@@ -97,63 +97,81 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   measured->centre_ = box.centre();
   measured->diagonal_ = box.diagonal();
   measured->input_points_ = whole.size();
-  measured->cloud_ = in_view(cloud, {});
-  // A fixed order makes the result independent of the file's order. Searches are faster if neighbours are
-  // close in memory.
-  std::vector<Index> order = space_curve_order(measured->cloud_.points);
-  thin_out_coincident(measured->cloud_.points, order);
+  Cloud& own = measured->scan_->cloud;
+  own = in_view(cloud, {});
+  // A fixed order makes the result independent of the file's order, and neighbours close in memory make all
+  // searches faster.
+  std::vector<Index> order = space_curve_order(own.points);
+  thin_out_coincident(own.points, order);
   RELIEVO_CHECK(check_cancelled(progress));
-  measured->cloud_ = {pick(measured->cloud_.points, order),
-                      pick(measured->cloud_.normals, order),
-                      pick(measured->cloud_.colours, order),
-                      std::move(measured->cloud_.outlines),
-                      cloud.is_height_field,
-                      pick(measured->cloud_.own_heights, order),
-                      cloud.units_per_value,
-                      pick(measured->cloud_.axes, order)};
+  own = {pick(own.points, order), pick(own.normals, order), pick(own.colours, order),
+         std::move(own.outlines), cloud.is_height_field,    pick(own.own_heights, order),
+         cloud.units_per_value};
   RELIEVO_CHECK(measured->measure_points(view, progress));
   RELIEVO_CHECK(check_digits(cloud, measured->spacing().rho));
-  measured->repeated_points_ = cloud.size() - measured->cloud_.size();
+  measured->repeated_points_ = cloud.size() - own.size();
   return measured;
 }
 
 Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "spacing", .05));
-  tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
+  auto& [cloud, tree, is_clean] = *scan_;
+  tree = std::make_unique<const KdTree<Vec3>>(cloud.points);
   RELIEVO_CHECK(check_cancelled(progress));
-  if (std::optional<Cloud> merged = without_repeated_points(cloud_, *tree_)) {
-    cloud_ = std::move(*merged);
-    tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
+  if (std::optional<Cloud> merged = without_repeated_points(cloud, *tree)) {
+    cloud = std::move(*merged);
+    tree = std::make_unique<const KdTree<Vec3>>(cloud.points);
     RELIEVO_CHECK(check_cancelled(progress));
   }
-  spacing_ = measure_spacing(*tree_, cloud_.points, progress);
+  spacing_ = measure_spacing(*tree, cloud.points, progress);
   RELIEVO_CHECK(check_cancelled(progress));
   if (!(spacing_.rho > 0))
     return geometry_error("expected points at a distance from each other, found most of them equal");
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
-  has_estimated_normals_ = !cloud_.has_normals();
-  if (has_estimated_normals_)
-    // Noise is measured later, when the view has determined the signs of the normals.
-    estimate_normals(cloud_, 16, progress);
-  else
-    remove_noise(view, progress);
-  RELIEVO_CHECK(check_cancelled(progress));
-  do_normals_point_inward_ = !has_estimated_normals_ && normals_point_inward(cloud_);
+  has_estimated_normals_ = !cloud.has_normals();
+  if (has_estimated_normals_) {
+    estimate_normals(cloud, 16, progress);  // noise is measured once the view has given the normals signs
+    return check_cancelled(progress);
+  }
+  measured_noise_ = measure_noise(cloud, spacing_);
+  removed_noise_ = view.noise_to_remove(measured_noise_);
+  do_normals_point_inward_ = normals_point_inward(cloud);
   return {};
 }
 
-// Removes the noise that View::denoise specifies or, if that is empty, the measured noise. The spacing is not
-// measured again: if several scans overlap, denoising moves their points closer together than the spacing at
-// which the surface was sampled.
-void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
-  measured_noise_ = measure_noise(cloud_, spacing_);
-  removed_noise_ = view.noise_to_remove(measured_noise_);
-  if (removed_noise_ == 0) return;
-  CleanPoints clean = without_noise({cloud_, spacing_, *tree_}, removed_noise_, progress);
-  if (progress && progress->is_cancelled()) return;
-  cloud_.points = std::move(clean.points);
-  cloud_.normals = std::move(clean.normals);
-  tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
+// Removes as much noise as View::denoise says or, if that is empty, as was measured: from the first view's points
+// only, and once another view needs more, from all. Does not measure the spacing again: where several scans
+// overlap, removing the noise brings their points closer together than the surface is sampled.
+std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Vec3f& towards_viewer,
+                                                                        const Progress* progress) const {
+  if (removed_noise_ == 0) return scan_;
+  const Cloud& cloud = scan_->cloud;
+  // Whether normals that point inwards are to be reversed depends on all of them.
+  const Vec3f direction = do_normals_point_inward_ ? Vec3f::Zero() : towards_viewer;
+  std::vector<Index> points = points_near_front(cloud.normals, direction, spacing_);
+  const std::shared_ptr<const Scan> known = clean_.with([](const auto& clean) { return clean; });
+  if (known) {
+    const auto is_clean = [&](Index i) { return known->is_clean[i] != 0; };
+    if (std::ranges::all_of(points, is_clean)) return known;
+    points = points_near_front(cloud.normals, Vec3f::Zero(), spacing_);
+    std::erase_if(points, is_clean);
+  }
+  const CleanPoints found =
+      relievo::without_noise({cloud, spacing_, *scan_->tree}, {removed_noise_, points}, progress);
+  const Scan& before = known ? *known : *scan_;
+  auto clean = std::make_shared<Scan>();
+  clean->cloud.points = before.cloud.points, clean->cloud.normals = before.cloud.normals;
+  clean->cloud.outlines = cloud.outlines, clean->cloud.is_height_field = cloud.is_height_field;
+  clean->is_clean = known ? known->is_clean : std::vector<std::uint8_t>(cloud.size(), 0);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Index i = points[k];
+    clean->cloud.points[i] = found.points[k], clean->cloud.normals[i] = found.normals[k],
+    clean->is_clean[i] = 1;
+  }
+  if (progress && progress->is_cancelled()) return clean;
+  clean->tree = std::make_unique<const KdTree<Vec3>>(clean->cloud.points);
+  clean_.with([&](auto& kept) { kept = clean; });
+  return clean;
 }
 
 bool MeasuredCloud::serves(const View& view) const {
@@ -161,19 +179,21 @@ bool MeasuredCloud::serves(const View& view) const {
   const auto& [R_view_model, crop, has_crumbs, most_pieces, has_plane, gap, denoise, is_paper, is_best] =
       view;
   if (denoise != view_.denoise || crop != view_.crop) return false;
-  const bool is_of_any_view = crop == Crop{} && cloud_.outlines.empty();
+  const bool is_of_any_view = crop == Crop{} && cloud().outlines.empty();
   return is_of_any_view || R_view_model == view_.R_view_model;
 }
 
-std::vector<double> MeasuredCloud::curvature(std::span<const Index> points, const Progress* progress) const {
+std::vector<double> MeasuredCloud::curvature(const Scan& clean, std::span<const Index> points,
+                                             const Progress* progress) const {
   std::vector<double> k = curvature_.with([&](std::vector<double>& known) {
-    if (known.empty()) known.assign(cloud_.size(), std::numeric_limits<double>::quiet_NaN());
+    if (known.empty()) known.assign(cloud().size(), std::numeric_limits<double>::quiet_NaN());
     return pick(known, points);
   });
   std::vector<Index> missing, places;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::isnan(k[i])) missing.push_back(points[i]), places.push_back(static_cast<Index>(i));
-  const std::vector<double> found = mean_curvature({cloud_, spacing_, *tree_}, missing, {}, progress);
+  const std::vector<double> found =
+      mean_curvature({clean.cloud, spacing_, *clean.tree}, missing, {}, progress);
   for (std::size_t i = 0; i < missing.size(); ++i) k[places[i]] = found[i];
   if (progress && progress->is_cancelled()) return k;
   curvature_.with([&](std::vector<double>& known) {

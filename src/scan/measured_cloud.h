@@ -1,5 +1,5 @@
-// Measurements of a cloud that do not depend on the view, made once for all views: order, spacing, denoised
-// normals, curvature. Tested by tests/scan/measured_cloud_test.cpp.
+// Measures of a cloud, made once and used for every view: order, spacing, normals, and, at points that views have
+// shown, points without noise and curvature. Tested by tests/scan/measured_cloud_test.cpp.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,7 @@ namespace relievo {
 
 class MeasuredCloud {
  public:
-  // Removes noise as the view specifies, and measures the part of the cloud inside the view's crop. Errors:
-  // those of find_surface() that do not depend on the visible points.
+  // Measures the part of the cloud that the view's crop keeps. Errors: those of find_surface() that do not depend on the visible points.
   static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
                                                               Progress* progress = nullptr);
 
@@ -25,10 +24,24 @@ class MeasuredCloud {
   // Returns the view for which the cloud was measured.
   const View& view() const { return view_; }
 
-  // Returns the points relative to the centre of their box, in the axes of the cloud. They are in the order
-  // of a space-filling curve, which makes all results independent of the file's order. Signs of estimated
-  // normals are arbitrary.
-  const Cloud& cloud() const { return cloud_; }
+  // A cloud, and the k-d tree of its points.
+  struct Scan {
+    Cloud cloud;
+    std::unique_ptr<const KdTree<Vec3>> tree;
+    std::vector<std::uint8_t> is_clean = {};  // per point, whether noise was removed; empty if there is none
+  };
+
+  // Returns the points relative to the centre of their box, in the axes of the cloud and in the order of a
+  // space-filling curve, which makes all results independent of the file's order. They have their noise. Signs
+  // of estimated normals are arbitrary.
+  const Cloud& cloud() const { return scan_->cloud; }
+
+  // Returns the cloud, without colours, after the noise was removed at all points that a view from this direction
+  // may show; at all points if it is 0. It is kept, so that later views find it. If the normals are estimated,
+  // nothing is removed. May be called concurrently. The result is not usable once the progress is cancelled.
+  std::shared_ptr<const Scan> without_noise(const Vec3f& towards_viewer,
+                                            const Progress* progress = nullptr) const;
+
   const Spacing& spacing() const { return spacing_; }
 
   // Values that are the same for the surfaces of all views.
@@ -42,19 +55,20 @@ class MeasuredCloud {
   double measured_noise() const { return measured_noise_; }
   double removed_noise() const { return removed_noise_; }
 
-  // Returns the mean curvature at points, for outward normals. Values are cached, so each point is measured
-  // only once. May be called concurrently.
-  std::vector<double> curvature(std::span<const Index> points, const Progress* progress) const;
+  // Returns the mean curvature at points that a view may show, for normals that point outwards. `clean` is the
+  // cloud without noise for this view. Values are kept, so that each point is measured once. May be called
+  // concurrently.
+  std::vector<double> curvature(const Scan& clean, std::span<const Index> points,
+                                const Progress* progress) const;
 
  private:
   MeasuredCloud() = default;
   Result<void> measure_points(const View& view, Progress* progress);
-  void remove_noise(const View& view, const Progress* progress);
 
   View view_;
-  Cloud cloud_;
+  std::shared_ptr<Scan> scan_ = std::make_shared<Scan>();
+  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // the cloud without noise, as far as it is known
   Spacing spacing_;
-  std::unique_ptr<const KdTree<Vec3>> tree_;
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;
   std::size_t input_points_ = 0, repeated_points_ = 0;

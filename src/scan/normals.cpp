@@ -3,12 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <vector>
 
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/view.h"
 #include "scan/coarse_visibility.h"
+#include "scan/measure_with_tree.h"
 
 namespace relievo {
 namespace {
@@ -68,21 +70,31 @@ Vec3f unit_normal(const Vec3& n) {
   return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
 }
 
-void estimate_normals(Cloud& cloud, std::size_t neighbours, const Progress* progress) {
-  if (cloud.size() < 3) return;
-  const std::size_t k = std::min({neighbours, cloud.size(), most_neighbours});
-  const KdTree<Vec3> tree(cloud.points);
-  cloud.normals.assign(cloud.size(), Vec3f::Zero());
+std::vector<Vec3f> estimated_normals(const SearchableCloud& searchable, std::span<const Index> points,
+                                     std::size_t neighbours, const Progress* progress) {
+  const std::span<const Vec3> all = searchable.cloud.points;
+  const std::size_t k = std::min({neighbours, all.size(), most_neighbours});
+  std::vector<Vec3f> normals(points.size(), Vec3f::Zero());
   parallel_for(
-      cloud.size(),
+      points.size(),
       [&](std::size_t i) {
         if (progress && progress->is_cancelled()) return;
         std::array<Index, most_neighbours> members;
         std::array<double, most_neighbours> distances_sq;
-        const std::size_t found = tree.nearest(cloud.points[i], k, members.data(), distances_sq.data());
-        cloud.normals[i] = plane_normal(cloud, std::span(members).first(found));
+        const std::size_t found =
+            searchable.tree.nearest(all[points[i]], k, members.data(), distances_sq.data());
+        normals[i] = plane_normal(searchable.cloud, std::span(members).first(found));
       },
       1024);
+  return normals;
+}
+
+void estimate_normals(Cloud& cloud, std::size_t neighbours, const Progress* progress) {
+  if (cloud.size() < 3) return;
+  const KdTree<Vec3> tree(cloud.points);
+  std::vector<Index> all(cloud.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  cloud.normals = estimated_normals({cloud, {}, tree}, all, neighbours, progress);
 }
 
 void turn_to_viewer(Cloud& viewed) {

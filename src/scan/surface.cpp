@@ -118,7 +118,7 @@ std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Inde
                                  const Progress* progress) {
   if (viewed.measured.has_estimated_normals())
     return mean_curvature(viewed.cloud, viewed.spacing(), visible, {}, progress);
-  std::vector<double> k = viewed.measured.curvature(visible, progress);
+  std::vector<double> k = viewed.measured.curvature(*viewed.clean, visible, progress);
   for (double& each : k) each *= viewed.sign;
   return k;
 }
@@ -193,9 +193,11 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* pro
 
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
-  ViewedCloud viewed = look_at(measured, surface);
+  ViewedCloud viewed = look_at(measured, surface, progress);
+  RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_CHECK(check_side(viewed, view));
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
+  viewed.cloud.points = {}, viewed.cloud.normals = {};  // leaves their memory to what follows
 
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));
   RELIEVO_CHECK(triangulate(surface, measures, progress));

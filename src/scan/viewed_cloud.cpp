@@ -27,13 +27,21 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
   return out;
 }
 
-// Estimates the normals again, but keeps their signs. Uses more neighbours, because of the noise.
-void estimate_again(Cloud& cloud, double noise) {
+// Removes noise at points that may be visible. First estimates their normals again, from more neighbours because of
+// the noise, and keeps the signs.
+void remove_noise_in_front(Cloud& cloud, const Spacing& spacing, double noise) {
   constexpr double neighbours = 16, more_neighbours = 48;
-  const std::vector<Vec3f> before = cloud.normals;
-  estimate_normals(cloud, static_cast<std::size_t>(neighbours + more_neighbours * noise));
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
+  const std::vector<Index> front = points_near_front(cloud.normals, Vec3f::UnitZ(), spacing);
+  const KdTree<Vec3> tree(cloud.points);
+  const std::vector<Vec3f> normals = estimated_normals(
+      {cloud, spacing, tree}, front, static_cast<std::size_t>(neighbours + more_neighbours * noise));
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    Vec3f& n = cloud.normals[front[k]];
+    n = n.dot(normals[k]) < 0 ? Vec3f(-normals[k]) : normals[k];
+  }
+  const CleanPoints clean = without_noise({cloud, spacing, tree}, {noise, front}, nullptr);
+  for (std::size_t k = 0; k < front.size(); ++k)
+    cloud.points[front[k]] = clean.points[k], cloud.normals[front[k]] = clean.normals[k];
 }
 
 // Gives estimated normals the signs that the view implies. Then measures the noise, which needs the signs,
@@ -43,8 +51,7 @@ void sign_normals(ViewedCloud& viewed, Surface& surface) {
   surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());
   surface.removed_noise = surface.view.noise_to_remove(surface.measured_noise);
   if (surface.removed_noise == 0) return;
-  estimate_again(viewed.cloud, surface.removed_noise);
-  remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);
+  remove_noise_in_front(viewed.cloud, viewed.spacing(), surface.removed_noise);
 }
 
 // Returns the share of the area, in the view plane, of all points whose normals face the viewer, hidden
@@ -86,8 +93,10 @@ Surface surface_of_view(const MeasuredCloud& measured, const View& view) {
   return surface;
 }
 
-ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface) {
-  ViewedCloud viewed{turned(measured.cloud(), surface.view.R_view_model), measured};
+ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface, const Progress* progress) {
+  const Mat3& R = surface.view.R_view_model;
+  const auto clean = measured.without_noise(R.row(2).transpose().cast<float>(), progress);
+  ViewedCloud viewed{turned(clean->cloud, R), measured, clean};
   surface.rho = measured.spacing().rho;
   surface.has_estimated_normals = measured.has_estimated_normals();
   if (surface.has_estimated_normals) {

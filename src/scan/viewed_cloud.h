@@ -5,11 +5,12 @@
 
 namespace relievo {
 
-// The whole cloud in view coordinates, with signed normals and without noise.
+// The whole cloud as the view shows it, with signed normals and, where it may be visible, without noise.
 struct ViewedCloud {
   Cloud cloud;  // without colours
   const MeasuredCloud& measured;
-  double sign = 1;  // -1 if the measured normals were reversed, else 1
+  std::shared_ptr<const MeasuredCloud::Scan> clean;  // what `cloud` was turned from
+  double sign = 1;                                   // -1 if the measured normals were reversed, else 1
 
   const Spacing& spacing() const { return measured.spacing(); }
 };
@@ -17,9 +18,10 @@ struct ViewedCloud {
 // Returns a surface without points. It has all properties that follow from the measurements and the view.
 Surface surface_of_view(const MeasuredCloud& measured, const View& view);
 
-// Returns the cloud in the view of the surface, with signed normals and without the noise that the view asks
-// to remove. Sets the surface's rho, and its properties about normals and noise.
-ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface);
+// Turns the cloud into the view of the surface, with signed normals and, at all points that the view may show,
+// without the noise that it asks to remove. Sets the surface's rho, its facts about normals, and those about noise.
+// The result is not usable once the progress is cancelled.
+ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface, const Progress* progress = nullptr);
 
 // Returns an error that names a better view, if nine tenths of the surface face away from the viewer. A
 // relief would show only the remaining tenth, as when a bust that was scanned from the front is viewed from

@@ -1,6 +1,7 @@
 #include "relievo/scan/visible.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/disjoint_sets.h"
@@ -34,12 +35,15 @@ class Visibility {
       : cloud_(cloud), spacing_(spacing), is_fragment_(cloud.size(), 0) {}
 
   VisiblePoints find() {
-    std::vector<Index> visible = in_front();
+    Facing facing = all_facing();
+    draw(facing);
+    std::vector<Index> visible = in_front(facing);
     std::size_t removed = mark_fragments(visible);
     if (removed > 0) {
-      // Without the fragments other points become visible. New fragments among these are removed, but the
-      // search is not repeated again.
-      visible = in_front();
+      // Without the fragments other points become visible. New fragments among these points are removed, but
+      // the search is not repeated again.
+      leave_out_fragments(facing);
+      visible = in_front(facing);
       removed += mark_fragments(visible);
     }
     std::erase_if(visible, [&](Index i) { return is_fragment_[i]; });
@@ -47,33 +51,78 @@ class Visibility {
   }
 
  private:
-  bool faces_viewer(Index i) const { return cloud_.normals[i].z() > 0 && !is_fragment_[i]; }
+  // The points that face the viewer, their discs, and which of them are in front.
+  struct Facing {
+    std::vector<Index> points;
+    std::vector<Disc> discs;
+    Box box;
+    std::optional<DepthBuffer> buffer = {};
+    std::vector<std::uint8_t> is_front = {};
+  };
+
   double local_spacing(Index i) const {
     return std::clamp(static_cast<double>(spacing_.local[i]), ScanLimits::least_spacing * spacing_.rho,
                       ScanLimits::largest_spacing * spacing_.rho);
   }
 
-  std::vector<Index> in_front() const {
-    std::vector<Disc> discs;
-    Box box;
-    std::vector<Index> facing;
+  Facing all_facing() const {
+    Facing facing;
+    const auto faces_viewer = [](const Vec3f& n) { return n.z() > 0; };
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(cloud_.normals, faces_viewer));
+    facing.points.reserve(count), facing.discs.reserve(count);
     for (Index i = 0; i < cloud_.size(); ++i) {
-      if (!faces_viewer(i)) continue;
-      facing.push_back(i);
-      box.extend(cloud_.points[i]);
-      discs.push_back({cloud_.points[i], cloud_.normals[i], ScanLimits::disc_radius * local_spacing(i)});
+      if (!faces_viewer(cloud_.normals[i])) continue;
+      facing.points.push_back(i);
+      facing.box.extend(cloud_.points[i]);
+      facing.discs.push_back(
+          {cloud_.points[i], cloud_.normals[i], ScanLimits::disc_radius * local_spacing(i)});
     }
-    if (cloud_.is_height_field) return facing;
-    DepthBuffer buffer(box, pixel_side * spacing_.rho);
-    buffer.splat(discs);
-    std::vector<std::uint8_t> is_front(facing.size());
-    parallel_for(facing.size(), [&](std::size_t j) { is_front[j] = is_in_front(facing[j], buffer); });
-    keep_where(facing, [&](std::size_t j) { return is_front[j] != 0; });
     return facing;
   }
 
-  // Compares depths at the centre of the point's pixel, where the depth buffer was computed. On a slope that
-  // depth differs from the point's.
+  // Finds which points are in front; in a height field, all are.
+  void draw(Facing& facing) const {
+    facing.is_front.assign(facing.points.size(), 1);
+    if (cloud_.is_height_field) return;
+    facing.buffer.emplace(facing.box, pixel_side * spacing_.rho);
+    facing.buffer->splat(facing.discs);
+    parallel_for(facing.points.size(),
+                 [&](std::size_t k) { facing.is_front[k] = is_in_front(facing.points[k], *facing.buffer); });
+  }
+
+  std::vector<Index> in_front(const Facing& facing) const {
+    std::vector<Index> points = facing.points;
+    keep_where(points, [&](std::size_t k) { return facing.is_front[k] != 0; });
+    return points;
+  }
+
+  // Unless the pixels move, because fragments lie outside the box of the other points, only those where fragments
+  // were drawn change.
+  void leave_out_fragments(Facing& facing) const {
+    std::vector<Disc> gone;
+    Box box;
+    for (std::size_t k = 0; k < facing.points.size(); ++k)
+      if (is_fragment_[facing.points[k]])
+        gone.push_back(facing.discs[k]);
+      else
+        box.extend(facing.discs[k].centre);
+    const auto stays = [&](std::size_t k) { return !is_fragment_[facing.points[k]]; };
+    keep_where(facing.discs, stays);
+    keep_where(facing.is_front, stays);
+    std::erase_if(facing.points, [&](Index i) { return is_fragment_[i] != 0; });
+    const bool is_same_box = box.min == facing.box.min && box.max == facing.box.max;
+    facing.box = box;
+    if (!is_same_box || !facing.buffer) return draw(facing);
+    facing.buffer->take_away(gone, facing.discs);
+    parallel_for(facing.points.size(), [&](std::size_t k) {
+      const Vec3& p = facing.discs[k].centre;
+      if (facing.buffer->is_redrawn(p.x(), p.y()))
+        facing.is_front[k] = is_in_front(facing.points[k], *facing.buffer);
+    });
+  }
+
+  // Compares depths at the centre of the point's pixel, for which the buffer's depth was computed: on a slope
+  // the depth there differs from the point's own.
   bool is_in_front(Index i, const DepthBuffer& buffer) const {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();

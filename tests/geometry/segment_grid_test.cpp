@@ -44,6 +44,7 @@ TEST(SegmentGrid, CrossingsAgreeWithBruteForce) {
   const std::vector<Segment> segments = random_segments(100);
   const SegmentGrid grid(segments, .04);
   const std::vector<Vec2> a = random_points(1000, 6), b = random_points(1000, 8);
+  LinesFrom lines;
   int crossed = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec2 to = a[i] + .2 * (b[i] - a[i]);
@@ -55,6 +56,9 @@ TEST(SegmentGrid, CrossingsAgreeWithBruteForce) {
     }
     crossed += expected;
     EXPECT_EQ(grid.is_crossed(a[i], to), expected);
+    lines.begin(grid, a[i], .3);
+    EXPECT_EQ(lines.is_crossed(to), expected);
+    EXPECT_FALSE(lines.is_crossed(a[i]));
   }
   EXPECT_GT(crossed, 100);
 }

@@ -13,20 +13,52 @@ std::shared_ptr<const MeasuredCloud> measured(const Cloud& cloud, const View& vi
   return MeasuredCloud::measure(cloud, view).value();
 }
 
-// A cloud that is measured once for all views must give the same surfaces, up to rounding, as a cloud that is
-// measured again for each view.
+View looking(const char* direction, double denoise) {
+  View view = parse_view(direction).value();
+  view.denoise = denoise;
+  return view;
+}
+
+Cloud scattered_torus() {
+  Cloud cloud = test::torus(20'000, 1, .4);
+  test::Random random(5);
+  const double noise = .3 * measure_spacing(cloud).rho;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.points[i] += noise * random.gaussian() * cloud.normals[i].cast<double>();
+  return cloud;
+}
+
+// A cloud that is measured once for all views must give the same surfaces, up to rounding, as clouds that are
+// measured for one view each.
 TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
-  const Cloud cloud = test::torus(20'000, 1, .4);
-  const auto once = measured(cloud);
-  for (const char* direction : {"front", "right", "1,2,3"}) {
-    const View view = parse_view(direction).value();
-    const Surface shared = find_surface(*once, view).value(), own = find_surface(cloud, view).value();
-    ASSERT_EQ(shared.points.size(), own.points.size()) << direction;
-    EXPECT_NEAR(shared.rho, own.rho, 1e-9);
-    EXPECT_NEAR(shared.curvature.delta, own.curvature.delta, 1e-6);
-    for (std::size_t i = 0; i < own.points.size(); ++i)
-      ASSERT_LT((shared.points[i] - own.points[i]).norm(), 1e-9) << direction << " " << i;
+  const Cloud cloud = scattered_torus();
+  for (const double denoise : {0., .3}) {
+    const auto once = measured(cloud, looking("front", denoise));
+    for (const char* direction : {"front", "right", "1,2,3"}) {
+      const View view = looking(direction, denoise);
+      const Surface shared = find_surface(*once, view).value(), own = find_surface(cloud, view).value();
+      ASSERT_EQ(shared.points.size(), own.points.size()) << direction;
+      EXPECT_NEAR(shared.rho, own.rho, 1e-9);
+      EXPECT_NEAR(shared.curvature.delta, own.curvature.delta, 1e-6);
+      for (std::size_t i = 0; i < own.points.size(); ++i)
+        ASSERT_LT((shared.points[i] - own.points[i]).norm(), 1e-9) << direction << " " << i;
+    }
   }
+}
+
+TEST(MeasuredCloud, RemovesTheSameNoiseFromAFrontAsFromAllPoints) {
+  const auto torus = measured(scattered_torus(), looking("front", .3));
+  const auto all = measured(scattered_torus(), looking("front", .3))->without_noise(Vec3f::Zero());
+  const auto front = torus->without_noise(Vec3f::UnitZ());
+  EXPECT_LT(std::ranges::count(front->is_clean, 1), .8 * static_cast<double>(front->cloud.size()));
+  for (std::size_t i = 0; i < front->cloud.size(); ++i) {
+    EXPECT_TRUE(front->is_clean[i] || all->cloud.normals[i].z() <= 0);
+    EXPECT_EQ(front->cloud.points[i], (front->is_clean[i] ? all->cloud : torus->cloud()).points[i]);
+  }
+  const auto back = torus->without_noise(-Vec3f::UnitZ());
+  EXPECT_EQ(back->cloud.points, all->cloud.points);
+  EXPECT_EQ(back->cloud.normals, all->cloud.normals);
+  EXPECT_EQ(torus->without_noise(Vec3f::UnitX()), back);
 }
 
 TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
@@ -63,10 +95,11 @@ TEST(MeasuredCloud, RefusesCoordinatesThatRoundingHasSpoilt) {
 
 TEST(MeasuredCloud, KeepsTheCurvatureOfASphere) {
   const auto sphere = measured(test::sphere(20'000, 2));
+  const auto clean = sphere->without_noise(Vec3f::Zero());
   const std::vector<Index> some{3, 77, 1500};
-  const std::vector<double> first = sphere->curvature(some, nullptr);
+  const std::vector<double> first = sphere->curvature(*clean, some, nullptr);
   for (const double k : first) EXPECT_NEAR(k, .5, .05);
-  EXPECT_EQ(sphere->curvature(some, nullptr), first);
+  EXPECT_EQ(sphere->curvature(*clean, some, nullptr), first);
 }
 
 TEST(MeasuredCloud, ServesViewsThatAskForTheSameMeasures) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "relievo/scan/view.h"
+#include "scan/depth_buffer.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -150,6 +151,29 @@ TEST(Visible, OfNothingIsNothing) {
   EXPECT_TRUE(visible({}).empty());
   EXPECT_TRUE(visible(test::inside_out(test::sheet(1000, 1, 0))).empty());
   EXPECT_TRUE(visible({std::vector<Vec3>(10, Vec3::Zero()), std::vector<Vec3f>(10, Vec3f::UnitZ())}).empty());
+}
+
+// A buffer from which discs are taken away must be the buffer of the other discs.
+TEST(DepthBuffer, ForgetsDiscsThatAreTakenAway) {
+  const Cloud sphere = test::sphere(4'000, 1);
+  std::vector<Disc> all, gone, rest;
+  for (std::size_t i = 0; i < sphere.size(); ++i) {
+    all.push_back({sphere.points[i], sphere.normals[i], .05});
+    (i % 400 == 0 ? gone : rest).push_back(all.back());
+  }
+  const Box box = bounds(sphere);
+  DepthBuffer changed(box, .01), expected(box, .01);
+  changed.splat(all);
+  changed.take_away(gone, rest);
+  expected.splat(rest);
+  std::size_t redrawn = 0;
+  for (double x = -.995; x < 1; x += .01)
+    for (double y = -.995; y < 1; y += .01) {
+      ASSERT_EQ(changed.depth(x, y), expected.depth(x, y)) << x << " " << y;
+      redrawn += changed.is_redrawn(x, y);
+    }
+  EXPECT_GT(redrawn, 500U);
+  EXPECT_LT(redrawn, 20'000U);
 }
 
 }  // namespace

@@ -66,19 +66,31 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
   return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels, true, false, is_text};
 }
 
+// Sets the values from numbers of so many bytes, which the compiler has to know to read them fast.
+template <unsigned bytes>
+Result<void> fill_from(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
+                       const PnmValues& stored, Image<float>& values) {
+  const char* const data = source.bytes.data() + header.data;
+  const auto pixel_colour = [=](std::size_t pixel) {
+    PixelColour colour{};
+    for (std::size_t c = 0; c < stored.channels; ++c) {
+      const std::size_t number = pixel * stored.channels + c;
+      colour[c] =
+          decode_sample(stored.format, whole_number(data + bytes * number, bytes, stored.is_big_endian));
+    }
+    return colour;
+  };
+  if (!stored.is_upside_down) return fill_values(source, wanted, stored.channels, values, pixel_colour);
+  const std::size_t width = header.width, last_row = header.height - 1;
+  return fill_values(source, wanted, stored.channels, values,
+                     [=](std::size_t i) { return pixel_colour((last_row - i / width) * width + i % width); });
+}
+
 Result<void> fill_from_bytes(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
                              const PnmValues& stored, Image<float>& values) {
-  const char* const data = source.bytes.data() + header.data;
   const unsigned bytes = stored.format.bits / 8;
-  return fill_values(source, wanted, stored.channels, values, [&](std::size_t i) {
-    const std::size_t row = i / header.width, from = stored.is_upside_down ? header.height - 1 - row : row,
-                      first = (from * header.width + i % header.width) * stored.channels;
-    PixelColour colour{};
-    for (std::size_t c = 0; c < stored.channels; ++c)
-      colour[c] =
-          decode_sample(stored.format, whole_number(data + bytes * (first + c), bytes, stored.is_big_endian));
-    return colour;
-  });
+  const auto fill = bytes == 1 ? fill_from<1> : bytes == 2 ? fill_from<2> : fill_from<4>;
+  return fill(source, header, wanted, stored, values);
 }
 
 // Returns the numbers of a text picture, which may have comments and line breaks anywhere.

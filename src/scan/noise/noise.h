@@ -30,8 +30,20 @@ struct CleanPoints {
   std::vector<Vec3f> normals;
 };
 
-// Returns the points and normals that remove_noise() would set. The cloud must have normals and rho > 0.
-// After cancellation the result is meaningless.
-CleanPoints without_noise(const SearchableCloud& scan, double noise, const Progress* progress);
+// See remove_noise(): how much noise is removed, and at which points.
+struct NoiseRemoval {
+  double noise;
+  std::span<const Index> points;
+};
+
+// Returns what remove_noise() changes some points and their normals to, in their order. The cloud must have
+// normals, and its rho be greater than 0. The result is not usable once the progress is cancelled.
+CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal, const Progress* progress);
+
+// Returns the points, ascending, that may be visible in a view once noise is removed, and those around them that
+// their curvature depends on: points that face the viewer, or nearly do, and three rings of neighbours.
+// `towards_viewer` is a unit vector. If it is 0, all points are returned.
+std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
+                                     const Spacing& spacing);
 
 }  // namespace relievo

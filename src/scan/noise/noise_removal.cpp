@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <tuple>
 
 #include "core/angle.h"
@@ -197,26 +198,49 @@ class NoiseFilter {
 
 }  // namespace
 
-CleanPoints without_noise(const SearchableCloud& scan, double noise, const Progress* progress) {
-  const Cloud& cloud = scan.cloud;
-  CleanPoints clean{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.size())};
-  parallel_ranges(cloud.size(), 1024, [&](std::size_t begin, std::size_t end) {
+CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal,
+                          const Progress* progress) {
+  const std::span<const Index> points = removal.points;
+  CleanPoints clean{std::vector<Vec3>(points.size()), std::vector<Vec3f>(points.size())};
+  parallel_ranges(points.size(), 1024, [&](std::size_t begin, std::size_t end) {
     if (progress && progress->is_cancelled()) return;
-    NoiseFilter filter(scan, noise);
-    NearSearch<Vec3> search(scan.tree, cloud.points);
-    const auto ball = [&](std::size_t i) -> NearSearch<Vec3>::Ball {
-      return {cloud.points[i], filter.radius(static_cast<Index>(i))};
+    NoiseFilter filter(scan, removal.noise);
+    NearSearch<Vec3> search(scan.tree, scan.cloud.points);
+    const auto ball = [&](std::size_t k) -> NearSearch<Vec3>::Ball {
+      return {scan.cloud.points[points[k]], filter.radius(points[k])};
     };
-    search.each(begin, end, ball, [&](std::size_t i, std::span<const Index> near) {
-      std::tie(clean.points[i], clean.normals[i]) = filter.at(static_cast<Index>(i), near);
+    search.each(begin, end, ball, [&](std::size_t k, std::span<const Index> near) {
+      std::tie(clean.points[k], clean.normals[k]) = filter.at(points[k], near);
     });
   });
   return clean;
 }
 
+std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
+                                     const Spacing& spacing) {
+  constexpr float least_facing =
+      -.1F;  // cosine of 96 degrees; beyond it removing noise turns few normals to front
+  constexpr std::uint8_t rings = 3;  // of neighbours, which reach farther than the fits of curvature
+  std::vector<std::uint8_t> level(normals.size(), 0);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    if (normals[i].dot(towards_viewer) > least_facing) level[i] = rings + 1;
+  for (std::uint8_t ring = rings; ring > 0; --ring)
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (level[i] != ring + 1) continue;
+      for (const Index j : spacing.nearest[i])
+        if (j != no_index) level[j] = std::max(level[j], ring);
+    }
+  std::vector<Index> points;
+  for (Index i = 0; i < level.size(); ++i)
+    if (level[i] > 0) points.push_back(i);
+  return points;
+}
+
 void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress) {
   if (!cloud.has_normals() || !(spacing.rho > 0)) return;
-  CleanPoints clean = without_noise({cloud, spacing, KdTree<Vec3>(cloud.points)}, noise, progress);
+  std::vector<Index> all(cloud.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  CleanPoints clean = without_noise({cloud, spacing, KdTree<Vec3>(cloud.points)}, {noise, all}, progress);
   if (progress && progress->is_cancelled()) return;
   cloud.points = std::move(clean.points);
   cloud.normals = std::move(clean.normals);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/angle.h"
+#include "core/simd.h"
 #include "geometry/plane.h"
 #include "geometry/point_set.h"
 
@@ -64,24 +65,13 @@ class ChangeFinder {
   // Returns the change across a line through `place`. `near` must include all points within the radius of the
   // fits.
   Change across(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) const {
-    std::vector<Sample> samples;
+    const Samples samples = samples_of(place, direction, near);
+    if (std::min(samples.left, samples.right) < least_points) return {};
     Part left, right;
-    for (const Index i : near) {
-      const Vec2 to = (plane_.places[i] - place) / radius_;
-      const double rest = 1 - to.squaredNorm();
-      if (!(rest > 0)) continue;
-      const bool is_left = cross(direction, to) > 0;
-      samples.push_back(
-          {to, rest * rest, surface_.normals[i].cast<double>(), surface_.points[i].z(), is_left});
-      (is_left ? left : right).add(samples.back());
-    }
-    if (std::min(left.count, right.count) < least_points) return {};
+    RELIEVO_WIDE(add_samples(samples.fours, left, right));
     Part whole = left + right;
     for (Part* part : {&left, &right, &whole}) part->fit();
-    for (const Sample& s : samples) {
-      add_depth(s, s.is_left ? left : right);
-      add_depth(s, whole);
-    }
+    RELIEVO_WIDE(add_depths(samples.fours, left, right, whole));
     const double cosine = left.normal.dot(right.normal);
     return {(left.misfit() + right.misfit()) / std::max(whole.misfit(), 1e-12),
             (left.scatter() + right.scatter()) / std::max(whole.scatter(), 1e-12),
@@ -89,28 +79,45 @@ class ChangeFinder {
   }
 
  private:
-  struct Sample {
-    Vec2 to;  // from the position to the sample, as a share of the radius
-    double weight;
-    Vec3 normal;
-    double z;
-    bool is_left;
+  // Four points around a place. A missing one has no weight.
+  struct FourSamples {
+    Double4 x = {}, y = {};  // from the place, as a share of the radius
+    Double4 weight = {}, is_left = {};
+    Double4 n_x = {}, n_y = {}, n_z = {}, z = {};
   };
 
-  // Sums over samples, and the results of a linear fit to their normals.
+  struct Samples {
+    std::vector<FourSamples> fours;
+    std::size_t left = 0, right = 0;
+  };
+
+  Samples samples_of(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) const {
+    Samples samples;
+    samples.fours.reserve((near.size() + 3) / 4);
+    for (const Index i : near) {
+      const Vec2 to = (plane_.places[i] - place) / radius_;
+      const double rest = 1 - to.squaredNorm();
+      if (!(rest > 0)) continue;
+      const bool is_left = cross(direction, to) > 0;
+      const std::size_t lane = (samples.left + samples.right) % 4;
+      if (lane == 0) samples.fours.emplace_back();
+      FourSamples& four = samples.fours.back();
+      const Vec3f& n = surface_.normals[i];
+      four.x[lane] = to.x(), four.y[lane] = to.y(), four.weight[lane] = rest * rest,
+      four.is_left[lane] = is_left;
+      four.n_x[lane] = n.x(), four.n_y[lane] = n.y(), four.n_z[lane] = n.z(),
+      four.z[lane] = surface_.points[i].z();
+      ++(is_left ? samples.left : samples.right);
+    }
+    return samples;
+  }
+
+  // The sums of samples, and what a linear fit to their normals finds at the place.
   struct Part {
-    std::size_t count = 0;
     Mat3 moments = Mat3::Zero(), products = Mat3::Zero();
     Vec3 normal = Vec3::UnitZ();  // fitted normal at the position of the line
     double of_normals = 0, around_mean = 0;
     double depths = 0, squared_depths = 0;  // in rho
-
-    void add(const Sample& s) {
-      const Vec3 powers(1, s.to.x(), s.to.y());
-      moments += s.weight * powers * powers.transpose();
-      products += s.weight * powers * s.normal.transpose();
-      ++count;
-    }
 
     Part operator+(const Part& other) const {
       Part sum;
@@ -144,13 +151,69 @@ class ChangeFinder {
     double scatter() const { return around_mean + of_depths(); }
   };
 
-  // Adds the depth of a sample, extrapolated to the line's position along a chord. The chord is perpendicular
-  // to the mean of the normals at its ends.
-  void add_depth(const Sample& s, Part& part) const {
-    const Vec3 mean = part.normal + s.normal;
-    const double depth = (s.z + radius_ * mean.head<2>().dot(s.to) / std::max(mean.z(), .2)) / surface_.rho;
-    part.depths += s.weight * depth;
-    part.squared_depths += s.weight * depth * depth;
+  // The weighted moments of 1, x and y, and their products with the normals.
+  struct FourSums {
+    Double4 w = {}, x = {}, y = {}, xx = {}, xy = {}, yy = {};
+    Double4 n_x = {}, n_y = {}, n_z = {}, x_n_x = {}, x_n_y = {}, x_n_z = {}, y_n_x = {}, y_n_y = {},
+            y_n_z = {};
+
+    RELIEVO_INLINE void add(const FourSamples& s, const Double4& weight) {
+      const Double4 wx = weight * s.x, wy = weight * s.y;
+      w += weight, x += wx, y += wy, xx += wx * s.x, xy += wx * s.y, yy += wy * s.y;
+      n_x += weight * s.n_x, n_y += weight * s.n_y, n_z += weight * s.n_z;
+      x_n_x += wx * s.n_x, x_n_y += wx * s.n_y, x_n_z += wx * s.n_z;
+      y_n_x += wy * s.n_x, y_n_y += wy * s.n_y, y_n_z += wy * s.n_z;
+    }
+
+    void put_into(Part& part) const {
+      part.moments << total(w), total(x), total(y), total(x), total(xx), total(xy), total(y), total(xy),
+          total(yy);
+      part.products << total(n_x), total(n_y), total(n_z), total(x_n_x), total(x_n_y), total(x_n_z),
+          total(y_n_x), total(y_n_y), total(y_n_z);
+    }
+  };
+
+  RELIEVO_INLINE static void add_samples(const std::vector<FourSamples>& fours, Part& left, Part& right) {
+    FourSums of_left, of_right;
+    for (const FourSamples& s : fours) {
+      const Double4 weight = s.weight * s.is_left;
+      of_left.add(s, weight);
+      of_right.add(s, s.weight - weight);
+    }
+    of_left.put_into(left);
+    of_right.put_into(right);
+  }
+
+  // Depths of one part, in rho.
+  struct FourDepths {
+    Double4 sum = {}, squares = {};
+
+    RELIEVO_INLINE void add(const Double4& weight, const Double4& depth) {
+      sum += weight * depth, squares += weight * depth * depth;
+    }
+    void put_into(Part& part) const { part.depths = total(sum), part.squared_depths = total(squares); }
+  };
+
+  // Returns depths, continued to the place along chords, which are perpendicular to the mean of the normals at
+  // their ends.
+  RELIEVO_INLINE Double4 depths_at_place(const FourSamples& s, const Vec3& normal) const {
+    const Double4 n_z = s.n_z + normal.z(), least = Double4{} + .2;
+    const Double4 rise = (s.n_x + normal.x()) * s.x + (s.n_y + normal.y()) * s.y;
+    return (s.z + radius_ * rise / (n_z > least ? n_z : least)) / surface_.rho;
+  }
+
+  RELIEVO_INLINE void add_depths(const std::vector<FourSamples>& fours, Part& left, Part& right,
+                                 Part& whole) const {
+    FourDepths of_left, of_right, of_whole;
+    for (const FourSamples& s : fours) {
+      const Double4 weight = s.weight * s.is_left;
+      of_left.add(weight, depths_at_place(s, left.normal));
+      of_right.add(s.weight - weight, depths_at_place(s, right.normal));
+      of_whole.add(s.weight, depths_at_place(s, whole.normal));
+    }
+    of_left.put_into(left);
+    of_right.put_into(right);
+    of_whole.put_into(whole);
   }
 
   const Surface& surface_;

@@ -151,24 +151,25 @@ std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowP
   };
   parallel_ranges(rows.size(), 256, [&](std::size_t begin, std::size_t end) {
     NearSearch<Vec2> search(tree_, plane_);
-    std::vector<Match> matches;
+    Around around;
     search.each(begin, end, ball, [&](std::size_t r, std::span<const Index> near) {
-      matches.clear();
-      for (const Index i : near) matches.emplace_back(i, (plane_[i] - rows[r].at).squaredNorm());
-      values[r] = at(rows[r], matches);
+      around.matches.clear();
+      for (const Index i : near) around.matches.emplace_back(i, (plane_[i] - rows[r].at).squaredNorm());
+      values[r] = at(rows[r], around);
     });
   });
   return values;
 }
 
-// Returns the values at a new point, from the `matches` within the radius of a fit, or from farther points if
-// these are too few.
-SideInterpolation::Value SideInterpolation::at(const RowPoint& p, std::vector<Match>& matches) const {
+// Returns the values at a new point from the `matches` within the radius of a fit, or from farther points where
+// these are few.
+SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around) const {
   double radius = fit_radius * surface_.rho;
-  leave_same_side(p, matches);
+  std::vector<Match>& matches = around.matches;
+  leave_same_side(p, radius, around);
   for (int attempt = 1; attempt < 3 && matches.size() < 6; ++attempt) {
     tree_.within(p.at, radius *= 1.6, matches);
-    leave_same_side(p, matches);
+    leave_same_side(p, radius, around);
   }
   // In a sliver between two outlines all points may be on these outlines. Then points of the silhouette are
   // interpolated from them. Without a silhouette, long triangles would cross the sliver.
@@ -180,11 +181,13 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p, std::vector<Ma
   return interpolated(p, radius, matches);
 }
 
-// Keeps only the points on the same side of all outlines as p. Points on an outline are removed, because they
-// may belong to either side. Noise moves some points across an outline. So points are also removed if there
-// is a jump between them and the point that is farthest from all outlines.
-void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& matches) const {
+// Keeps only the points, within the radius, on the same side of all outlines as p. Points on an outline are left
+// out, because they may belong to either side. Noise moves some points across an outline, so points are also left out if
+// there is a jump between them and the point that is farthest from all outlines.
+void SideInterpolation::leave_same_side(const RowPoint& p, double radius, Around& around) const {
+  std::vector<Match>& matches = around.matches;
   Index safest = no_index;
+  around.lines.begin(grid_, p.seen_from, radius + (p.seen_from - p.at).norm());
   std::erase_if(matches, [&](const auto& m) {
     const float distance = outline_distance_[m.first];
     if (distance < on_outline_) return true;
@@ -193,7 +196,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     // The distance is infinite far from outlines and outside.
     const bool is_clear = std::isfinite(distance) &&
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
-    if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
+    if (!is_clear && around.lines.is_crossed(place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;
     return false;
   });

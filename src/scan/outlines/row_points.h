@@ -77,8 +77,14 @@ class SideInterpolation {
  private:
   using Match = KdTree<Vec2>::Match;
 
-  Value at(const RowPoint& p, std::vector<Match>& matches) const;
-  void leave_same_side(const RowPoint& p, std::vector<Match>& matches) const;
+  // The points around a new point, and lines from the place that it is seen from.
+  struct Around {
+    std::vector<Match> matches;
+    LinesFrom lines;
+  };
+
+  Value at(const RowPoint& p, Around& around) const;
+  void leave_same_side(const RowPoint& p, double radius, Around& around) const;
   void leave_same_face(std::vector<Match>& matches) const;
   Value interpolated(const RowPoint& p, double radius, std::span<const Match> matches) const;
   double depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const;

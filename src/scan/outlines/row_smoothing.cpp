@@ -5,15 +5,14 @@
 #include <cmath>
 #include <functional>
 
+#include "core/simd.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
 using Value = SideInterpolation::Value;
-using Numbers = Eigen::Vector4d;  // depth in rho, n_x, n_y, curvature
-// Numbers at the smoothed point, then the coefficients of the linear and the quadratic term.
-using Curve = Eigen::Matrix<double, 3, 4>;
+using Numbers = Double4;  // depth in rho, n_x, n_y, curvature
 
 constexpr double window = 3;                            // in rho
 constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a point has half of its weight
@@ -27,30 +26,38 @@ class RowSmoother {
       : points_(points), values_(values), rho_(rho) {}
 
   Value at(std::size_t point) const {
-    const std::vector<Sample> samples = samples_near(point);
-    std::vector<double> trust(samples.size(), 1);
-    Curve curve;
-    for (int pass = 0; pass < passes; ++pass) {
-      curve = fitted(samples, trust);
-      for (std::size_t s = 0; s < samples.size(); ++s) {
-        const Numbers off = samples[s].numbers - curve.transpose() * powers(samples[s].along);
-        const double depth = off[0] / trusted_depth, lean = off.segment<2>(1).norm() / trusted_lean;
-        trust[s] = 1 / (1 + depth * depth + lean * lean);
+    std::vector<Sample> samples = samples_near(point);
+    for (int pass = 1; pass < passes; ++pass) {
+      const Curve curve = fitted(samples);
+      for (Sample& s : samples) {
+        const Numbers off = s.numbers - (curve.begin + (curve.slope * s.share + curve.bend * s.share_sq));
+        const double depth = off[0] / trusted_depth, lean = length_of_lean(off) / trusted_lean;
+        s.trust = 1 / (1 + depth * depth + lean * lean);
       }
     }
-    return with_numbers(values_[point], curve.row(0).transpose());
+    return with_numbers(values_[point], fitted(samples).begin);
   }
 
  private:
   struct Sample {
-    double along;  // position along the row relative to the smoothed point, in rho
+    double share;  // way along the row from the smoothed point, as a share of the window
     Numbers numbers;
+    double share_sq = share * share, trust = 1;
   };
 
-  // Returns the samples of the point's row within the window, including the point. If a crease crosses the
-  // row, only samples on the point's side are returned, unless these are so few that the point is an outlier.
+  // Numbers at the smoothed point, and how they change with the way and its square.
+  struct Curve {
+    Numbers begin, slope, bend;
+  };
+
+  static double length_of_lean(const Numbers& numbers) { return Vec2(numbers[1], numbers[2]).norm(); }
+
+  // Returns the samples of the point's row within the window, its own one included. Where a crease crosses the
+  // row, only those on the point's side are returned, unless they are so few that the point is an outlier.
   std::vector<Sample> samples_near(std::size_t point) const {
-    std::vector<Sample> samples = {{0, numbers(point)}};
+    std::vector<Sample> samples;
+    samples.reserve(24);
+    samples.push_back({0, numbers(point)});
     for (const int side : {-1, 1}) {
       double along = 0;
       std::size_t k = point;
@@ -59,13 +66,12 @@ class RowSmoother {
         if (next >= points_.size() || points_[next].row != points_[point].row) break;
         along += (points_[next].at - points_[k].at).norm() / rho_;
         if (along >= window) break;
-        if (values_[next].is_known) samples.push_back({side * along, numbers(next)});
+        if (values_[next].is_known) samples.push_back({side * along / window, numbers(next)});
         k = next;
       }
     }
-    const auto is_alike = [own = Numbers(samples.front().numbers)](const Sample& s) {
-      return (s.numbers - own).segment<2>(1).norm() < other_face;
-    };
+    const Numbers own = samples.front().numbers;
+    const auto is_alike = [&](const Sample& s) { return length_of_lean(s.numbers - own) < other_face; };
     const auto alike = static_cast<std::size_t>(std::ranges::count_if(samples, is_alike));
     if (alike >= std::max<std::size_t>(2, samples.size() / 3)) std::erase_if(samples, std::not_fn(is_alike));
     return samples;
@@ -73,31 +79,31 @@ class RowSmoother {
 
   Numbers numbers(std::size_t point) const {
     const Value& v = values_[point];
-    return {v.point.z() / rho_, static_cast<double>(v.normal.x()), static_cast<double>(v.normal.y()), v.k};
+    return Numbers{v.point.z() / rho_, static_cast<double>(v.normal.x()), static_cast<double>(v.normal.y()),
+                   v.k};
   }
 
-  static Vec3 powers(double along) {
-    const double share = along / window;
-    return {1, share, share * share};
-  }
-
-  static Curve fitted(const std::vector<Sample>& samples, const std::vector<double>& trust) {
+  static Curve fitted(const std::vector<Sample>& samples) {
     Mat3 moments = Mat3::Zero();
-    Curve products = Curve::Zero();
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-      const Vec3 p = powers(samples[s].along);
-      const double weight = trust[s] * (1 - p[2]) * (1 - p[2]);
-      moments += weight * p * p.transpose();
-      products += weight * p * samples[s].numbers.transpose();
+    Numbers sum = {}, by_share = {}, by_square = {};
+    for (const Sample& s : samples) {
+      const double weight = s.trust * (1 - s.share_sq) * (1 - s.share_sq);
+      const Vec3 powers(1, s.share, s.share_sq), weighted = weight * powers;
+      moments += weighted * powers.transpose();
+      sum += weight * s.numbers, by_share += weighted[1] * s.numbers, by_square += weighted[2] * s.numbers;
     }
     moments(1, 1) += stiffness * moments(0, 0);
     moments(2, 2) += stiffness * moments(0, 0);
-    return moments.inverse() * products;
+    const Mat3 inverse = moments.inverse();
+    const auto row = [&](Eigen::Index i) -> Numbers {
+      return inverse(i, 0) * sum + (inverse(i, 1) * by_share + inverse(i, 2) * by_square);
+    };
+    return {row(0), row(1), row(2)};
   }
 
   Value with_numbers(Value value, const Numbers& numbers) const {
     value.point.z() = numbers[0] * rho_;
-    Vec2 lean = numbers.segment<2>(1);
+    Vec2 lean(numbers[1], numbers[2]);
     const double most = std::sqrt(1 - least_nz * least_nz);
     if (lean.norm() > most) lean *= most / lean.norm();
     value.normal = Vec3(lean.x(), lean.y(), std::sqrt(1 - lean.squaredNorm())).cast<float>();

@@ -187,7 +187,8 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
       centre(measured.centre()),
       rho(measured.spacing().rho),
       diagonal(measured.diagonal()) {
-  const Cloud& cloud = measured.cloud();
+  const auto clean = measured.without_noise(Vec3f::Zero());
+  const Cloud& cloud = clean->cloud;
   const std::size_t stride = (cloud.size() + most_drawn - 1) / most_drawn;
   const float sign = measured.do_normals_point_inward() ? -1.F : 1.F;
   const double sparser = std::sqrt(static_cast<double>(stride));
