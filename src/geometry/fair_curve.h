@@ -15,8 +15,9 @@ struct CurveNode {
 };
 
 struct FairCurveOptions {
-  double spacing = 1;  // spacing of the curve's points
-  double window = 4;   // half the length of curve that a point is fitted to; more is smoother
+  double spacing = 1;             // spacing of the curve's points
+  double window = 4;              // half the length of curve that a point is fitted to; more is smoother
+  double corner_window = window;  // the same for the curve on which corners are looked for
 };
 
 struct FairCurve {
