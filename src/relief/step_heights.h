@@ -31,7 +31,7 @@ struct StepFields {
   // along all other edges it is 0. A form that consists of steps, such as letters on a plate, would vanish
   // without these heights.
   StepHeights steps;
-  // Across the wall at a jump the difference is tanh(that part / (0.05 side)), along all other edges 0. The
+  // Across a wall the difference is tanh(that part / (0.05 side)), along all other edges 0. The
   // steps are 1 high where the jump is deep, and run out where it ends. They set each part off what is behind
   // it.
   StepHeights planes;
