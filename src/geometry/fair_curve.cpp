@@ -278,9 +278,10 @@ bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> d
   return from_sides < scatter * from_curve;
 }
 
-// Returns the corners in the order of their length, which is that of the nearest point of the drawn curve. Of
-// corners closer together than 1.5 windows only the sharpest is returned.
-std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
+// Returns the corners in the order of their length. Of corners closer together than 1.5 windows only the
+// sharpest is returned. A corner's length is that of the nearest place on the drawn curve.
+std::vector<Corner> corners_of(const Course& course, FairCurveOptions options) {
+  options.window = options.corner_window;
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
   std::vector<Corner> found(steps), corners;
   std::vector<double> lengths(steps);

@@ -64,6 +64,32 @@ TEST(StepHeights, ThereAreNoneWithoutAJump) {
   EXPECT_TRUE(test::prepared(test::sphere(20000, 1)).steps().empty());
 }
 
+// A step that grows along its edge from nothing to 6 rho. No part of its wall is left level because the depth
+// differs by less there than a jump needs.
+TEST(Planes, StepWhereverTheDepthDoes) {
+  constexpr double growth = .0425, scale = .05 * 2;
+  const auto step = [](double y) { return growth * (1 + y); };
+  const ReliefModel model = test::prepared(test::height_field(
+      20000, 1, [=](double x, double y) { return x < 0 ? step(y) : 0; },
+      [=](double x, double) -> Vec2 {
+        return {0, x < 0 ? growth : 0};
+      }));
+  const Surface& surface = model.surface();
+  std::size_t count = 0, low = 0;
+  for (const Triangle& corners : surface.triangulation.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = corners[k], b = corners[(k + 1) % 3];
+      const double y = (surface.points[a] + surface.centre).y();
+      const double depth = surface.points[a].z() - surface.points[b].z();
+      if (!surface.boundary.is_across_wall(a, b) || std::abs(y) > .8 || depth < surface.rho) continue;
+      ++count;
+      const auto height = static_cast<double>(model.planes().z[a] - model.planes().z[b]);
+      low += height < .5 * std::tanh(depth / scale);
+    }
+  ASSERT_GT(count, 100);
+  EXPECT_LT(low, .02 * static_cast<double>(count));
+}
+
 TEST(Steps, ReachAHeightThatSlopesDoNot) {
   const ReliefModel model = test::prepared(terraces(20000));
   for (const double height : {.01, .2, .699}) {

@@ -269,7 +269,7 @@ class JumpLines {
 }  // namespace
 
 FairCurveOptions jump_curve_options(double rho) {
-  return {point_spacing * rho, jump_window * rho};
+  return {point_spacing * rho, jump_window * rho, fair_window * rho};
 }
 
 bool is_occlusion(const Surface& surface, Index a, Index b) {
