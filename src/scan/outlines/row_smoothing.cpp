@@ -79,7 +79,8 @@ class RowSmoother {
 
   Numbers numbers(std::size_t point) const {
     const Value& v = values_[point];
-    return Numbers{v.point.z() / rho_, static_cast<double>(v.normal.x()), static_cast<double>(v.normal.y()), v.k};
+    return Numbers{v.point.z() / rho_, static_cast<double>(v.normal.x()), static_cast<double>(v.normal.y()),
+                   v.k};
   }
 
   static Curve fitted(const std::vector<Sample>& samples) {
