@@ -14,7 +14,6 @@ namespace relievo::app::cli {
 // The texts of InputArguments, as typed.
 struct InputTexts {
   OptionValues depth;
-  std::string camera;
   double stream_above_mb = InputArguments{}.stream_above_mb;
 };
 

@@ -13,17 +13,6 @@ namespace relievo::app {
 
 namespace {
 
-// Replaces the name of a file of strokes by its text.
-Result<void> read_strokes(OptionValues& values) {
-  const auto strokes = values.find("strokes");
-  if (strokes == values.end() || !std::holds_alternative<std::string>(strokes->second)) return {};
-  auto& text = std::get<std::string>(strokes->second);
-  if (text.empty() || text.starts_with('[') || !is_there(text)) return {};
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(text));
-  text = text_in(bytes);
-  return {};
-}
-
 // Returns the values of an order, and those of its project that the order does not give.
 OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   return stored ? with_given(stored->project.options, order.values) : order.values;
@@ -37,7 +26,7 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
   if (project) find_ornament_files(project->options, stored->folder);
   OptionValues values = project ? with_given(project->options, order.values) : order.values;
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
-  RELIEVO_CHECK(read_strokes(values));
+  RELIEVO_CHECK(take_text_of_file("strokes", values));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,
@@ -55,6 +44,7 @@ std::vector<std::string> CheckedOrder::paths() const {
 
 Result<CheckedOrder> check_order(MakeOrder order) {
   const bool are_files = !order.read;
+  RELIEVO_CHECK(take_text_of_file("camera", order.values));
   RELIEVO_TRY(auto project,
               find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "relievo/io/read.h"
@@ -21,7 +22,6 @@ constexpr double most_points_at_once = sizeof(void*) == 4 ? 3e6 : std::numeric_l
 
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;            // camera of a depth image: numbers, or a file with them
   double stream_above_mb = 512;  // larger files are read in blocks where that is possible
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
   bool keeps_doubtful = false;   // as in ReadOptions
@@ -43,8 +43,11 @@ struct PointsWanted {
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
                                 bool keeps_doubtful = false);
 
-// Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera()
-// and depth_cloud().
+// Replaces the value of an option that names a file, such as `camera`, by the file's text. Errors: kind input, if
+// it cannot be read.
+Result<void> take_text_of_file(std::string_view option, OptionValues& values);
+
+// Returns the points of a depth image, called `name` in errors and remarks. Errors: those of depth_cloud().
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
@@ -60,7 +63,7 @@ bool is_scene_file(const std::string& path);
 
 // Reads the files of those paths: one or several models, or one scene file (.json). Depth images and very
 // large files are reduced to the points that are `wanted`. Errors: those of read_file(), read_cloud(),
-// stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file together
+// stream_front(), depth_cloud(), read_scene_file(); kind option for a scene file together
 // with other files.
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);

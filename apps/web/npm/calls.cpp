@@ -67,7 +67,7 @@ std::string text(const Json& json, const char* key, std::string otherwise = {}) 
   return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
 }
 
-// Reads {"inputs": [paths], "options": {name: number or text}, "camera": text, "base_image": path,
+// Reads {"inputs": [paths], "options": {name: number or text}, "base_image": path,
 // "stream_above_mb": number}; each may be missing. Options have the names of the command line; lengths may be
 // texts with a unit. Errors: kind option, naming the option.
 Result<MakeOrder> order_from(const Json& json) {
@@ -82,7 +82,6 @@ Result<MakeOrder> order_from(const Json& json) {
     if (!value) return option_error(name, std::string(expected_type(*option)));
     order.values.emplace(name, *value);
   }
-  order.in.camera = text(json, "camera");
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");
   if (json.contains("stream_above_mb"))
