@@ -222,8 +222,10 @@ std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::ve
 
 bool is_path(const std::string& option, const std::string& value) {
   std::error_code ignored;
-  constexpr std::array names = {"base-image", "camera", "font", "ornaments", "strokes"};
-  return std::ranges::find(names, option) != names.end() && fs::is_regular_file(value, ignored);
+  const OptionRow* const row = find_option(option);
+  const bool may_be_file =
+      option == "base-image" || option == "camera" || (row && (row->unit == "FILE" || row->unit == "JSON"));
+  return may_be_file && fs::is_regular_file(value, ignored);
 }
 
 Json to_json(const Job& job) {

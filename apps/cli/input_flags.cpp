@@ -7,9 +7,6 @@ namespace relievo::app::cli {
 void add_input_flags(CLI::App& command, InputTexts& texts) {
   add_flags(command, texts.depth, [](const OptionRow& option) { return !option.is_of_relief(); });
   command
-      .add_option("--camera", texts.camera, "of a depth image: focal lengths and centre, or a file with them")
-      ->type_name("FX,FY,CX,CY");
-  command
       .add_option("--stream-above", texts.stream_above_mb,
                   "size from which binary PLY, PCD and LAS are read piece by piece")
       ->type_name("MB")
@@ -17,9 +14,11 @@ void add_input_flags(CLI::App& command, InputTexts& texts) {
 }
 
 Result<InputArguments> parse_input_texts(const InputTexts& texts) {
-  RELIEVO_TRY(const DepthOptions depth, parse_depth(texts.depth));
-  RELIEVO_TRY(const bool keeps_doubtful, parse_doubtful(texts.depth));
-  InputArguments arguments{depth, texts.camera, texts.stream_above_mb};
+  OptionValues values = texts.depth;
+  RELIEVO_CHECK(take_text_of_file("camera", {}, values));
+  RELIEVO_TRY(const DepthOptions depth, parse_depth(values));
+  RELIEVO_TRY(const bool keeps_doubtful, parse_doubtful(values));
+  InputArguments arguments{depth, texts.stream_above_mb};
   arguments.are_pipes_fine = true;
   arguments.keeps_doubtful = keeps_doubtful;
   return arguments;

@@ -14,7 +14,6 @@ namespace relievo::app::cli {
 // The values of InputArguments as the user types them.
 struct InputTexts {
   OptionValues depth;
-  std::string camera;
   double stream_above_mb = InputArguments{}.stream_above_mb;
 };
 

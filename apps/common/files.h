@@ -20,6 +20,9 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
 // Returns whether a file, a folder or a device has that path.
 bool is_there(const std::string& path);
 
+// Returns the path, continued from the folder if it is relative.
+std::string path_in(const std::string& folder, const std::string& path);
+
 // Checks that no folder, device or pipe has that path. The path may also be missing. Errors: kind input.
 Result<void> check_file(const std::string& path);
 

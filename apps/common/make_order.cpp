@@ -25,11 +25,11 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
   if (stored) project = stored->project;
   if (project) {
     find_ornament_files(project->options, stored->folder);
-    RELIEVO_CHECK(read_strokes(project->options, stored->folder));
+    RELIEVO_CHECK(take_text_of_file("strokes", stored->folder, project->options));
   }
   OptionValues values = project ? with_given(project->options, order.values) : order.values;
   if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
-  RELIEVO_CHECK(read_strokes(values, {}));
+  RELIEVO_CHECK(take_text_of_file("strokes", {}, values));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,
@@ -47,6 +47,7 @@ std::vector<std::string> CheckedOrder::paths() const {
 
 Result<CheckedOrder> check_order(MakeOrder order) {
   const bool are_files = !order.read;
+  RELIEVO_CHECK(take_text_of_file("camera", {}, order.values));
   RELIEVO_TRY(auto project,
               find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));

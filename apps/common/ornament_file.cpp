@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string path_in(const std::string& folder, const std::string& path) {
-  return (std::filesystem::path(folder) / path).string();
-}
-
 bool is_json(const std::string& text) {
   return text.starts_with('{');
 }
@@ -158,18 +154,6 @@ Result<void> read_ornaments(ReliefOptions& options) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(source));
   const std::string folder = std::filesystem::path(source).parent_path().string();
   return set(options.ornaments, parse_ornaments(text_in(bytes), source, folder));
-}
-
-Result<void> read_strokes(OptionValues& values, const std::string& folder) {
-  const auto strokes = values.find("strokes");
-  if (strokes == values.end() || !std::holds_alternative<std::string>(strokes->second)) return {};
-  auto& text = std::get<std::string>(strokes->second);
-  if (text.empty() || text.starts_with('[')) return {};
-  const std::string path = path_in(folder, text);
-  if (!is_there(path)) return {};  // reading the option says what it expected
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
-  text = text_in(bytes);
-  return {};
 }
 
 }  // namespace relievo::app

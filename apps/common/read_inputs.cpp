@@ -26,13 +26,6 @@ std::string remark_on_missing(const std::string& path, std::uint64_t points) {
   return cat(path, ": the file ends early; ", points, " points that its header promises are missing");
 }
 
-Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
-  if (camera.empty()) return std::nullopt;
-  if (!is_there(camera)) return parse_camera(camera);
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(camera));
-  return parse_camera(text_in(bytes));
-}
-
 std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   std::string line =
       cat(image.values.width, " x ", image.values.height, " depths, ", made.missing, " missing");
@@ -47,7 +40,7 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
 
 // Returns the default meaning of the values: heights in formats of terrain, depths in all others.
 DepthValues usual_values(const DepthImage& image) {
-  const bool has_heights = image.pixel_size.x() > 0 || image.format == "table of heights";
+  const bool has_heights = image.pixel_size.x() > 0 || image.format.starts_with("table of heights");
   return has_heights ? DepthValues::height : DepthValues::depth;
 }
 
@@ -226,13 +219,23 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
   return read_cloud(bytes, path, ReadOptions{beside, keeps_doubtful});
 }
 
+Result<void> take_text_of_file(std::string_view option, const std::string& folder, OptionValues& values) {
+  const auto found = values.find(option);
+  std::string* const text = found == values.end() ? nullptr : std::get_if<std::string>(&found->second);
+  if (!text || text->empty()) return {};
+  const std::string path = path_in(folder, *text);
+  if (!is_there(path)) return {};  // reading the option says what it expected
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
+  *text = text_in(bytes);
+  return {};
+}
+
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress) {
   DepthOptions options = arguments.depth;
   options.points = points;
   if (arguments.is_lithophane && options.values == DepthValues::luminance)
     return take_picture(image, name, options);
-  RELIEVO_TRY(options.camera, read_camera(arguments.camera));
   RELIEVO_TRY(DepthCloud made, naming(name, depth_cloud(image, options, progress)));
   const std::string remark = cat(name, ": ", remark_on(image, made));
   return model_of(name, image, remark, {std::move(made), options.values});

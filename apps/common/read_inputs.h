@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "relievo/io/read.h"
@@ -20,7 +21,6 @@ constexpr double most_points_at_once = sizeof(void*) == 4 ? 3e6 : std::numeric_l
 
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;            // camera of a depth image: its numbers, or the path of a file that has them
   double stream_above_mb = 512;  // larger files are read in blocks where that is possible
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
   bool keeps_doubtful = false;   // see ReadOptions
@@ -43,8 +43,11 @@ struct PointsWanted {
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
                                 bool keeps_doubtful = false);
 
-// Returns the points of a depth image. Errors and remarks call it `name`. Errors: those of parse_camera() and
-// depth_cloud().
+// Replaces the value of an option that names a file, such as `camera`, by the file's text. A relative path starts at
+// the folder. Other values stay. Errors: kind input if the file cannot be read.
+Result<void> take_text_of_file(std::string_view option, const std::string& folder, OptionValues& values);
+
+// Returns the points of a depth image. Errors and remarks call it `name`. Errors: those of depth_cloud().
 Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
@@ -60,7 +63,7 @@ bool is_scene_file(const std::string& path);
 
 // Reads the files at the paths: one or several models, or one scene file (.json). From depth images and very
 // large files keeps only the points that are `wanted`. Errors: those of read_file(), read_cloud(),
-// stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene file together
+// stream_front(), depth_cloud(), read_scene_file(); kind option for a scene file together
 // with other files.
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
@@ -96,9 +99,5 @@ void find_ornament_files(OptionValues& own, const std::string& folder);
 // Reads the files that the options `font` and `ornaments` name. If the text of `ornaments` begins with a
 // brace, it is JSON itself and not a path. Errors: those of read_file() and parse_ornaments().
 Result<void> read_ornaments(ReliefOptions& options);
-
-// Replaces the name of a file of strokes by its text. A relative path starts at the folder. Errors: those of
-// read_file().
-Result<void> read_strokes(OptionValues& values, const std::string& folder);
 
 }  // namespace relievo::app

@@ -268,7 +268,7 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
                                  const std::string& folder) {
   RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, name));
   RELIEVO_TRY(Project project, read_project(file.text, name));
-  RELIEVO_CHECK(read_strokes(project.options, folder));
+  RELIEVO_CHECK(take_text_of_file("strokes", folder, project.options));
   RELIEVO_TRY(const ReliefOptions read, parse_options(project.options));
   RELIEVO_CHECK(parse_depth(project.options));
   ScanSource& input = project.input;

@@ -9,7 +9,7 @@ import { writeAll } from "./write_all.js";
 
 const OUTPUTS = { output: "solid", preview: "preview", heightmap: "heightmap", "tool-picture": "tool_picture", report: "report" };
 const MAP_VALUES = ["pixel", "dpi", "heightmap-bits", "heightmap-area", "heightmap-zero", "heightmap-high"];
-const OTHER_VALUES = [...MAP_VALUES, "units", "heightmap-size", "preview-size", "camera", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
+const OTHER_VALUES = [...MAP_VALUES, "units", "heightmap-size", "preview-size", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
 
 // Ends the program with exit code 2 for misuse, and 1 for bad input or output.
 function fail(message, code = 1) {
@@ -115,8 +115,8 @@ async function make(args) {
   if (!values.output) misuse("expected --output, found none; see relievo make --help");
   const units = values.units ?? "mm";
   const engine = await newEngine();
-  const request = { inputs: addFiles(engine, inputs), options: {}, camera: values.camera };
-  if (request.camera && fs.existsSync(request.camera)) request.camera = fs.readFileSync(request.camera, "utf8");
+  const request = { inputs: addFiles(engine, inputs), options: {} };
+  if (values.camera && fs.existsSync(values.camera)) values.camera = fs.readFileSync(values.camera, "utf8");
   if (values["stream-above"]) request.stream_above_mb = numberOf(values, "stream-above");
   if (values["base-image"]) [request.base_image] = addFiles(engine, [values["base-image"]]);
   for (const option of optionTable)

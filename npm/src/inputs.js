@@ -7,7 +7,7 @@ const camelCase = (keyword) => keyword.replace(/_(\w)/g, (_, letter) => letter.t
 const nameOf = new Map(optionTable.map(({ keyword, name }) => [camelCase(keyword), name]));
 const isNumber = new Set(optionTable.filter((option) => "min" in option).map(({ name }) => name));
 const keywordOf = new Map([...nameOf].map(([keyword, name]) => [name, keyword]));
-const OF_THE_CALL = new Set(["progress", "signal", "camera", "baseImage", "streamAboveMb", "name"]);
+const OF_THE_CALL = new Set(["progress", "signal", "baseImage", "streamAboveMb", "name"]);
 // Maps keywords, with and without their unit, to keywords: users often omit the unit.
 const all = [...nameOf.keys(), ...OF_THE_CALL];
 const keywords = new Map([...all.map((keyword) => [keyword.replace(/(Mm|Deg|Mb)$/, ""), keyword]), ...all.map((keyword) => [keyword, keyword])]);
@@ -83,7 +83,6 @@ export function requestOf(options, nearest) {
     if (typeof value === "number" && !Number.isFinite(value)) throw optionError(keyword, `expected a finite number, found ${value}`);
     request.options[name] = isNumber.has(name) ? value : textOf(value);
   }
-  if (options.camera) request.camera = textOf(options.camera);
   if (options.streamAboveMb !== undefined) request.stream_above_mb = options.streamAboveMb;
   return request;
 }

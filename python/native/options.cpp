@@ -52,10 +52,7 @@ OptionValues values_of(const py::dict& given) {
 
 app::InputArguments input_arguments(const py::dict& given) {
   app::InputArguments arguments;
-  const OptionRow camera{.name = "camera", .unit = "TEXT", .help = {}};
   const OptionRow stream{.name = "stream_above_mb", .unit = "MB", .min = 0, .max = 1e9, .help = {}};
-  if (const py::object found = given.attr("get")("camera"); !found.is_none())
-    arguments.camera = std::get<std::string>(value_of(camera, found));
   if (const py::object found = given.attr("get")("stream_above_mb"); !found.is_none())
     arguments.stream_above_mb = std::get<double>(value_of(stream, found));
   return arguments;

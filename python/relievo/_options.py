@@ -23,7 +23,7 @@ def of_stage(*stages: str) -> list[str]:
     return [row["keyword"] for row in TABLE if row["stage"] in stages]
 
 
-INPUT = [*of_stage("input"), "camera", "base_image", "scan", "stream_above_mb"]
+INPUT = [*of_stage("input"), "base_image", "scan", "stream_above_mb"]
 
 _TEXTS = {row["keyword"] for row in TABLE if "min" not in row}
 
@@ -37,7 +37,6 @@ OF_FRAME = of_stage("shape")
 ELSEWHERE = {"threads": "set_threads() sets the number of threads"}
 
 _EXTRA_HELP = {
-    "camera": "of a depth image: FX,FY,CX,CY, the matrix, or a file with one of them",
     "base_image": "height map for base image: a path or a 2-D array, bright is high",
     "scan": "of a project: the path of its scan, where it is not found",
     "stream_above_mb": "size from which binary PLY, PCD and LAS are read piece by piece; 512",
@@ -73,8 +72,6 @@ def texts(options: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in options.items():
         if isinstance(value, os.PathLike):
             made[name] = os.fsdecode(value)
-        elif name == "camera" and value is not None and not isinstance(value, str):
-            made[name] = text_of(np.ravel(value))
         elif name in _TEXTS:
             made[name] = text_of(value)
     return made

@@ -6,6 +6,7 @@
 #include "core/number.h"
 #include "pipeline/option_targets.h"
 #include "relievo/core/text.h"
+#include "relievo/io/read.h"
 
 namespace relievo {
 namespace {
@@ -27,6 +28,10 @@ Result<Vec2> shift_of(std::string_view text) {
 }
 Result<std::string> same(std::string_view text) {
   return std::string(text);
+}
+
+Result<std::optional<DepthCamera>> camera_of(std::string_view text) {
+  return parse_camera(text);
 }
 
 Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
@@ -310,7 +315,11 @@ std::vector<OptionRow> input_rows() {
        .access = word<&DepthOptions::values, depth_value_choices>},
       {.name = "channel", .unit = "N", .stage = input, .min = 0, .max = 64,
        .help = "of a depth image with several channels: the one with the depths; 0: the only one",
-       .initial = 0., .is_hidden = true, .access = {read_channel}},
+       .initial = 0., .access = {read_channel}},
+      {.name = "camera", .unit = "FX,FY,CX,CY", .stage = input,
+       .help = "of a depth image: focal lengths and centre, in pixels, or the nine numbers of the matrix, or a file with "
+               "either",
+       .otherwise = "none", .access = text<&DepthOptions::camera, camera_of>},
       {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
        .help = "of a depth image without camera: nearest to farthest, in picture widths",
        .initial = DepthOptions{}.range, .is_hidden = true,

@@ -17,6 +17,7 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
   "depth-values": "Values are", background: "Background", blur: "Blur at edges",
+  camera: "Camera", channel: "Channel",
   "mm-per-value": "One unit is", ground: "Ground at",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
 // Labels of choices whose names on the command line are too short for users.

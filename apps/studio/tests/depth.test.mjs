@@ -97,6 +97,21 @@ test("has a project that make reads as the page does", async () => {
   await untilReady(page);
 });
 
+test("reads depths by the camera that is entered, and so does make with the project", async () => {
+  await enter(row("camera"), "100,100,59.5,44.5");
+  await soon.match(() => panel().innerText(), /All pixels are used/); // a camera keeps what is behind the figure
+  await untilReady(page);
+  const project = await savedProject();
+  assert.equal(JSON.parse(readFileSync(project, "utf8")).options.camera, "100,100,59.5,44.5");
+  assert.ok(madeOf(project).bytes.equals((await exported()).bytes));
+  await enter(row("camera"), "100,-1,59.5,44.5");
+  await soon.match(() => toast().innerText(), /Camera: expected FX,FY,CX,CY with positive focal lengths/);
+  await soon.equal(() => row("camera").inputValue(), "100,100,59.5,44.5");
+  await undo();
+  await soon.match(() => panel().innerText(), /Background/);
+  await untilReady(page);
+});
+
 test("has the panel for depth pictures alone", async () => {
   await show(scan);
   await soon.ok(async () => await panel().isHidden());

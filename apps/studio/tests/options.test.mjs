@@ -51,7 +51,8 @@ const CASES = {
   finish: {value: "reachable", first: {tool: "ball:3"}}, resolution: {value: 0.5}, tolerance: {value: 0.02},
   triangles: {value: 5000},
   "depth-values": {value: "height", isDepth: true}, background: {value: "keep", isDepth: true},
-  blur: {value: "drop", isDepth: true}, "mm-per-value": {value: 0.01, isDepth: true},
+  blur: {value: "drop", isDepth: true}, camera: {value: "300,300,60,45", isDepth: true},
+  channel: {value: 1, isDepth: true}, "mm-per-value": {value: 0.01, isDepth: true},
   ground: {value: 3000, first: {"mm-per-value": 0.01}, isDepth: true},
 };
 

@@ -66,7 +66,7 @@ std::string text(const Json& json, const char* key, std::string otherwise = {}) 
   return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
 }
 
-// Reads {"inputs": [paths], "options": {name: number or text}, "camera": text, "base_image": path,
+// Reads {"inputs": [paths], "options": {name: number or text}, "base_image": path,
 // "stream_above_mb": number}. All keys are optional. Options have the names of the command line; a length may
 // be a text with a unit. Errors: kind option, with the option's name.
 Result<MakeOrder> order_from(const Json& json) {
@@ -81,7 +81,6 @@ Result<MakeOrder> order_from(const Json& json) {
     if (!value) return option_error(name, std::string(expected_type(*option)));
     order.values.emplace(name, *value);
   }
-  order.in.camera = text(json, "camera");
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");
   if (json.contains("stream_above_mb"))

@@ -97,7 +97,7 @@ Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::strin
 Result<DepthCamera> parse_camera(std::string_view text) {
   std::string blanks(text);
   for (char& c : blanks)
-    if (c == ',' || c == '\n' || c == '\r') c = ' ';
+    if (c == ',' || c == ';' || c == '\n' || c == '\r') c = ' ';
   std::vector<double> n;
   io::Words words(blanks);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
