@@ -89,8 +89,6 @@ bool is_level(const ReliefOptions& options) {
          options.finish == Finish::full;
 }
 
-}  // namespace
-
 ReliefOptions without_ornaments(ReliefOptions options) {
   options.text.clear();
   options.font_name.clear();
@@ -100,6 +98,17 @@ ReliefOptions without_ornaments(ReliefOptions options) {
   options.ornament_source.clear();
   options.ornaments.clear();
   return options;
+}
+
+}  // namespace
+
+bool leave_out_ornaments(PictureRequest& request, const Error& error) {
+  const bool is_theirs =
+      error.kind == ErrorKind::option && (error.input == "text" || error.input == "ornaments");
+  if (!is_theirs || request.options.all_ornaments().empty()) return false;
+  request.options = without_ornaments(request.options);
+  request.ornament_error = error;
+  return true;
 }
 
 Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)

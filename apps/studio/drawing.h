@@ -96,7 +96,8 @@ struct PieceHeight {
   bool is_met = true;
 };
 
-ReliefOptions without_ornaments(ReliefOptions options);
+// Leaves out the ornaments of a request if the error of its piece is theirs. Returns whether it did.
+bool leave_out_ornaments(PictureRequest& request, const Error& error);
 
 // Not for concurrent use.
 class Drawing {

@@ -25,10 +25,6 @@ Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
 }
 
-bool is_of_ornaments(const Error& error) {
-  return error.kind == ErrorKind::option && (error.input == "text" || error.input == "ornaments");
-}
-
 // Returns a number that no other model has, in this run or another: the time in milliseconds, or a larger
 // number.
 std::uint64_t new_model_number() {
@@ -309,11 +305,7 @@ Result<void> Engine::finish(PictureRequest& request) {
   }));
   if (!missing) return {};
   auto made = piece(*missing, PieceUse::picture);
-  if (!made && is_of_ornaments(made.error()) && !missing->all_ornaments().empty()) {
-    request.options = without_ornaments(request.options);
-    request.ornament_error = std::move(made).error();
-    return finish(request);
-  }
+  if (!made && leave_out_ornaments(request, made.error())) return finish(request);
   if (!made) return unless_cancelled(made.error());
   return state_->with_drawing([&](Drawing& drawing) -> Result<void> {
     if (state_->drawn_model == model) drawing.take(std::move(*made), *missing);

@@ -11,7 +11,8 @@ const isPath = (source) => source !== "" && !source.startsWith("{");
 export const fileOf = ({ornaments}) => (isPath(ornaments) ? ornaments : "");
 
 // Returns the text that a project or the command line gives by options of its own.
-function ownText({text, "text-arc": arc, "text-size": size, "text-height": height, font}) {
+function ownText({text, font, ...options}) {
+  const [arc, size, height] = ["arc", "size", "height"].map((key) => options[`text-${key}`]);
   return text ? [withoutEmpty({kind: "text", text, arc, size, height, font})] : [];
 }
 
