@@ -137,6 +137,9 @@ class ShapePointMaker {
       loops_.push_back(rays_along(sides, loop, shape_.spacing_mm));
     for (const std::vector<Ray>& rays : loops_) feet_of_.push_back(add_feet(rays));
     made_.feet = made_.points.size();
+    has_ridges_ = std::ranges::any_of(loops_, [&](const std::vector<Ray>& rays) {
+      return std::ranges::any_of(rays, [&](const Ray& ray) { return has_ridge(ray); });
+    });
     tops_.resize(loops_.size());
     for (std::size_t loop = 0; loop < loops_.size(); ++loop) add_levels(loop);
     for (const bool are_edges : {true, false})
@@ -213,13 +216,13 @@ class ShapePointMaker {
       Index last = feet_of_[loop][i];
       for (const Index top : tops) {
         if (last != top) made_.edges.push_back({last, top});
-        if (last != top && are_edges) keep_clear(last, top);
+        if (last != top && are_edges && has_ridges_) keep_clear(last, top);
         last = top;
       }
     }
   }
 
-  // Prevents later points close to an edge.
+  // Prevents later points, which are those of ridges, close to an edge.
   void keep_clear(Index a, Index b) {
     const Vec2 from = made_.points[a].head<2>(), step = made_.points[b].head<2>() - from;
     const int parts = std::min(1000, static_cast<int>(std::ceil(step.norm() / (least_ / 2))));
@@ -235,10 +238,12 @@ class ShapePointMaker {
     return low.height_mm + std::clamp(share, 0.0, 1.0) * (high.height_mm - low.height_mm);
   }
 
-  // Adds the point where the ray meets the wall of another side, unless it reaches the last level before
-  // that.
+  // Returns whether the ray meets the wall of another side before it reaches the last level.
+  bool has_ridge(const Ray& ray) const { return ray.direction != Vec2::Zero() && !is_clear(ray, depth_); }
+
+  // Adds the point where the ray meets the wall of another side. Returns no_index if there is none.
   Index add_ridge(const Ray& ray) {
-    if (ray.direction == Vec2::Zero() || is_clear(ray, depth_)) return no_index;
+    if (!has_ridge(ray)) return no_index;
     double low = 0, high = depth_;
     for (int k = 0; k < halvings; ++k) {
       const double middle = (low + high) / 2;
@@ -273,6 +278,7 @@ class ShapePointMaker {
   SegmentGrid grid_;
   double least_;  // least distance between points of levels and ridges
   NumberedPoints near_;
+  bool has_ridges_ = false;  // whether walls of the shape meet
   std::vector<std::vector<Ray>> loops_;
   std::map<CornerKey, Index> feet_;
   std::vector<std::vector<Index>> feet_of_;            // per loop and ray
