@@ -19,6 +19,7 @@ struct ModelFacts {
   ScanReport scan = {};
   std::size_t points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // the relief's box, in the scan's units
+  Vec2 origin = Vec2::Zero();  // the box's lower left corner, in the scan's coordinates turned into the view
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<Remark> remarks;         // each text is a sentence
