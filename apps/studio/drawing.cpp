@@ -30,6 +30,7 @@ ModelFacts facts_of(const ReliefModel& model, std::size_t outliers, std::vector<
                    .hull = surface.triangulation.hull.size(),
                    .size = box.size().head<2>(),
                    .corner = box.min.head<2>(),
+                   .origin = (surface.view.R_view_model * surface.centre + box.min).head<2>(),
                    .delta = surface.curvature.delta,
                    .rotation = surface.view.R_view_model,
                    .has_colours = !surface.colours.empty(),

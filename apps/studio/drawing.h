@@ -20,6 +20,7 @@ struct ModelFacts {
   ScanReport scan = {};
   std::size_t points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // bounding box of the relief, in units of the scan
+  Vec2 origin = Vec2::Zero();  // lower left corner of the box, in the scan's coordinates turned into the view
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
   bool has_colours = false;            // whether the scan's points have colours

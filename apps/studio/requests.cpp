@@ -250,6 +250,7 @@ Json to_json(const ModelFacts& facts) {
           {"triangles", facts.triangles},
           {"hull", facts.hull},
           {"size", {facts.size.x(), facts.size.y()}},
+          {"origin", {facts.origin.x(), facts.origin.y()}},
           {"rho", scan.rho},
           {"noise", scan.removed_noise},
           {"delta", facts.delta},

@@ -1,16 +1,10 @@
 // The brush: a drag on the picture paints a stroke onto the model. The pointer's places become points of the model, and
 // the stroke so far is a change of the document, so that the picture follows.
 
-import {$, clamp, make, oneAtATime, pair} from "./controls.js";
+import {$, clamp, make, pair} from "./controls.js";
 import {hasScale} from "./document.js";
-import {erased, simplified, strokesOf, textOf} from "./strokes.js";
+import {KINDS, Painting} from "./painting.js";
 
-// `most` is the largest amount of a brush that the strength reaches.
-export const KINDS = {
-  soften: {label: "Soften", most: 1}, sharpen: {label: "Sharpen", most: 2}, strengthen: {label: "Strengthen", most: 2},
-  raise: {label: "Raise", most: 0.3}, sink: {label: "Sink", most: 0.3}, level: {label: "Level", most: 1},
-  erase: {label: "Erase strokes"},
-};
 const SLIDERS = {
   size: {label: "Size", name: "Brush size", min: 1, max: 30, first: 8,
     help: "Width, in shares of the longer side  [ ]"},
@@ -20,9 +14,6 @@ const SLIDERS = {
     help: "Share of the radius over which the change fades"},
 };
 const KEPT = "brush"; // key of the kept settings
-const APART = 1 / 6, LEAST_APART = 2; // of places along a stroke, in radii and in pixels
-const TOLERANCE = 1 / 40; // by which a line may differ from the drawn one, in radii
-const DIGITS = 1e5; // points are rounded to this part of the longer side
 const KEY_STEP = 12, RESIZE = 1.15; // pixels of an arrow key, factor of a bracket
 
 // Returns the settings that were kept; those that are missing or wrong get their first values.
@@ -31,82 +22,6 @@ function keptSettings() {
   const values = Object.entries(SLIDERS).map(([key, {min, max, first}]) =>
     [key, kept[key] >= min && kept[key] <= max ? kept[key] : first]);
   return {kind, isMirrored: kept.isMirrored === true, ...Object.fromEntries(values)};
-}
-
-// Returns a new name such as "Soften 2".
-function newName({label}, strokes) {
-  const numbers = strokes.map(({name}) => Number(name?.match(/^(\D+) (\d+)$/)?.[1] === label && name.match(/\d+$/)[0]));
-  return `${label} ${1 + Math.max(0, ...numbers)}`;
-}
-
-// One drag of the brush. It changes the document in one step.
-class Painting {
-  static count = 0;
-
-  constructor(brush, stage) {
-    const {engine: {document}, doc, settings} = brush;
-    Object.assign(this, {brush, doc, document, settings: {...settings}, id: `brush ${++Painting.count}`,
-      before: strokesOf(doc.now), ...brush.scaleOf(stage), waiting: [], lines: [[], []], pressures: []});
-    this.radius = this.longer * settings.size / 200;
-    this.name = newName(KINDS[settings.kind], this.before);
-    this.look = oneAtATime(() => this.lookUp());
-  }
-
-  // Continues the stroke at a pixel, unless the last place is near.
-  follow(stage, [x, y], pressure) {
-    const least = Math.max(LEAST_APART, APART * this.brush.radiusIn(stage));
-    if (this.last && Math.hypot(x - this.last[0], y - this.last[1]) < least) return;
-    this.last = [x, y];
-    this.pressures.push(pressure);
-    this.waiting.push(this.brush.shareOf(stage, [x, y]));
-    this.look();
-  }
-
-  // Finds the points of the model under the places that wait, and changes the document.
-  async lookUp() {
-    const places = this.waiting.splice(0), {isMirrored} = this.settings;
-    const mirrored = isMirrored ? places.map(([u, v]) => [1 - u, v]) : [];
-    if (places.length > 0) {
-      const points = await this.brush.engine.pointsUnder([...places, ...mirrored]).catch(() => []);
-      const found = (part) => part.filter(Boolean).map((point) => point.map((x) => this.rounded(x)));
-      this.lines[0].push(...found(points.slice(0, places.length)));
-      this.lines[1].push(...found(points.slice(places.length)));
-      this.show();
-    }
-    if (this.isOver && this.waiting.length === 0) this.doc.endStroke(this.id);
-  }
-
-  rounded(x) {
-    const digits = clamp(Math.ceil(Math.log10(DIGITS / this.longer)), 0, 20);
-    return Number(x.toFixed(digits));
-  }
-
-  // Ends the drag. The stroke is finished when all its points are found.
-  end() {
-    this.isOver = true;
-    this.look();
-  }
-
-  // Returns the strokes of the document with this one.
-  strokes() {
-    const {kind, strength, softness} = this.settings, lines = this.lines.filter((line) => line.length > 0);
-    if (kind === "erase")
-      return lines.flat().reduce((strokes, point) => erased(strokes, point, this.radius), this.before);
-    const pressure = this.pressures.reduce((sum, x) => sum + x, 0) / this.pressures.length;
-    const amount = Number((KINDS[kind].most * strength / 100 * pressure).toPrecision(3));
-    const radius = Number(this.radius.toPrecision(5));
-    return [...this.before, ...lines.map((line, i) => ({name: i === 0 ? this.name : `${this.name}, mirrored`,
-      brush: kind, amount, radius, softness: softness / 100, points: simplified(line, TOLERANCE * this.radius)}))];
-  }
-
-  // Changes the document, unless another change came between.
-  show() {
-    const isOther = this.isBegun ? this.doc.stroke !== this.id : this.doc.now.options.strokes !== textOf(this.before);
-    if (isOther || this.document !== this.brush.engine.document) this.isGivenUp = true;
-    if (this.isGivenUp || this.lines.every((line) => line.length === 0)) return;
-    this.doc.change({options: {strokes: textOf(this.strokes())}}, this.id);
-    this.isBegun = this.doc.stroke === this.id;
-  }
 }
 
 export class Brush {
@@ -161,12 +76,16 @@ export class Brush {
 
   radiusIn = (stage) => this.scaleOf(stage).longerMm * this.settings.size / 200 * stage.pixelsPerMm;
 
+  get isMirroredForm() {
+    return ["mirror", "die"].includes(this.doc.now.options.form);
+  }
+
   // Returns the place of a pixel in shares of the figure's box, as the engine has it: in pieces that are mirrored, from
   // the right.
   shareOf(stage, [px, py]) {
     const {relief_mm: [low, high]} = stage.about, place = stage.toPlace(px, py);
     const [u, v] = place.map((x, i) => (x - low[i]) / (high[i] - low[i]));
-    return [["mirror", "die"].includes(this.doc.now.options.form) ? 1 - u : u, v];
+    return [this.isMirroredForm ? 1 - u : u, v];
   }
 
   // Returns why nothing can be painted now; an empty text if it can.
@@ -180,10 +99,40 @@ export class Brush {
     return about.relief_mm ? "" : "A piece that is bent cannot be painted: choose another kind, paint, and come back.";
   }
 
-  // Returns the brush as SVG elements: its outline, and the part that it changes fully.
+  // Returns the pixel of a point of the model in the picture from the front.
+  pixelOf(stage, point) {
+    const {relief_mm: [low, high]} = stage.about, {rotation, origin, size} = this.facts();
+    const [u, v] = [0, 1].map((row) =>
+      (point.reduce((sum, x, i) => sum + rotation[3 * row + i] * x, -origin[row])) / size[row]);
+    return stage.toPixels([this.isMirroredForm ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
+  }
+
+  // Marks a stroke of the document on the picture, or none if that is null.
+  highlight(stroke) {
+    this.highlighted = stroke;
+    this.stage?.drawOverlay();
+  }
+
+  // Returns the highlighted stroke as SVG elements.
+  strokeMarks(stage) {
+    const {highlighted: stroke} = this, {yaw, pitch} = stage.camera;
+    if (!stroke || yaw !== 0 || pitch !== 0) return [];
+    const {longer, longerMm} = this.scaleOf(stage), width = 2 * stroke.radius * longerMm / longer * stage.pixelsPerMm;
+    const corners = stroke.points.map((point) => this.pixelOf(stage, point).map((x) => x.toFixed(1)).join(" "));
+    const d = `M${corners.join("L")}${corners.length === 1 ? "h0" : ""}`;
+    return [make("path", {class: "stroke", d, "stroke-width": width.toFixed(1)}), make("path", {class: "cut", d})];
+  }
+
+  // Returns SVG elements: the highlighted stroke, the outline of the brush, and the part that it changes fully.
   marks(stage) {
-    const {about, size: {width, height}} = stage, [cx, cy] = this.at ?? [];
-    if (!(cx <= width && cy <= height) || !about?.relief_mm || !this.facts()) return [];
+    this.stage = stage;
+    if (!stage.about?.relief_mm || !this.facts() || stage.isAwaiting) return [];
+    return [...this.strokeMarks(stage), ...(stage.tool === "brush" ? this.brushMarks(stage) : [])];
+  }
+
+  brushMarks(stage) {
+    const {width, height} = stage.size, [cx, cy] = this.at ?? [];
+    if (!(cx <= width && cy <= height)) return [];
     const r = this.radiusIn(stage), full = r * (1 - this.settings.softness / 100);
     const circle = (r, name) => make("circle", {class: name, cx, cy, r});
     return [circle(r, "brush"), ...(full > 2 && this.settings.kind !== "erase" ? [circle(full, "brush full")] : [])];
@@ -191,7 +140,7 @@ export class Brush {
 
   // Shows the brush at a pixel, or not if that is null.
   point(stage, at) {
-    Object.assign(this, {stage, at});
+    this.at = at;
     stage.drawOverlay();
   }
 

@@ -48,7 +48,7 @@ const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, entries, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const brush = new Brush({engine, doc, facts: () => facts, say: refuse});
-const strokePanel = new StrokePanel({doc});
+const strokePanel = new StrokePanel({doc, brush});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, brush, viewRests: () => shownView.choose()});
 const curve = new CurveEditor(changeTone, () => doc.endStroke());

@@ -242,7 +242,7 @@ export class Stage {
     marks.push(...this.letterMarks?.(this.about) ?? []);
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
-    if (this.tool === "brush") marks.push(...this.on.brush.marks(this));
+    marks.push(...this.on.brush.marks(this));
     if (this.sun) {
       const [x, y] = this.sun;
       marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}),

@@ -1,12 +1,13 @@
-// Lists the strokes of the brush: each can be named, muted and removed.
+// Lists the strokes of the brush: each can be named, muted and removed. The one under the pointer or with the focus is
+// marked on the picture.
 
 import {$, make, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
 import {strokesOf, textOf} from "./strokes.js";
 
 export class StrokePanel {
-  constructor({doc}) {
-    Object.assign(this, {doc, shown: null, list: $("#stroke-list")});
+  constructor({doc, brush}) {
+    Object.assign(this, {doc, brush, shown: null, list: $("#stroke-list")});
   }
 
   show() {
@@ -16,6 +17,7 @@ export class StrokePanel {
     const focused = this.list.contains(activeElement) ? activeElement.dataset.control : null;
     const strokes = strokesOf(this.doc.now);
     $("#strokes").hidden = strokes.length === 0;
+    this.brush.highlight(null);
     this.list.replaceChildren(...strokes.map((stroke, at) => this.row(stroke, at)));
     if (focused) this.focus(focused);
   }
@@ -26,7 +28,8 @@ export class StrokePanel {
     ($(`[data-control="${control}"]`, this.list) ?? alike.at(-1) ?? $("#stage")).focus();
   }
 
-  row({name = "", brush, muted = false}, at) {
+  row(stroke, at) {
+    const {name = "", brush, muted = false} = stroke, mark = () => this.brush.highlight(stroke);
     const called = name || brush, show = () => (field.value = name);
     const isUsed = make("input", {type: "checkbox", "aria-label": `Use ${called}`, "data-control": `use ${at}`});
     isUsed.checked = !muted;
@@ -36,7 +39,11 @@ export class StrokePanel {
     const remove = make("button", {class: "quiet", "aria-label": `Remove ${called}`, "data-control": `remove ${at}`,
       title: `Remove ${called}`}, "×");
     remove.onclick = () => this.set(strokesOf(this.doc.now).filter((_, i) => i !== at));
-    return make("li", {}, isUsed, field, remove);
+    const unmark = () => this.brush.highlight(null);
+    const row = make("li", {onpointerenter: mark, onpointerleave: unmark}, isUsed, field, remove);
+    row.addEventListener("focusin", mark);
+    row.addEventListener("focusout", unmark);
+    return row;
   }
 
   set = (strokes) => this.doc.change({options: {strokes: textOf(strokes)}});

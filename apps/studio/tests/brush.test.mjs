@@ -130,7 +130,16 @@ test("lists strokes, which can be named, muted and removed by keys", async () =>
   await soon.deepEqual(names, ["Soften 1", "Soften 2", "Raise 1"]);
   await enter(labelled("Name of Soften 2"), "cheek");
   await soon.deepEqual(names, ["Soften 1", "cheek", "Raise 1"]);
+  const line = page.locator("#overlay path.stroke");
+  await labelled("Name of cheek").hover();
+  const {left, right, top, bottom} = await line.evaluate((path) => path.getBoundingClientRect().toJSON());
+  const [[from, middle], [to]] = [await pixel(0.45, 0.6), await pixel(0.5, 0.6)];
+  const off = [left - from, right - to, (top + bottom) / 2 - middle];
+  assert.ok(off.every((x) => Math.abs(x) < 4), `the line is marked ${off} pixels from where it was drawn`);
+  await page.mouse.move(0, 0);
+  await soon.equal(() => line.count(), 0);
   await labelled("Use cheek").focus();
+  await soon.equal(() => line.count(), 1);
   await page.keyboard.press("Space");
   await soon.deepEqual(() => strokes().map(({muted}) => muted), [undefined, true, undefined]);
   await untilReady(page);

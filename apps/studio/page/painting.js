@@ -1,0 +1,90 @@
+// A drag of the brush, which becomes a stroke of the document.
+
+import {clamp, oneAtATime} from "./controls.js";
+import {erased, simplified, strokesOf, textOf} from "./strokes.js";
+
+// `most` is the largest amount of a brush that the strength reaches.
+export const KINDS = {
+  soften: {label: "Soften", most: 1}, sharpen: {label: "Sharpen", most: 2}, strengthen: {label: "Strengthen", most: 2},
+  raise: {label: "Raise", most: 0.3}, sink: {label: "Sink", most: 0.3}, level: {label: "Level", most: 1},
+  erase: {label: "Erase strokes"},
+};
+const APART = 1 / 6, LEAST_APART = 2; // of places along a stroke, in radii and in pixels
+const TOLERANCE = 1 / 40; // by which a line may differ from the drawn one, in radii
+const DIGITS = 1e5; // points are rounded to this part of the longer side
+
+// Returns a new name such as "Soften 2".
+function newName({label}, strokes) {
+  const numbers = strokes.map(({name}) => Number(name?.match(/^(\D+) (\d+)$/)?.[1] === label && name.match(/\d+$/)[0]));
+  return `${label} ${1 + Math.max(0, ...numbers)}`;
+}
+
+// One drag of the brush. It changes the document in one step.
+export class Painting {
+  static count = 0;
+
+  constructor(brush, stage) {
+    const {engine: {document}, doc, settings} = brush;
+    Object.assign(this, {brush, doc, document, settings: {...settings}, id: `brush ${++Painting.count}`,
+      before: strokesOf(doc.now), ...brush.scaleOf(stage), waiting: [], lines: [[], []], pressures: []});
+    this.radius = this.longer * settings.size / 200;
+    this.name = newName(KINDS[settings.kind], this.before);
+    this.look = oneAtATime(() => this.lookUp());
+  }
+
+  // Continues the stroke at a pixel, unless the last place is near.
+  follow(stage, [x, y], pressure) {
+    const least = Math.max(LEAST_APART, APART * this.brush.radiusIn(stage));
+    if (this.last && Math.hypot(x - this.last[0], y - this.last[1]) < least) return;
+    this.last = [x, y];
+    this.pressures.push(pressure);
+    this.waiting.push(this.brush.shareOf(stage, [x, y]));
+    this.look();
+  }
+
+  // Finds the points of the model under the places that wait, and changes the document.
+  async lookUp() {
+    const places = this.waiting.splice(0), {isMirrored} = this.settings;
+    const mirrored = isMirrored ? places.map(([u, v]) => [1 - u, v]) : [];
+    if (places.length > 0) {
+      const points = await this.brush.engine.pointsUnder([...places, ...mirrored]).catch(() => []);
+      const found = (part) => part.filter(Boolean).map((point) => point.map((x) => this.rounded(x)));
+      this.lines[0].push(...found(points.slice(0, places.length)));
+      this.lines[1].push(...found(points.slice(places.length)));
+      this.show();
+    }
+    if (this.isOver && this.waiting.length === 0) this.doc.endStroke(this.id);
+  }
+
+  rounded(x) {
+    const digits = clamp(Math.ceil(Math.log10(DIGITS / this.longer)), 0, 20);
+    return Number(x.toFixed(digits));
+  }
+
+  // Ends the drag. The stroke is finished when all its points are found.
+  end() {
+    this.isOver = true;
+    this.look();
+  }
+
+  // Returns the strokes of the document with this one.
+  strokes() {
+    const {kind, strength, softness} = this.settings, lines = this.lines.filter((line) => line.length > 0);
+    if (kind === "erase")
+      return lines.flat().reduce((strokes, point) => erased(strokes, point, this.radius), this.before);
+    const pressure = this.pressures.reduce((sum, x) => sum + x, 0) / this.pressures.length;
+    const amount = Number((KINDS[kind].most * strength / 100 * pressure).toPrecision(3));
+    const radius = Number(this.radius.toPrecision(5));
+    return [...this.before, ...lines.map((line, i) => ({name: i === 0 ? this.name : `${this.name}, mirrored`,
+      brush: kind, amount, radius, softness: softness / 100, points: simplified(line, TOLERANCE * this.radius)}))];
+  }
+
+  // Changes the document, unless another change came between.
+  show() {
+    const isOther = this.isBegun ? this.doc.stroke !== this.id : this.doc.now.options.strokes !== textOf(this.before);
+    if (isOther || this.document !== this.brush.engine.document) this.isGivenUp = true;
+    if (this.isGivenUp || this.lines.every((line) => line.length === 0)) return;
+    this.doc.change({options: {strokes: textOf(this.strokes())}}, this.id);
+    this.isBegun = this.doc.stroke === this.id;
+  }
+}
