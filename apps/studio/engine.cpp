@@ -38,18 +38,6 @@ struct ShownModel : NumberedModel {
   LoadedScan scan;
 };
 
-// Returns the options with the chosen side in place of "auto" as the view.
-OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best) {
-  const auto side = values.find("view");
-  if (side == values.end() || side->second != OptionValue("auto") || !best) return values;
-  side->second = std::string(best->name);
-  if (best->up.empty())
-    values.erase("up");
-  else
-    values["up"] = std::string(best->up);
-  return values;
-}
-
 struct Shared {
   ScanSource wanted;  // the scan that was requested last
   OptionValues view;

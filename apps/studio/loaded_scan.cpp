@@ -124,6 +124,17 @@ InputArguments reading_of(const OptionValues& values) {
   return how;
 }
 
+OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best) {
+  const auto side = values.find("view");
+  if (side == values.end() || side->second != OptionValue("auto") || !best) return values;
+  side->second = std::string(best->name);
+  if (best->up.empty())
+    values.erase("up");
+  else
+    values["up"] = std::string(best->up);
+  return values;
+}
+
 Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted) {
   Result<LoadedScan> scan = within_memory([&]() -> Result<LoadedScan> {
     ScanOrder order = from;

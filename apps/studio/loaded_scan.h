@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "common/project.h"
 #include "common/read_inputs.h"
 #include "relievo/scan/scan_file.h"
+#include "relievo/scan/view.h"
 #include "relievo/scene.h"
 
 namespace relievo::app::studio {
@@ -69,5 +71,8 @@ InputArguments reading_of(const OptionValues& values);
 // Reads a scan. Errors: those of load_input(); kind memory, with the name of the scan; kind cancelled as soon
 // as `is_unwanted` returns true.
 Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted);
+
+// Returns the options with the best side in place of the view `auto`; unchanged while no side is chosen.
+OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best);
 
 }  // namespace relievo::app::studio

@@ -1,5 +1,5 @@
-// Refines flat triangles until they follow a deformation, such as onto a curved base or around a wrap. Tested
-// by plate_base_test and wrap_test.
+// Refines flat triangles until they follow a deformation, such as onto a curved base or around a wrap.
+// Tested by plate_base_test and wrap_test.
 #pragma once
 
 #include <functional>
