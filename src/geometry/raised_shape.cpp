@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "geometry/plane.h"
@@ -137,9 +139,7 @@ class ShapePointMaker {
       loops_.push_back(rays_along(sides, loop, shape_.spacing_mm));
     for (const std::vector<Ray>& rays : loops_) feet_of_.push_back(add_feet(rays));
     made_.feet = made_.points.size();
-    has_ridges_ = std::ranges::any_of(loops_, [&](const std::vector<Ray>& rays) {
-      return std::ranges::any_of(rays, [&](const Ray& ray) { return has_ridge(ray); });
-    });
+    for (const std::vector<Ray>& rays : loops_) find_ridges(rays);
     tops_.resize(loops_.size());
     for (std::size_t loop = 0; loop < loops_.size(); ++loop) add_levels(loop);
     for (const bool are_edges : {true, false})
@@ -211,22 +211,30 @@ class ShapePointMaker {
       const Ray& ray = loops_[loop][i];
       if (ray.is_edge != are_edges || ray.direction == Vec2::Zero()) continue;
       std::vector<Index>& tops = tops_[loop][i];
-      const Index end = add_ridge(ray);
+      const Index end = add_ridge(ray, ridges_[loop][i]);
       if (end != no_index) tops.push_back(end);
       Index last = feet_of_[loop][i];
       for (const Index top : tops) {
         if (last != top) made_.edges.push_back({last, top});
-        if (last != top && are_edges && has_ridges_) keep_clear(last, top);
+        if (last != top && are_edges) keep_clear(last, top);
         last = top;
       }
     }
   }
 
-  // Prevents later points, which are those of ridges, close to an edge.
+  // Prevents later points, which are those of ridges, close to an edge. Parts of the edge without ridges near
+  // them are skipped.
   void keep_clear(Index a, Index b) {
     const Vec2 from = made_.points[a].head<2>(), step = made_.points[b].head<2>() - from;
     const int parts = std::min(1000, static_cast<int>(std::ceil(step.norm() / (least_ / 2))));
-    for (int k = 1; k < parts; ++k) near_.add(from + static_cast<double>(k) / parts * step, no_index);
+    const auto place = [&](int k) { return Vec2(from + static_cast<double>(k) / parts * step); };
+    constexpr int block = 8;
+    for (int first = 1; first < parts; first += block) {
+      const int end = std::min(first + block, parts);
+      if (!near_ridges_.contains(cell_of(place(first))) && !near_ridges_.contains(cell_of(place(end))))
+        continue;
+      for (int k = first; k < end; ++k) near_.add(place(k), no_index);
+    }
   }
 
   double height_at(double distance) const {
@@ -238,18 +246,47 @@ class ShapePointMaker {
     return low.height_mm + std::clamp(share, 0.0, 1.0) * (high.height_mm - low.height_mm);
   }
 
-  // Returns whether the ray meets the wall of another side before it reaches the last level.
-  bool has_ridge(const Ray& ray) const { return ray.direction != Vec2::Zero() && !is_clear(ray, depth_); }
+  using Cell = std::pair<std::int64_t, std::int64_t>;
 
-  // Adds the point where the ray meets the wall of another side. Returns no_index if there is none.
-  Index add_ridge(const Ray& ray) {
-    if (!has_ridge(ray)) return no_index;
-    double low = 0, high = depth_;
+  // A cell is wider than a block of keep_clear() and the least distance together.
+  Cell cell_of(const Vec2& place) const {
+    const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / (8 * least_))); };
+    return {at(place.x()), at(place.y())};
+  }
+
+  // Returns the distance along the ray at which it meets the wall of another side; nothing if it reaches the
+  // last level before that.
+  std::optional<double> ridge_of(const Ray& ray) const {
+    if (ray.direction == Vec2::Zero() || is_clear(ray, depth_)) return std::nullopt;
+    const double low = clear_limits(ray, depth_).first;
+    return low > 1e-3 * depth_ ? std::optional(low) : std::nullopt;
+  }
+
+  // Returns two distances along the ray, close to each other: up to the first one it is clear, and not up to
+  // the second one. It must not be clear at `high`.
+  std::pair<double, double> clear_limits(const Ray& ray, double high) const {
+    double low = 0;
     for (int k = 0; k < halvings; ++k) {
       const double middle = (low + high) / 2;
       (is_clear(ray, middle) ? low : high) = middle;
     }
-    return low > 1e-3 * depth_ ? add(ray.foot + low * ray.direction, height_at(low)) : no_index;
+    return {low, high};
+  }
+
+  void find_ridges(const std::vector<Ray>& rays) {
+    std::vector<std::optional<double>>& ridges = ridges_.emplace_back();
+    for (const Ray& ray : rays) {
+      ridges.push_back(ridge_of(ray));
+      if (!ridges.back()) continue;
+      const auto [x, y] = cell_of(ray.foot + *ridges.back() * ray.direction);
+      for (std::int64_t j = y - 1; j <= y + 1; ++j)
+        for (std::int64_t i = x - 1; i <= x + 1; ++i) near_ridges_.insert({i, j});
+    }
+  }
+
+  // Adds the point where the ray meets the wall of another side, if there is one.
+  Index add_ridge(const Ray& ray, const std::optional<double>& distance) {
+    return distance ? add(ray.foot + *distance * ray.direction, height_at(*distance)) : no_index;
   }
 
   // Finds the smallest distance between two sides that run in opposite directions, up to 2 mm.
@@ -259,12 +296,8 @@ class ShapePointMaker {
     for (const std::vector<Ray>& rays : loops_)
       for (const Ray& ray : rays) {
         if (!ray.is_on_side) continue;
-        double low = 0, high = most_mm / 2;
-        if (is_clear(ray, high)) continue;
-        for (int k = 0; k < halvings; ++k) {
-          const double middle = (low + high) / 2;
-          (is_clear(ray, middle) ? low : high) = middle;
-        }
+        if (is_clear(ray, most_mm / 2)) continue;
+        const double high = clear_limits(ray, most_mm / 2).second;
         const NearestSegment facing = grid_.nearest(ray.foot + high * ray.direction, high * (1 - 1e-9));
         if (facing.segment == no_index) continue;
         const Segment& side = grid_.segments()[facing.segment];
@@ -278,8 +311,9 @@ class ShapePointMaker {
   SegmentGrid grid_;
   double least_;  // least distance between points of levels and ridges
   NumberedPoints near_;
-  bool has_ridges_ = false;  // whether walls of the shape meet
   std::vector<std::vector<Ray>> loops_;
+  std::vector<std::vector<std::optional<double>>> ridges_;  // per loop and ray, see ridge_of()
+  std::set<Cell> near_ridges_;                              // the cells at and around ridges
   std::map<CornerKey, Index> feet_;
   std::vector<std::vector<Index>> feet_of_;            // per loop and ray
   std::vector<std::vector<std::vector<Index>>> tops_;  // per loop and ray: the points above its foot

@@ -202,17 +202,6 @@ BorderSpan span_of_border(const Ornament& ornament, double margin_mm) {
   return {ornament.inset_mm.value_or(border_inset * margin_mm), ornament.size_mm.value_or(share * margin_mm)};
 }
 
-// Returns how much of the margin the borders take that lie between the rim and the middle of the margin.
-double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm) {
-  double taken = 0;
-  for (const Ornament& ornament : ornaments) {
-    if (ornament.kind == OrnamentKind::text || ornament.kind == OrnamentKind::drawing) continue;
-    const auto [before, width] = span_of_border(ornament, margin_mm);
-    if (before + width <= margin_mm / 2) taken = std::max(taken, before + width);
-  }
-  return taken;
-}
-
 Result<RaisedShape> border_shape(const Ornament& ornament, const OrnamentFrame& frame) {
   const bool is_line = ornament.kind == OrnamentKind::line;
   const auto [before, width] = span_of_border(ornament, frame.margin_mm);
@@ -263,8 +252,18 @@ Result<RaisedShape> shape_of_ornament(const Ornament& ornament, const OrnamentFr
 
 }  // namespace
 
-Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments, OrnamentFrame frame) {
-  frame.border_mm = margin_of_borders(ornaments, frame.margin_mm);
+double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm) {
+  double taken = 0;
+  for (const Ornament& ornament : ornaments) {
+    if (ornament.kind == OrnamentKind::text || ornament.kind == OrnamentKind::drawing) continue;
+    const auto [before, width] = span_of_border(ornament, margin_mm);
+    if (before + width <= margin_mm / 2) taken = std::max(taken, before + width);
+  }
+  return taken;
+}
+
+Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments,
+                                                 const OrnamentFrame& frame) {
   std::vector<RaisedShape> shapes;
   const double twice_middle = 2 * middle_of(frame).x();
   for (const Ornament& ornament : ornaments) {

@@ -14,16 +14,20 @@ namespace relievo {
 struct OrnamentFrame {
   std::vector<Vec2> inner;            // convex polygon inside the rim, counter-clockwise, in mm
   double margin_mm = 5;               // width of the ground around the relief
-  double border_mm = 0;               // width of the margin that borders take; set by ornament_shapes()
+  double border_mm = 0;               // width of the margin that borders take from texts
   std::optional<double> rim_mm = {};  // height of the rim; empty without a rim
   double slope = 4;                   // steepest slope of walls, > 0
   bool is_mirrored = false;           // whether left and right are exchanged
   bool is_die = false;                // whether raised ornaments become sunk
 };
 
-// Returns the shapes of the ornaments in the order of the list. Texts without a size or an inset keep clear of the
-// list's borders. Errors: those of check_text(); kind option for lengths out of their range, for texts longer than their
-// circle, and for drawings without an area or a size.
-Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments, OrnamentFrame frame);
+// Returns how much of the margin the borders among the ornaments take that lie between the rim and the middle of the
+// margin.
+double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm);
+
+// Returns the shapes of the ornaments in the order of the list. Errors: those of check_text(); kind option for lengths
+// out of their range, for texts longer than their circle, and for drawings without an area or a size.
+Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments,
+                                                 const OrnamentFrame& frame);
 
 }  // namespace relievo

@@ -284,6 +284,7 @@ class GroundMaker {
 
 OrnamentFrame ornament_frame(const PlateOutline& outline, const PlateOptions& options) {
   OrnamentFrame frame{rim_inner_polygon(outline, options.rim), options.margin_mm};
+  frame.border_mm = margin_of_borders(options.ornaments, options.margin_mm);
   if (options.rim.width_mm > 0) frame.rim_mm = std::abs(options.rim.height_mm);
   frame.slope = options.ornament_slope;
   frame.is_mirrored = options.is_mirrored;

@@ -62,8 +62,9 @@ TEST(OrnamentShapes, LettersKeepClearOfBorders) {
   Ornament beads{.kind = OrnamentKind::beads};
   beads.inset_mm = .2;
   beads.size_mm = 1;
-  const auto shapes = ornament_shapes(std::array{text_on(TextArc::top, "I"), beads}, coin()).value();
-  const auto [low, high] = radii_of(shapes[0]);
+  OrnamentFrame frame = coin();
+  frame.border_mm = margin_of_borders(std::array{text_on(TextArc::top, "I"), beads}, frame.margin_mm);
+  const auto [low, high] = radii_of(shape_of(text_on(TextArc::top, "I"), frame));
   EXPECT_NEAR(low, 25.4, .02);
   EXPECT_NEAR(high, 28.4, .02);
 }
