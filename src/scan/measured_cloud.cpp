@@ -139,38 +139,52 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   return {};
 }
 
-// Removes as much noise as View::denoise says or, if that is empty, as was measured: from the first view's points
-// only, and once another view needs more, from all. Does not measure the spacing again: where several scans
-// overlap, removing the noise brings their points closer together than the surface is sampled.
+namespace {
+
+using Scan = MeasuredCloud::Scan;
+
+// Returns the scan without colours and tree.
+std::shared_ptr<Scan> copy_of(const Scan& scan) {
+  auto copy = std::make_shared<Scan>();
+  copy->cloud.points = scan.cloud.points, copy->cloud.normals = scan.cloud.normals;
+  copy->cloud.outlines = scan.cloud.outlines, copy->cloud.is_height_field = scan.cloud.is_height_field;
+  copy->is_clean = scan.is_clean;
+  copy->is_clean.resize(scan.cloud.size(), 0);
+  return copy;
+}
+
+void set_clean(Scan& scan, Index i, const Vec3& point, const Vec3f& normal) {
+  scan.cloud.points[i] = point, scan.cloud.normals[i] = normal;
+  scan.is_clean[i] = 1;
+}
+
+}  // namespace
+
+// Removes as much noise as View::denoise says or, if that is empty, as was measured. Does not measure the spacing
+// again: where several scans overlap, removing the noise brings their points closer together than the surface is
+// sampled. A relief must not depend on the views before it, so points that this view does not need keep their noise,
+// also if another view has removed it.
 std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Vec3f& towards_viewer,
                                                                         const Progress* progress) const {
   if (removed_noise_ == 0) return scan_;
   const Cloud& cloud = scan_->cloud;
   // Whether normals that point inwards are to be reversed depends on all of them.
   const Vec3f direction = do_normals_point_inward_ ? Vec3f::Zero() : towards_viewer;
-  std::vector<Index> points = points_near_front(cloud.normals, direction, spacing_);
+  const std::vector<Index> needed = points_near_front(cloud.normals, direction, spacing_);
   const std::shared_ptr<const Scan> known = clean_.with([](const auto& clean) { return clean; });
-  if (known) {
-    const auto is_clean = [&](Index i) { return known->is_clean[i] != 0; };
-    if (std::ranges::all_of(points, is_clean)) return known;
-    points = points_near_front(cloud.normals, Vec3f::Zero(), spacing_);
-    std::erase_if(points, is_clean);
-  }
+  std::vector<Index> missing = needed;
+  if (known) std::erase_if(missing, [&](Index i) { return known->is_clean[i] != 0; });
   const CleanPoints found =
-      relievo::without_noise({cloud, spacing_, *scan_->tree}, {removed_noise_, points}, progress);
-  const Scan& before = known ? *known : *scan_;
-  auto clean = std::make_shared<Scan>();
-  clean->cloud.points = before.cloud.points, clean->cloud.normals = before.cloud.normals;
-  clean->cloud.outlines = cloud.outlines, clean->cloud.is_height_field = cloud.is_height_field;
-  clean->is_clean = known ? known->is_clean : std::vector<std::uint8_t>(cloud.size(), 0);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Index i = points[k];
-    clean->cloud.points[i] = found.points[k], clean->cloud.normals[i] = found.normals[k],
-    clean->is_clean[i] = 1;
-  }
-  if (progress && progress->is_cancelled()) return clean;
+      relievo::without_noise({cloud, spacing_, *scan_->tree}, {removed_noise_, missing}, progress);
+  const std::shared_ptr<Scan> all = copy_of(known ? *known : *scan_);
+  for (std::size_t k = 0; k < missing.size(); ++k)
+    set_clean(*all, missing[k], found.points[k], found.normals[k]);
+  if (progress && progress->is_cancelled()) return all;
+  const std::shared_ptr<Scan> clean = known ? copy_of(*scan_) : all;
+  if (known)
+    for (const Index i : needed) set_clean(*clean, i, all->cloud.points[i], all->cloud.normals[i]);
   clean->tree = std::make_unique<const KdTree<Vec3>>(clean->cloud.points);
-  clean_.with([&](auto& kept) { kept = clean; });
+  clean_.with([&](auto& kept) { kept = all; });
   return clean;
 }
 

@@ -37,7 +37,7 @@ class MeasuredCloud {
   const Cloud& cloud() const { return scan_->cloud; }
 
   // Returns the cloud, without colours, after the noise was removed at all points that a view from this direction
-  // may show; at all points if it is 0. It is kept, so that later views find it. If the normals are estimated,
+  // may show; at all points if it is 0. Changed points are kept for later views. If the normals are estimated,
   // nothing is removed. May be called concurrently. The result is not usable once the progress is cancelled.
   std::shared_ptr<const Scan> without_noise(const Vec3f& towards_viewer,
                                             const Progress* progress = nullptr) const;
@@ -67,7 +67,7 @@ class MeasuredCloud {
 
   View view_;
   std::shared_ptr<Scan> scan_ = std::make_shared<Scan>();
-  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // the cloud without noise, as far as it is known
+  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // without the noise that views needed removed
   Spacing spacing_;
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;
