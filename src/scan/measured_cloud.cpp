@@ -199,6 +199,9 @@ bool MeasuredCloud::serves(const View& view) const {
 
 std::vector<double> MeasuredCloud::curvature(const Scan& clean, std::span<const Index> points,
                                              const Progress* progress) const {
+  const SearchableCloud searchable{clean.cloud, spacing_, *clean.tree};
+  // The order in which neighbours are found, and so the rounding, depends on all points of a view.
+  if (removed_noise_ != 0) return mean_curvature(searchable, points, {}, progress);
   std::vector<double> k = curvature_.with([&](std::vector<double>& known) {
     if (known.empty()) known.assign(cloud().size(), std::numeric_limits<double>::quiet_NaN());
     return pick(known, points);
@@ -206,8 +209,7 @@ std::vector<double> MeasuredCloud::curvature(const Scan& clean, std::span<const 
   std::vector<Index> missing, places;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::isnan(k[i])) missing.push_back(points[i]), places.push_back(static_cast<Index>(i));
-  const std::vector<double> found =
-      mean_curvature({clean.cloud, spacing_, *clean.tree}, missing, {}, progress);
+  const std::vector<double> found = mean_curvature(searchable, missing, {}, progress);
   for (std::size_t i = 0; i < missing.size(); ++i) k[places[i]] = found[i];
   if (progress && progress->is_cancelled()) return k;
   curvature_.with([&](std::vector<double>& known) {

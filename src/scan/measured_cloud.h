@@ -56,8 +56,8 @@ class MeasuredCloud {
   double removed_noise() const { return removed_noise_; }
 
   // Returns the mean curvature at points that a view may show, for normals that point outwards. `clean` is the
-  // cloud without noise for this view. Values are kept, so that each point is measured once. May be called
-  // concurrently.
+  // cloud without noise for this view. If no noise is removed, values are kept, so that each point is measured once.
+  // May be called concurrently.
   std::vector<double> curvature(const Scan& clean, std::span<const Index> points,
                                 const Progress* progress) const;
 
