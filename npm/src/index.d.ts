@@ -35,8 +35,6 @@ export type Source = Bytes | ReadableFile | CloudArrays | DepthArrays | { [name:
 export interface InputOptions {
   /** The name of the file. Text formats are recognised by its ending. */
   name?: string;
-  /** The camera of a depth image, as numbers. */
-  camera?: string | Numbers;
   /** Files above this size are read in blocks if their format allows it. By default these are files above 512 MB, and
    * files with more than three million points and no triangles, which would fill the memory of WebAssembly. */
   streamAboveMb?: number;
