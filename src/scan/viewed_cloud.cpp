@@ -7,6 +7,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
+#include "scan/coarse_visibility.h"
 #include "scan/noise/noise.h"
 
 namespace relievo {
