@@ -1,4 +1,4 @@
-// Finds the points of a model under places of its picture. Tested by apps/studio/tests/server.test.mjs.
+// Finds the points of a model under positions in its picture. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,11 @@
 
 namespace relievo::app::studio {
 
-constexpr std::size_t most_places = 1000;  // of one request
+constexpr std::size_t most_places = 1000;  // largest number of positions in one request
 
-// Returns the model's point under each place, in the coordinates of the scan; nothing beside the model. A place has the
-// shares of the width and height of the model's box in the view, from its lower left corner.
+// Returns the model's point under each position, in the coordinates of the scan; nothing for positions beside the
+// model. A position is given as shares of the width and height of the model's box in the view, from the lower left
+// corner of the box.
 std::vector<std::optional<Vec3>> points_under(const Surface& surface, std::span<const Vec2> places);
 
 }  // namespace relievo::app::studio

@@ -29,14 +29,14 @@ Result<Job> load(std::span<const std::byte> file, std::string_view name);
 // A frame of a live model. It is valid until that model makes its next frame.
 struct LiveFrame {
   const Frame* frame = nullptr;
-  // As FrameMaker::write_gains() returns them; empty without SurfaceDetail.
+  // The gains that FrameMaker::write_gains() returns; empty without SurfaceDetail.
   std::span<const float> gains = {};
   double stretch = 1;  // factor of the heights in pictures
   double mm_per_unit = 1;
   bool is_new = false;  // false if the frame is the same as the previous one
 };
 
-// Which frame to make for given options. A quick frame takes one or two solves and may miss a requested
+// The requirements for a frame of given options. A quick frame takes one or two solves and may miss a requested
 // height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
 struct FrameWish {
   std::optional<double> u;  // the compression's u, replaces a requested height

@@ -1,4 +1,4 @@
-// Where ornaments lie on a plate, for programs that show them before its solid is made.
+// Finds the places of ornaments on a plate, for programs that show ornaments before the solid is made.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace relievo {
 
 struct Surface;
 
-// The outlines of an ornament in mm from the middle of the plate, x to the right and y up, filled by winding number; or
-// the error because of which it has none.
+// The place of an ornament: its outlines in mm from the middle of the plate, x to the right and y up, filled by winding
+// number. An ornament that cannot be set has an error instead.
 struct OrnamentPlace {
   std::vector<std::vector<Vec2>> outlines = {};
   std::optional<Vec2> at_mm =

@@ -15,7 +15,7 @@
 namespace relievo::io {
 namespace {
 
-// How a PCD file stores its points.
+// The encodings of the points in a PCD file.
 enum class PcdData { ascii, binary, compressed };
 
 struct PcdHeader {

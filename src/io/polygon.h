@@ -33,7 +33,7 @@ void for_each_triangle(std::span<const Vec3> corners, Add&& add) {
   for (Index i = 2; i < corners.size(); ++i) add(Index{0}, i - 1, i);
 }
 
-// How a face of a file is triangulated.
+// The ways in which files list the corners of a face.
 
 enum class FaceKind { polygon, strip, fan };
 

@@ -1,4 +1,5 @@
-// The shape of Gaussian splats, in whatever file they are. Tested by tests/io/splat_test.cpp.
+// Finds the normals of Gaussian splats from their scales and rotations, for all formats.
+// Tested by tests/io/splat_test.cpp.
 #pragma once
 
 #include <array>

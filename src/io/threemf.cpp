@@ -202,7 +202,7 @@ class ThreeMfReader {
   static constexpr Colour white = {255, 255, 255};
 
   const Source& source_;
-  // By name; the name of the main document is empty.
+  // The documents by name; the name of the main document is empty.
   std::map<std::string, std::unique_ptr<ModelPart>> parts_;
   std::vector<Placed> open_;
   std::size_t placed_ = 0, supports_ = 0;

@@ -237,7 +237,7 @@ std::vector<OptionRow> ornament_rows() {
                "all around",
        .initial = "straight", .is_hidden = true, .access = word<&ReliefOptions::text_arc, text_arc_choices>},
       {.name = "text-size", .unit = "MM", .stage = plate, .min = .1, .max = 1e4,
-       .help = "height of the text's capitals", .otherwise = "0.6 of the margin",
+       .help = "height of the text's capitals", .otherwise = "0.6 of the margin inside of borders",
        .is_hidden = true, .access = number<&ReliefOptions::text_mm>},
       {.name = "text-height", .unit = "MM", .stage = plate, .min = -100, .max = 100,
        .help = "height of the text above the ground; a negative one sinks it. Its walls lean as draft says, else by 15 "

@@ -16,7 +16,7 @@ constexpr double shortest_mm = 4e-3;  // several units in the last place at 10 m
 constexpr int most_refinements = 60;  // each refinement halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
 
-// How a triangle will be split.
+// The positions at which a triangle will be split.
 struct Split {
   // Per edge: the position of the split as a share of the edge, counted from the end with the lower index; 0
   // if the edge is not split.

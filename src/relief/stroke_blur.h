@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// What blurs need of a surface.
+// The edges and areas of a surface that its blurs need.
 struct SurfaceLinks {
   struct Link {
     Index to;
@@ -21,10 +21,11 @@ struct SurfaceLinks {
   std::vector<float> areas;  // a third of the area of the triangles around each point, in the view plane
 };
 
+// Returns the links and areas of all points of the surface.
 SurfaceLinks surface_links(const Surface& surface);
 
-// What a blur removes from the heights at some points. The heights around the points stay as they are, and depth jumps
-// are not crossed. `Real` is the type of the heights.
+// Computes the difference between heights and their blur at some points. The blur keeps the heights around the points,
+// and does not cross depth jumps. `Real` is the type of the heights.
 template <typename Real>
 class StrokeBlur {
  public:

@@ -41,6 +41,12 @@ async function draw(brush, ...places) {
   await page.mouse.up();
 }
 
+// Draws, and waits until the list has that many strokes.
+async function drawUntil(count, ...drawing) {
+  await draw(...drawing);
+  await untilStrokes(count);
+}
+
 // Returns the heights of the relief along a line in mm, with the options of the newest picture or with others.
 const profile = async (from, to, options = sent.options) =>
   (await engine.json("profile", {...sent, options, from, to})).heights_mm;
@@ -121,12 +127,9 @@ test("shows the stroke while it is drawn, in one step of undo", async () => {
 });
 
 test("lists strokes, which can be named, muted and removed by keys", async () => {
-  await draw("soften", [0.45, 0.4], [0.5, 0.4]);
-  await untilStrokes(1);
-  await draw("soften", [0.45, 0.6], [0.5, 0.6]);
-  await untilStrokes(2);
-  await draw("raise", [0.55, 0.5]);
-  await untilStrokes(3);
+  await drawUntil(1, "soften", [0.45, 0.4], [0.5, 0.4]);
+  await drawUntil(2, "soften", [0.45, 0.6], [0.5, 0.6]);
+  await drawUntil(3, "raise", [0.55, 0.5]);
   await soon.deepEqual(names, ["Soften 1", "Soften 2", "Raise 1"]);
   await enter(labelled("Name of Soften 2"), "cheek");
   await soon.deepEqual(names, ["Soften 1", "cheek", "Raise 1"]);
@@ -158,10 +161,8 @@ test("lists strokes, which can be named, muted and removed by keys", async () =>
 });
 
 test("exports the very bytes that make writes from the saved project", async () => {
-  await draw("raise", [0.45, 0.4], [0.52, 0.45]);
-  await untilStrokes(1);
-  await draw("sharpen", [0.5, 0.6]);
-  await untilStrokes(2);
+  await drawUntil(1, "raise", [0.45, 0.4], [0.52, 0.45]);
+  await drawUntil(2, "sharpen", [0.5, 0.6]);
   await untilTaken();
   const project = path.join(folder, "painted.relievo"), made = path.join(folder, "made.stl");
   const saved = await page.evaluate(async (path) => { // what "Settings alone" saves
@@ -179,15 +180,13 @@ test("exports the very bytes that make writes from the saved project", async () 
 
 test("paints on both sides of the figure's middle", async () => {
   await labelled("Mirror").check();
-  await draw("soften", [0.44, 0.45], [0.46, 0.5]);
-  await untilStrokes(2);
+  await drawUntil(2, "soften", [0.44, 0.45], [0.46, 0.5]);
   await untilReady(page);
   const [[first], [other]] = strokes().map(({points}) => points), {size, rotation} = await engine.json("facts");
   const inView = (point) => [0, 1].map((row) => point.reduce((sum, x, i) => sum + rotation[3 * row + i] * x, 0));
   const [[x, y], [otherX, otherY]] = [first, other].map(inView);
   await labelled("Mirror").uncheck();
-  await draw("soften", [0.5, 0.5]); // the figure is in the middle of the picture
-  await untilStrokes(3);
+  await drawUntil(3, "soften", [0.5, 0.5]); // the figure is in the middle of the picture
   const [middle] = inView(strokes()[2].points[0]), near = 0.01 * Math.max(...size);
   assert.ok(Math.abs(y - otherY) < near && Math.abs(x + otherX - 2 * middle) < near, `${x} ${otherX} about ${middle}`);
   await soon.deepEqual(names, ["Soften 1", "Soften 1, mirrored", "Soften 2"]);
@@ -195,13 +194,10 @@ test("paints on both sides of the figure's middle", async () => {
 });
 
 test("erases what the brush crosses", async () => {
-  await draw("raise", [0.44, 0.5], [0.56, 0.5]);
-  await untilStrokes(1);
-  await draw("erase", [0.5, 0.47], [0.5, 0.53]);
-  await untilStrokes(2);
+  await drawUntil(1, "raise", [0.44, 0.5], [0.56, 0.5]);
+  await drawUntil(2, "erase", [0.5, 0.47], [0.5, 0.53]);
   await soon.deepEqual(names, ["Raise 1", "Raise 1, part 2"]);
-  await draw("erase", [0.43, 0.5], [0.57, 0.5]);
-  await untilStrokes(0);
+  await drawUntil(0, "erase", [0.43, 0.5], [0.57, 0.5]);
   await undo(2);
   await untilStrokes(1);
   await clear();

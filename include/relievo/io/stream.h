@@ -43,7 +43,7 @@ struct StreamedCloud {
 // PLY without lists in the vertices and in the elements before them.
 bool can_stream(std::span<const std::byte> head, std::string_view name);
 
-// How much of a file stream_front() reads.
+// The options of stream_front().
 struct StreamOptions {
   // `wanted` is the number of points; `keeps` is ReadOptions::keeps_doubtful.
   StreamOptions(double wanted, bool keeps = false) : points(wanted), keeps_doubtful(keeps) {}

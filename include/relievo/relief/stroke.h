@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// How a stroke changes the heights z under it. Every brush adds a field to z that is 0 outside of the stroke,
-// so other heights do not change. The blurs are Gaussian, along the surface, and do not cross depth jumps.
+// The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside of the
+// stroke, so other heights do not change. The blurs are Gaussian, along the surface, and do not cross depth jumps.
 enum class Brush {
   strengthen,  // adds amount * (z - wide blur of z), which emphasises shapes as wide as a finger or a brow
   sharpen,     // adds amount * (z - narrow blur of z)

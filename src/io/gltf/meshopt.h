@@ -67,7 +67,7 @@ enum class MeshoptMode { attributes, triangles, indices };
 
 enum class MeshoptFilter { none, octahedral, exponential, colour };
 
-// How a view was compressed, according to the file's JSON. The view has `count` elements of `stride` bytes.
+// The compression of a view, as the file's JSON states it. The view has `count` elements of `stride` bytes.
 struct MeshoptLayout {
   MeshoptMode mode = MeshoptMode::attributes;
   MeshoptFilter filter = MeshoptFilter::none;

@@ -106,7 +106,7 @@ class IntegerDecoder {
   std::uint32_t last_bits_ = 0;
   std::vector<SymbolModel> sizes_;  // by context: model of the sizes
   BitModel small_;                  // model of the differences of size 0
-  // By size: model of the other differences, made on first use.
+  // The models of the other differences by size. Each is made on first use.
   std::vector<std::optional<SymbolModel>> high_bits_;
 };
 

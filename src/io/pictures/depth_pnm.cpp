@@ -48,7 +48,7 @@ Result<PnmHeader> read_pnm_header(const Source& source) {
                    at + 1};
 }
 
-// How a file stores the values of a picture.
+// The encoding of a picture's values in a file.
 struct PnmValues {
   SampleFormat format;
   std::size_t channels = 1;

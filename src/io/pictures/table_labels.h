@@ -1,4 +1,5 @@
-// The parts of a table of heights that are no heights. Tested by tests/io/height_text_test.cpp.
+// Finds the parts of a table of heights that are not heights, such as labels of rows.
+// Tested by tests/io/height_text_test.cpp.
 #pragma once
 
 #include <optional>

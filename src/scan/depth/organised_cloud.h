@@ -17,7 +17,7 @@ struct OrganisedCloud {
   bool keeps_blur = false;
 };
 
-// What smooth_organised() did.
+// The result of smooth_organised(), for remarks.
 struct OrganisedSmoothing {
   double noise = 0;      // median uncertainty of a depth, in pixels
   std::size_t blur = 0;  // number of points that lay between two levels; they are NaN now

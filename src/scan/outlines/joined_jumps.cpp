@@ -17,7 +17,7 @@ struct End {
   Vec2 place, direction;
 };
 
-// The open jumps, and for each the one that follows it and the one that it follows.
+// Finds for each open jump the jump that continues it, and joins chains of them.
 class JumpJoiner {
  public:
   JumpJoiner(std::vector<OutlineCurve>& outlines, double rho)
