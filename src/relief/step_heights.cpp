@@ -47,19 +47,86 @@ std::vector<SteppedEdge> wall_edges(const Surface& surface) {
   });
 }
 
+// A position on the surface, and the normal there.
+struct Place {
+  Vec3 point;
+  Vec3f normal;
+};
+
 // Returns by how much the depth of b exceeds that of a beyond the difference that their slopes explain.
-double step_between(const Surface& surface, Index a, Index b) {
-  const Vec3 step = surface.points[b] - surface.points[a];
-  const auto rise = [&](Index i) {
-    const Vec3f& n = surface.normals[i];
+double step_between(const Place& a, const Place& b) {
+  const Vec3 step = b.point - a.point;
+  const auto rise = [&](const Vec3f& n) {
     const double slope = -static_cast<double>(n.head<2>().dot(step.head<2>().cast<float>())) /
                          std::max(static_cast<double>(n.z()), 1e-6);
     const double most = steepest_slope * step.head<2>().norm();
     return std::clamp(slope, -most, most);
   };
-  const double jump = step.z() - (rise(a) + rise(b)) / 2;
+  const double jump = step.z() - (rise(a.normal) + rise(b.normal)) / 2;
   return jump * step.z() > 0 ? jump : 0;
 }
+
+Place place_of(const Surface& surface, Index i) {
+  return {surface.points[i], surface.normals[i]};
+}
+
+// Returns, per point, its number among the points that are joined to a wall by at most `steps` edges, or no_index.
+std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
+  std::vector<std::uint8_t> is_near(surface.points.size());
+  for (std::size_t i = 0; i < surface.boundary.wall_side.size(); ++i)
+    is_near[i] = surface.boundary.wall_side[i] != WallSide::none;
+  for (int step = 0; step < steps; ++step) {
+    const std::vector<std::uint8_t> before = is_near;
+    for (const Triangle& t : surface.triangulation.triangles)
+      if (before[t[0]] || before[t[1]] || before[t[2]]) is_near[t[0]] = is_near[t[1]] = is_near[t[2]] = 1;
+  }
+  std::vector<Index> numbers(is_near.size(), no_index);
+  Index next = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (is_near[i]) numbers[i] = next++;
+  return numbers;
+}
+
+// The means of the places on each side of the walls, over about two sampling distances. Where a part of the
+// front turns away so far that its last rows of points are nearly as deep as the back, such as a chin before
+// its neck, the means still differ by the whole depth.
+class MeansBesideWalls {
+ public:
+  explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {
+    for (Index i = 0; i < numbers_.size(); ++i)
+      if (numbers_[i] != no_index) means_.push_back(place_of(surface, i));
+    const auto edges = stepped_edges(surface, [&](const TriangleSide& side) {
+      return numbers_[side.from] != no_index && numbers_[side.to] != no_index &&
+             surface.boundary.is_inside[side.triangle] &&
+             !surface.boundary.is_across_wall(side.from, side.to);
+    });
+    for (int round = 0; round < rounds; ++round) average(edges);
+  }
+
+  // Returns the mean at a point on the edge of a wall.
+  const Place& at(Index point) const { return means_[numbers_[point]]; }
+
+ private:
+  static constexpr int rounds = 4;
+
+  // Replaces each place by the mean of itself and its neighbours.
+  void average(std::span<const SteppedEdge> edges) {
+    std::vector<Place> sums = means_;
+    std::vector<float> count(means_.size(), 1);
+    const auto add = [&](Index to, Index from) {
+      sums[to].point += means_[from].point, sums[to].normal += means_[from].normal, ++count[to];
+    };
+    for (const auto& [a, b, weight] : edges) {
+      add(numbers_[a], numbers_[b]);
+      add(numbers_[b], numbers_[a]);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      means_[i] = {sums[i].point / static_cast<double>(count[i]), sums[i].normal / count[i]};
+  }
+
+  std::vector<Index> numbers_;
+  std::vector<Place> means_;
+};
 
 // Returns the least-squares solution of (9) for a difference across each of the edges, and 0 across all others:
 // difference(a, b) is by how much the height of b should exceed that of a.
@@ -84,10 +151,13 @@ StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> e
 StepFields StepFields::find(const Surface& surface, const HeightSystem& system) {
   constexpr double deep = .05;  // depth of a deep jump, as a share of the longer side
   const double scale = deep * surface.longer_side();
-  const auto step = [&](Index a, Index b) { return step_between(surface, a, b); };
+  const MeansBesideWalls means(surface);
+  const auto step = [&](Index a, Index b) {
+    return step_between(place_of(surface, a), place_of(surface, b));
+  };
   const auto plane = [&](Index a, Index b) {
     // Single precision hides the last bits, in which the standard libraries differ.
-    return static_cast<double>(static_cast<float>(std::tanh(step(a, b) / scale)));
+    return static_cast<double>(static_cast<float>(std::tanh(step_between(means.at(a), means.at(b)) / scale)));
   };
   StepFields found;
   parallel_both([&] { found.steps = solve_steps(surface.boundary, jump_edges(surface), system, step); },

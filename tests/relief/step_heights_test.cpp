@@ -90,6 +90,36 @@ TEST(Planes, StepWhereverTheDepthDoes) {
   EXPECT_LT(low, .02 * static_cast<double>(count));
 }
 
+// A chin: within 3 rho of its edge the front falls by a quarter of an ellipse from .2 to .05 above the back. The
+// step is that of the parts, not that of the rows of points at the wall, which are only .05 apart.
+TEST(Planes, StepByTheDepthOfAPartThatTurnsAway) {
+  constexpr double top = .2, edge = .05, width = .042, scale = .05 * 2;
+  const auto chin = [=](double x) {
+    return x < -width ? top : edge + (top - edge) * std::sqrt(std::max(0., 1 - std::pow(x / width + 1, 2)));
+  };
+  const auto slope = [=](double x) {
+    return x < -width ? 0 : -std::pow((top - edge) / width, 2) * (x + width) / std::max(chin(x) - edge, 1e-3);
+  };
+  const ReliefModel model = test::prepared(test::height_field(
+      20000, 1, [=](double x, double) { return x < 0 ? chin(x) : 0; },
+      [=](double x, double) -> Vec2 {
+        return {x < 0 ? slope(x) : 0, 0};
+      }));
+  const Surface& surface = model.surface();
+  std::size_t count = 0, low = 0;
+  for (const Triangle& corners : surface.triangulation.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = corners[k], b = corners[(k + 1) % 3];
+      if (!surface.boundary.is_across_wall(a, b) || surface.points[a].z() < surface.points[b].z()) continue;
+      const Vec3 p = surface.points[a] + surface.centre;
+      if (std::abs(p.x()) > width / 2 || std::abs(p.y()) > .8) continue;  // a crease, or the silhouette
+      ++count;
+      low += model.planes().z[a] - model.planes().z[b] < std::tanh(1.2 * edge / scale);
+    }
+  ASSERT_GT(count, 100);
+  EXPECT_LT(low, .02 * static_cast<double>(count));
+}
+
 TEST(Steps, ReachAHeightThatSlopesDoNot) {
   const ReliefModel model = test::prepared(terraces(20000));
   for (const double height : {.01, .2, .699}) {
