@@ -102,10 +102,9 @@ Result<void> scene_info(const std::vector<std::string>& inputs) {
   return {};
 }
 
-Result<void> info(const std::vector<std::string>& inputs) {
-  const std::string& input = inputs[0];
-  if (inputs.size() > 1 || is_scene_file(input)) return scene_info(inputs);
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(input, true));
+Result<void> info_of(std::span<const std::byte> bytes, const std::string& input) {
+  RELIEVO_TRY(const std::optional<UnpackedFile> array, unpack_array(bytes, input));
+  if (array) return info_of(array->bytes, array->name);
   if (is_picture(bytes)) return depth_info(bytes, input);
   RELIEVO_TRY(const CloudFile file, read_cloud_at(bytes, input));
   const Box box = box_of(file, {});
@@ -120,6 +119,12 @@ Result<void> info(const std::vector<std::string>& inputs) {
   print_line("spacing", cat(measure_spacing(without_repeated_points(file.cloud)).rho));
   print_line("best view", views_text(file.mesh.empty() ? file.cloud : scatter(file.mesh, 200000)));
   return {};
+}
+
+Result<void> info(const std::vector<std::string>& inputs) {
+  if (inputs.size() > 1 || is_scene_file(inputs[0])) return scene_info(inputs);
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(inputs[0], true));
+  return info_of(bytes, inputs[0]);
 }
 
 }  // namespace

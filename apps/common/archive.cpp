@@ -149,4 +149,19 @@ Result<std::string> find_model(const std::vector<std::string>& names, std::strin
   return models[0];
 }
 
+Result<std::string> find_array(const std::vector<std::string>& names, std::string_view archive) {
+  constexpr std::array usual = {"points", "pts3d",  "point_map", "pointmap",      "world_points", "xyz",
+                                "depth",  "depths", "depth_map", "inverse_depth", "disparity",    "heights"};
+  std::vector<std::string> arrays;
+  std::ranges::copy_if(names, std::back_inserter(arrays),
+                       [](const auto& name) { return name.ends_with(".npy"); });
+  for (const char* const name : usual)
+    if (std::ranges::find(arrays, cat(name, ".npy")) != arrays.end()) return cat(name, ".npy");
+  if (arrays.size() == 1) return arrays[0];
+  return broken(archive, arrays.empty() ? "expected an archive with an array, found none in it"
+                                        : cat("expected an array named points, pts3d, depth or alike, found ",
+                                              arrays.size(), " others, such as ", arrays[0],
+                                              "; np.save writes one of them as NPY"));
+}
+
 }  // namespace relievo::app

@@ -210,6 +210,14 @@ bool is_scene_file(const std::string& path) {
   return ending_of(path) == "json";
 }
 
+Result<std::optional<UnpackedFile>> unpack_array(std::span<const std::byte> bytes, const std::string& path) {
+  if (ending_of(path) != "npz" || !is_archive(bytes)) return std::nullopt;
+  RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
+  RELIEVO_TRY(const std::string name, find_array(archive.names(), path));
+  RELIEVO_TRY(std::vector<std::byte> content, archive.content(name));
+  return UnpackedFile{std::move(content), cat(path, "/", name)};
+}
+
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
                                 bool keeps_doubtful) {
   if (is_archive(bytes)) return read_archived_cloud(bytes, path, keeps_doubtful);
@@ -243,6 +251,8 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
 
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
+  RELIEVO_TRY(const std::optional<UnpackedFile> array, unpack_array(bytes, path));
+  if (array) return parse_input(array->bytes, array->name, arguments, points, progress);
   if (is_picture(bytes)) return read_depths(bytes, path, arguments, points, progress);
   RELIEVO_TRY(CloudFile file, read_cloud_at(bytes, path, arguments.keeps_doubtful));
   std::vector<std::string> remarks = remarks_on(file);

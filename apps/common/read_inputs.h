@@ -37,6 +37,15 @@ struct PointsWanted {
   double points = MeshSampling{}.points;
 };
 
+// A file whose bytes came from an archive, with its name for messages.
+struct UnpackedFile {
+  std::vector<std::byte> bytes;
+  std::string name;  // "a.npz/points.npy"
+};
+
+// Returns the array of NumPy's archive (NPZ) that find_array() chooses. Returns nothing for any other file.
+Result<std::optional<UnpackedFile>> unpack_array(std::span<const std::byte> bytes, const std::string& path);
+
 // Reads the bytes of a cloud or mesh as read_cloud() does. Also reads the files in the folder of `path` to
 // which the model refers. The bytes may also be a ZIP archive with one model and the files to which it
 // refers.

@@ -51,7 +51,8 @@ LoadedScan::LoadedScan(ScanOrder order, Scene scene) : order_(std::move(order)),
 
 bool LoadedScan::depends_on(const InputArguments& how) const {
   const auto is_depth_image = [](const SceneModel& model) { return model.pixels != nullptr; };
-  return order_.how != how && std::ranges::any_of(scene_.models, is_depth_image);
+  return order_.how.keeps_doubtful != how.keeps_doubtful ||
+         (order_.how != how && std::ranges::any_of(scene_.models, is_depth_image));
 }
 
 const SceneModel* LoadedScan::depth_image() const {

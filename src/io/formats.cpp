@@ -81,7 +81,8 @@ std::vector<std::string> readable_endings() {
   std::vector<std::string> endings;
   const auto add = [&](std::string_view of_format) {
     io::Words words(of_format);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) endings.emplace_back(word);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      if (std::ranges::find(endings, word) == endings.end()) endings.emplace_back(word);
   };
   for (const io::Format& format : io::formats) add(format.endings);
   for (const io::PictureFormat& format : io::picture_formats) add(format.endings);

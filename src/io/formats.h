@@ -20,6 +20,7 @@ bool is_laz(const Source& source);
 bool is_las(const Source& source);
 bool is_e57(const Source& source);
 bool is_splat(const Source& source);
+bool is_npy_points(const Source& source);
 bool is_gltf(const Source& source);
 bool is_3mf(const Source& source);
 bool is_off(const Source& source);
@@ -56,6 +57,8 @@ bool is_text(const Source& source);
 // - E57: all scans with cartesian or spherical coordinates, transformed by their poses; with colours and
 // normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
 // right.
+// - NPY: rows of x y z, of which 3 to 9 numbers are fractions, with the normals and colours that XYZ has; H x W x
+// 3, whose points are those of an organised cloud, also several of them. Other arrays are depth images.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
 //   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
@@ -71,6 +74,7 @@ Result<RawCloud> read_laz(const Source& source);
 Result<RawCloud> read_las(const Source& source);
 Result<RawCloud> read_e57(const Source& source);
 Result<RawCloud> read_splat(const Source& source);
+Result<RawCloud> read_npy_points(const Source& source);
 Result<RawCloud> read_gltf(const Source& source);
 Result<RawCloud> read_3mf(const Source& source);
 Result<RawCloud> read_off(const Source& source);
@@ -106,6 +110,7 @@ inline constexpr std::array formats = {
     Format{"LAS", ".las", Content::points, is_las, read_las, find_las_rows},
     Format{"E57", ".e57", Content::points, is_e57, read_e57},
     Format{"splat", ".splat", Content::points, is_splat, read_splat},
+    Format{"NPY", ".npy", Content::points, is_npy_points, read_npy_points},
     Format{"glTF", ".glb .gltf", Content::both, is_gltf, read_gltf},
     Format{"3MF", ".model .3mf", Content::triangles, is_3mf, read_3mf},
     Format{"OFF", ".off", Content::triangles, is_off, read_off},

@@ -92,12 +92,7 @@ class XyzReader {
 };
 
 std::string to_string(const XyzLayout& layout) {
-  const std::string with = layout.has_normals && layout.has_colours ? " with normals and colours"
-                           : layout.has_normals                     ? " with normals"
-                           : layout.has_colours                     ? " with colours"
-                                                                    : "";
-  return (layout.promised_points ? "PTS text, " : "XYZ text, ") + std::to_string(layout.columns) +
-         " columns" + with +
+  return (layout.promised_points ? "PTS text, " : "XYZ text, ") + columns_text(layout) +
          (layout.has_scan_positions ? " after row and column"
           : layout.is_numbered      ? " after the point's number"
                                     : "");
@@ -276,6 +271,14 @@ std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
   return rows;
 }
 
+std::string columns_text(const XyzLayout& layout) {
+  return cat(layout.columns, " columns",
+             layout.has_normals && layout.has_colours ? " with normals and colours"
+             : layout.has_normals                     ? " with normals"
+             : layout.has_colours                     ? " with colours"
+                                                      : "");
+}
+
 bool has_coordinates(const ColumnNames& names) {
   std::array<std::size_t, 3> columns;
   return take_named(names, plane_names, std::span(columns).first(2)) &&
@@ -308,6 +311,10 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
       !has_name && !layout.has_scan_positions && are_numbered(rows, first_rows(data, layout));
   const std::size_t first = layout.has_scan_positions ? 2 : is_named || layout.is_numbered ? 1 : 0;
   for (std::size_t i = 0; i < 3; ++i) layout.wanted[i] = first + i;
+  find_normals_and_colours(rows, first, layout);
+}
+
+void find_normals_and_colours(const std::vector<Row>& rows, std::size_t first, XyzLayout& layout) {
   std::vector<std::size_t> candidates;
   for (std::size_t column = first + 3; column + 3 <= layout.columns; ++column) candidates.push_back(column);
   const std::span wanted(layout.wanted);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -64,6 +65,14 @@ bool has_degrees(const ColumnNames& names);
 // with a number, or the three after a scanner's row and column or after the point's number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
+
+// Sets the columns of normals and colours by their values in the rows, after the coordinates in the columns
+// `first` to first + 2.
+void find_normals_and_colours(const std::vector<std::vector<double>>& rows, std::size_t first,
+                              XyzLayout& layout);
+
+// Returns what the columns are, such as "6 columns with normals".
+std::string columns_text(const XyzLayout& layout);
 
 // Returns up to 256 rows of numbers from the whole file, except rows with a different number of columns.
 // Words that are not numbers become NaN.

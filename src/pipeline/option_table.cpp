@@ -306,7 +306,7 @@ std::vector<OptionRow> input_rows() {
       {.name = "doubtful", .unit = "WHAT", .stage = input, .choices = names_of(keep_choices),
        .help = "drop or keep points that the file itself marks as noise or withheld (LAS), and splats less than half "
                "opaque",
-       .initial = "drop", .is_hidden = true, .access = word<&OptionTargets::keeps_doubtful, keep_choices>},
+       .initial = "drop", .access = word<&OptionTargets::keeps_doubtful, keep_choices>},
       {.name = "depth-values", .unit = "KIND", .stage = input, .choices = names_of(depth_value_choices),
        .help = "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or luminance, "
                "also of colours, bright being near; auto: luminance of colours, height in formats of terrain, else "
@@ -322,8 +322,7 @@ std::vector<OptionRow> input_rows() {
        .otherwise = "none", .access = text<&DepthOptions::camera, camera_of>},
       {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
        .help = "of a depth image without camera: nearest to farthest, in picture widths",
-       .initial = DepthOptions{}.range, .is_hidden = true,
-       .access = {read_number<&DepthOptions::range>}},
+       .initial = DepthOptions{}.range, .access = {read_number<&DepthOptions::range>}},
       {.name = "background", .unit = "B", .stage = input, .choices = names_of(removal_choices),
        .help = "of a depth image: what lies behind a depth jump all around the figure; auto drops it, but keeps it "
                "with a camera and in heights; drop without such a jump takes the far depths",

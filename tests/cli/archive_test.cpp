@@ -63,6 +63,34 @@ TEST(Archive, ATextAloneIsACloud) {
   }
 }
 
+// Returns the model in an archive of NumPy with arrays of these names and bytes.
+Result<SceneModel> read_npz(const std::vector<std::pair<std::string, std::string>>& arrays) {
+  const std::string archive = archive_of(arrays);
+  return parse_input(std::as_bytes(std::span(archive)), "a.npz", {}, 1e5, nullptr);
+}
+
+TEST(Archive, AnNpzGivesItsPointsOrElseItsDepths) {
+  const std::string points = npy("<f4", gltf_buffer().substr(0, 48), "4, 3");
+  std::string pixels;
+  for (int i = 0; i < 36; ++i) pixels += raw(static_cast<float>(1 + i % 6 + i / 6));
+  const std::string depths = npy("<f4", pixels, "6, 6"), mask = npy("|b1", std::string(36, '\1'), "6, 6");
+  const auto both = read_npz({{"mask.npy", mask}, {"depth.npy", depths}, {"points.npy", points}});
+  ASSERT_TRUE(both) << both.error().message();
+  EXPECT_EQ(both->file->cloud.points, tetrahedron_points);
+  const auto depth = read_npz({{"mask.npy", mask}, {"depth.npy", depths}});
+  ASSERT_TRUE(depth) << depth.error().message();
+  EXPECT_EQ(depth->file->cloud.size(), 36U);
+  const auto only = read_npz({{"arr_0.npy", points}});
+  ASSERT_TRUE(only) << only.error().message();
+  EXPECT_EQ(only->file->cloud.points, tetrahedron_points);
+  expect_error(
+      read_npz({{"a.npy", points}, {"b.npy", points}}),
+      "a.npz: expected an array named points, pts3d, depth or alike, found 2 others, such as a.npy; np.save "
+      "writes one of them as NPY");
+  expect_error(read_npz({{"a.txt", "1"}}), "a.npz: expected an archive with an array, found none in it");
+  expect_error(read_npz({{"points.npy", "x"}}), "a.npz/points.npy, line 1: ");
+}
+
 TEST(Archive, BackslashesSeparateFoldersToo) {
   const auto file = read(archive_of({{"m\\scene.bin", triangle()}, {"m\\scene.gltf", gltf}}));
   ASSERT_TRUE(file) << file.error().message();

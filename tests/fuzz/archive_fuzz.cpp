@@ -33,6 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_bytes(std::span(content));
   require_answer(app::unpack_project(bytes, "a.relievo"));
   if (app::is_archive(bytes)) require_answer(app::read_cloud_at(bytes, "a.zip"));
+  require_answer(app::unpack_array(bytes, "a.npz"));
   return 0;
 }
 

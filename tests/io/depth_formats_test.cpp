@@ -16,16 +16,6 @@ namespace {
 
 constexpr int columns = 6, rows = 5;
 
-std::string npy(const std::string& type, const std::string& data, const std::string& shape = "5, 6",
-                bool is_by_columns = false, char version = 1) {
-  const std::string header =
-      cat("{'descr': '", type, "', 'fortran_order': ", is_by_columns ? "True" : "False", ", 'shape': (",
-          shape, "), }   \n");
-  const auto size = static_cast<std::uint32_t>(header.size());
-  return std::string("\x93NUMPY") + version + '\0' +
-         (version == 1 ? raw(static_cast<std::uint16_t>(size)) : raw(size)) + header + data;
-}
-
 // Returns the bytes of all values. value(column, row) returns the bytes of one value.
 template <typename F>
 std::string values(F value, bool is_by_columns = false) {
@@ -83,9 +73,18 @@ TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
   EXPECT_EQ(message_in(npy("<c8", "")),
             "d: expected an array of numbers, found the type '<c8'; in Python "
             "astype('float32') converts it");
-  EXPECT_EQ(message_in(npy("<f4", "", "5, 6, 3")),
+  EXPECT_EQ(message_in(npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", "")),
+            "d: expected an array of numbers, found records; in Python np.stack([a['x'], a['y'], a['z']], "
+            "-1) is an "
+            "array of points");
+  EXPECT_EQ(message_in(npy("|u1", "", "5, 6, 3")),
             "d: expected an array of rows and columns, found the shape (5, "
             "6, 3); in Python a[..., 0] is one of its channels");
+  EXPECT_EQ(
+      message_in(npy("<f4", "", "3, 5, 6")),
+      "d: expected an array of rows and columns, found the shape (3, 5, 6); in Python np.moveaxis(a, 0, -1) "
+      "makes points of it, and a[0] is one of its channels");
+  EXPECT_EQ(message_in(npy("<f4", "", "")), "d: expected an array with rows, found the shape ()");
   const std::string whole = npy("<f4", values(in_type<float>));
   EXPECT_EQ(message_in(whole.substr(0, 9)),
             "d, byte 8: expected the header of an array, found the end of the file");

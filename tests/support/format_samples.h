@@ -207,6 +207,18 @@ inline std::string las(int minor = 2) {
   return file;
 }
 
+// Returns an array as NumPy saves it, from its type, such as "<f4", its bytes and its shape, such as "5, 6".
+inline std::string npy(const std::string& type, const std::string& data, const std::string& shape = "5, 6",
+                       bool is_by_columns = false, char version = 1) {
+  const std::string quoted = type.starts_with('[') ? type : "'" + type + "'";
+  const std::string header = "{'descr': " + quoted +
+                             ", 'fortran_order': " + (is_by_columns ? "True" : "False") + ", 'shape': (" +
+                             shape + "), }   \n";
+  const auto size = static_cast<std::uint32_t>(header.size());
+  return std::string("\x93NUMPY") + version + '\0' +
+         (version == 1 ? raw(static_cast<std::uint16_t>(size)) : raw(size)) + header + data;
+}
+
 struct FileSample {
   std::string name, bytes;
 };
@@ -227,6 +239,8 @@ inline std::vector<FileSample> format_samples() {
           {"scan.pcd", ascii_pcd()},
           {"scan.pcd", binary_pcd()},
           {"scan.pcd", compressed_pcd()},
+          {"scan.npy", npy("<f4", gltf_buffer().substr(0, 48), "4, 3")},
+          {"scan.npy", npy("<f4", gltf_buffer().substr(0, 48), "2, 2, 3")},
           {"scan.las", las(2)},
           {"scan.las", las(4)}};
 }

@@ -55,6 +55,7 @@ export class DepthPanel {
   show() {
     const {is_surface: isSurface, is_scaled: isScaled} = this.depth ?? {}, {options} = this.doc.now;
     for (const name of ["background", "blur"]) this.rows[name].hidden = !isSurface;
+    this.rows["depth-range"].hidden = !isScaled || hasScale(this.doc.now);
     this.rows["mm-per-value"].hidden = !isScaled || options.form === "lithophane";
     this.rows.ground.hidden = !isScaled || !hasScale(this.doc.now);
   }

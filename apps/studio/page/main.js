@@ -360,7 +360,7 @@ async function start() {
   try {
     $("#readable").textContent = about.readable;
     $("#limits").replaceChildren(...(about.limits ?? []).map((text) => make("li", {}, text)));
-    $("#file").accept = [...about.endings, ".jpg", ".jpeg", ".webp", ".zip", ".relievo"].join();
+    $("#file").accept = [...about.endings, ".jpg", ".jpeg", ".webp", ".zip", ".npz", ".relievo"].join();
     showSamples(openInput);
     engine.follow((status) => opened.followed(status), engineLost, toast);
     await (location.hash === START ? showStart(true) : resume(about));

@@ -25,7 +25,13 @@ export function cropText(numbers) {
 
 // Labels of the buttons of notes, by the option and the value that the button sets.
 const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
-  "denoise 0": "Keep the noise"};
+  "denoise 0": "Keep the noise", "doubtful keep": "Keep them"};
+
+const DOUBTFUL = "; --doubtful keep keeps them"; // the end of a remark, for the command line
+
+// Returns a remark on points that the file marks as doubtful without its advice, and with the option that keeps them.
+const withOption = (note) => (!note.text.includes(DOUBTFUL) ? note
+  : {...note, text: note.text.replace(DOUBTFUL, ""), option: "doubtful", value: "keep"});
 
 // Returns whether a note also appears beside the picture: if something was removed from the picture, or if something
 // other than the figure fills it.
@@ -39,6 +45,8 @@ const viewRows = () => [
   keepRow("crumbs", "Keep small pieces", "Pieces of less than 0.5 % of what is seen"),
   keepRow("plane", "Keep table, background",
     "A table or background that is found: a plane that the figure stands on or before"),
+  keepRow("doubtful", "Keep doubtful points",
+    "Points that the file marks as noise or withheld, splats less than half opaque, and blurred outlines"),
   make("div", {class: "slider", title: "Standard deviation of the scan's noise, in distances between its points, " +
     "that is smoothed away while creases stay"},
   make("div", {class: "row"}, make("span", {class: "name"}, "Denoise"), make("output", {id: "denoise-value"})),
@@ -75,6 +83,7 @@ export class ScanPanel {
     $("#crop").onchange = (event) => this.set({crop: event.target.value.replaceAll(" ", "")});
     $("#crumbs").onchange = (event) => this.set({crumbs: event.target.checked ? "keep" : "drop"});
     $("#plane").onchange = (event) => this.set({plane: event.target.checked ? "keep" : "drop"});
+    $("#doubtful").onchange = (event) => this.set({doubtful: event.target.checked ? "keep" : "drop"});
     $("#denoise").oninput = (event) => this.showNoise(Number(event.target.value));
     $("#denoise").onchange = (event) => this.set({denoise: event.target.value});
     $("#denoise-auto").onchange = (event) => this.set({denoise: event.target.checked ? "auto" : $("#denoise").value});
@@ -110,14 +119,15 @@ export class ScanPanel {
 
   // Shows the document's values.
   show() {
-    const {crop, crumbs, plane, denoise} = this.doc.now.options;
-    const key = [crop, crumbs, plane, denoise, this.facts?.noise].join();
+    const {crop, crumbs, plane, doubtful, denoise} = this.doc.now.options;
+    const key = [crop, crumbs, plane, doubtful, denoise, this.facts?.noise].join();
     if (key === this.shown) return; // this method runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
     if (!isUnfinished($("#crop"))) $("#crop").value = crop;
     $("#crumbs").checked = crumbs === "keep";
     $("#plane").checked = plane === "keep";
+    $("#doubtful").checked = doubtful === "keep";
     $("#denoise-auto").checked = denoise === "auto";
     this.showNoise(denoise === "auto" ? this.facts?.noise ?? 0 : Number(denoise));
     for (const cut of this.cuts)
@@ -144,7 +154,7 @@ export class ScanPanel {
   notesOn({remarks, depth_image: depth}) {
     const {crumbs} = this.doc.now.options;
     const kept = {text: "Small pieces are kept.", option: "crumbs", value: "drop", label: "Leave them out"};
-    const notes = depth ? remarks.map((note) => noteOn(note, depth)) : remarks;
+    const notes = remarks.map((note) => (depth ? noteOn(note, depth) : withOption(note)));
     return crumbs === "keep" ? [...notes, kept] : notes;
   }
 

@@ -97,9 +97,24 @@ test("has a project that make reads as the page does", async () => {
   await untilReady(page);
 });
 
+test("takes the depth of the picture in its widths, where that has an effect", async () => {
+  await enter(row("depth-range"), "0.1");
+  await untilReady(page);
+  const project = await savedProject();
+  assert.equal(JSON.parse(readFileSync(project, "utf8")).options["depth-range"], 0.1);
+  assert.ok(madeOf(project).bytes.equals((await exported()).bytes));
+  await row("depth-values").selectOption("inverse"); // has a camera of its own
+  await soon.ok(async () => await row("depth-range").isHidden());
+  await untilReady(page);
+  await undo(2);
+  await soon.equal(() => row("depth-range").inputValue(), "0.5");
+  await untilReady(page);
+});
+
 test("reads depths by the camera that is entered, and so does make with the project", async () => {
   await enter(row("camera"), "100,100,59.5,44.5");
   await soon.match(() => panel().innerText(), /All pixels are used/); // a camera keeps what is behind the figure
+  await soon.ok(async () => await row("depth-range").isHidden()); // its depths are exact
   await untilReady(page);
   const project = await savedProject();
   assert.equal(JSON.parse(readFileSync(project, "utf8")).options.camera, "100,100,59.5,44.5");
@@ -109,6 +124,32 @@ test("reads depths by the camera that is entered, and so does make with the proj
   await soon.equal(() => row("camera").inputValue(), "100,100,59.5,44.5");
   await undo();
   await soon.match(() => panel().innerText(), /Background/);
+  await untilReady(page);
+});
+
+// Writes a dome of splats as a .splat file; `faint` of them are nearly transparent.
+function writeSplats(file, faint) {
+  const side = 50, bytes = Buffer.alloc(32 * side * side);
+  for (let i = 0; i < side * side; ++i) {
+    const x = (i % side) / side - 0.5, y = Math.floor(i / side) / side - 0.5, splat = 32 * i;
+    [x, y, 0.5 * Math.cos(2 * x) * Math.cos(2 * y), 0.02, 0.02, 0.002].forEach((n, k) => bytes.writeFloatLE(n, splat + 4 * k));
+    bytes.set([200, 200, 200, i % 7 === 0 && i < 7 * faint ? 5 : 255, 255, 128, 128, 128], splat + 24);
+  }
+  writeFileSync(file, bytes);
+}
+
+test("brings back points that the file marks as doubtful", async () => {
+  const file = path.join(folder, "dome.splat");
+  writeSplats(file, 300);
+  await show(file);
+  const note = page.locator("#notes").getByText("Left out 300 points of splats that are less than half opaque");
+  await soon.doesNotMatch(() => note.innerText(), /--/);
+  await button("Keep them", note).click();
+  await soon.ok(() => page.locator("#doubtful").isChecked());
+  await soon.equal(() => note.count(), 0);
+  await untilReady(page);
+  await page.locator("#doubtful").uncheck();
+  await soon.equal(() => note.count(), 1);
   await untilReady(page);
 });
 

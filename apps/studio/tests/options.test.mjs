@@ -51,6 +51,7 @@ const CASES = {
   finish: {value: "reachable", first: {tool: "ball:3"}}, resolution: {value: 0.5}, tolerance: {value: 0.02},
   triangles: {value: 5000},
   "depth-values": {value: "height", isDepth: true}, background: {value: "keep", isDepth: true},
+  "depth-range": {value: 0.8, isDepth: true}, doubtful: {value: "keep"},
   blur: {value: "drop", isDepth: true}, camera: {value: "300,300,60,45", isDepth: true},
   channel: {value: 1, isDepth: true}, "mm-per-value": {value: 0.01, isDepth: true},
   ground: {value: 3000, first: {"mm-per-value": 0.01}, isDepth: true},
@@ -82,7 +83,7 @@ async function set(name, value) {
   }
   if (name === "light") return it.check(); // takes the light of the picture
   if (name === "ornaments") return it.click(); // adds beads
-  if (name === "crumbs" || name === "plane") return it.setChecked(value === "keep");
+  if (["crumbs", "plane", "doubtful"].includes(name)) return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
   if (kind === "select") return name === "tone" ? it.selectOption({index: 1}) : it.selectOption(value);
   await (kind === "range" ? it.fill(String(value)) : enter(it, String(value)));

@@ -18,14 +18,15 @@ float half_precision(std::uint64_t bits);
 
 // Returns the number that the lowest bits represent: integers of 1 to 64 bits, in two's complement if signed,
 // or floating-point numbers of 16, 32 and 64 bits (IEEE 754).
-inline float decode_sample(const SampleFormat& format, std::uint64_t bits) {
+template <typename Number = float>
+Number decode_sample(const SampleFormat& format, std::uint64_t bits) {
   const unsigned unused = 64 - format.bits;
-  if (format.kind == SampleKind::whole) return static_cast<float>(bits);
+  if (format.kind == SampleKind::whole) return static_cast<Number>(bits);
   if (format.kind == SampleKind::signed_whole)
-    return static_cast<float>(static_cast<std::int64_t>(bits << unused) >> unused);
-  if (format.bits == 16) return half_precision(bits);
-  if (format.bits == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-  return static_cast<float>(std::bit_cast<double>(bits));
+    return static_cast<Number>(static_cast<std::int64_t>(bits << unused) >> unused);
+  if (format.bits == 16) return Number{half_precision(bits)};
+  if (format.bits == 32) return Number{std::bit_cast<float>(static_cast<std::uint32_t>(bits))};
+  return static_cast<Number>(std::bit_cast<double>(bits));
 }
 
 // Returns the integer in `bytes` bytes, at most 8, with that byte order.

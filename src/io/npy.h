@@ -1,0 +1,48 @@
+// The arrays that NumPy saves (NPY, versions 1 to 3), which are depth images or points. Tested by
+// tests/io/npy_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "io/pictures/samples.h"
+#include "io/readers.h"
+
+namespace relievo::io {
+
+// The header of an array with at least one dimension, and access to its numbers.
+struct NpyArray {
+  std::string_view shape;  // as written in the file: "160, 160"
+  SampleFormat samples = {};
+  bool is_by_columns = false, is_big_endian = false;
+  std::vector<std::size_t> sizes;  // lengths of the dimensions, except those of length 1
+  std::size_t data = 0;            // offset of the first number
+
+  unsigned bytes_per_number() const { return samples.bits / 8; }
+
+  // Returns whether the array is a list of points, one or several pictures of points, and not a picture: its last
+  // dimension has 3 numbers, or its rows are many and have at most 9 fractions. Unsigned numbers in more than two
+  // dimensions are colours.
+  bool has_points() const;
+
+  // Returns number `column` of the last dimension in row `row`; rows are counted through all other dimensions,
+  // of which the last one runs fastest.
+  template <typename Number>
+  Number number(const Source& source, std::size_t row, std::size_t column) const {
+    const char* const from = source.bytes.data() + data + bytes_per_number() * place(row, column);
+    return decode_sample<Number>(samples, whole_number(from, bytes_per_number(), is_big_endian));
+  }
+
+ private:
+  std::size_t place(std::size_t row, std::size_t column) const;
+};
+
+// Returns whether the content begins like an array of NumPy.
+bool has_npy_mark(const Source& source);
+
+// Returns the array's header. Errors: kind input for a header that is cut, numbers that are not real, and a
+// shape that is not a list of sizes.
+Result<NpyArray> read_npy_header(const Source& source);
+
+}  // namespace relievo::io
