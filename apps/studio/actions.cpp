@@ -39,6 +39,17 @@ Answer not_open() {
   return answer_of(Json{{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
 }
 
+// Returns the text of an option; null if it has none.
+std::string* text_of(Json& options, const char* option) {
+  const auto found = options.find(option);
+  return found == options.end() ? nullptr : found->get_ptr<std::string*>();
+}
+
+Result<std::shared_ptr<const PackedFile>> packed(const std::string& path, const std::string& name) {
+  RELIEVO_TRY(std::vector<std::byte> bytes, read_file(path));
+  return std::make_shared<const PackedFile>(name, std::move(bytes));
+}
+
 Result<ScanSource> input_in(const Json& json) {
   return input_from_json(json.value("input", Json()), "input");
 }
@@ -216,22 +227,26 @@ Result<Answer> Actions::remove(const Json& json) {
   return done();
 }
 
-// Makes a project file with the scan packed in it.
+// Makes a project file with the scan and the files of the options packed in it.
 Result<Answer> Actions::save(const Json& json) {
-  const Json project = json.value("project", Json());
+  Json project = json.value("project", Json());
   RELIEVO_TRY(const ScanSource input, input_in(project));
-  if (!input.sample.empty() || ending_of(input.path) == "json")
-    return refusal(400, "expected a scan of one file");
-  RELIEVO_TRY(std::vector<std::byte> scan, read_file(input.path));
-  const std::string image_path = base_image_path_in(project.value("options", Json()));
-  PackedFile image{plain_name(image_path), {}};
-  if (!image_path.empty()) {
-    RELIEVO_TRY(image.bytes, read_file(image_path));
+  ProjectFile file;
+  if (Json& options = project["options"]; options.is_object()) {
+    RELIEVO_TRY(file.ornaments, pack_ornaments(text_of(options, "font"), text_of(options, "ornaments")));
   }
-  RELIEVO_TRY(const std::vector<std::byte> file,
-              pack_project(project.dump(1) + "\n", {input.name, std::move(scan)},
-                           image_path.empty() ? nullptr : &image));
-  return Answer{200, "application/zip", std::string(text_in(file))};
+  const bool is_sample = !input.sample.empty();
+  if ((is_sample && file.ornaments.empty()) || ending_of(input.path) == "json")
+    return refusal(400, "expected a scan of one file");
+  if (!is_sample) {
+    RELIEVO_TRY(file.scan, packed(input.path, input.name));
+  }
+  if (const std::string path = base_image_path_in(project["options"]); !path.empty()) {
+    RELIEVO_TRY(file.base_image, packed(path, plain_name(path)));
+  }
+  file.text = project.dump(1) + "\n";
+  RELIEVO_TRY(const std::vector<std::byte> bytes, pack_project(file));
+  return Answer{200, "application/zip", std::string(text_in(bytes))};
 }
 
 Answer Actions::take_scan(const std::string& name, const BodyReader& read) {
@@ -263,6 +278,21 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
   return store_.keep(*scan);
 }
 
+// Stores the fonts and drawings that were packed in a project. Replaces the paths of such files by those of
+// stored files, which are found by their hash, too; other relative paths then start at `folder`.
+Result<void> Actions::place_ornaments(const OrnamentFiles& inside, const std::string& folder,
+                                      OptionValues& options) {
+  for (const auto& [name, bytes] : inside) RELIEVO_CHECK(kept({name, bytes}));
+  change_ornament_paths(options, [&](const std::string& name) {
+    std::string path = inside.contains(name) ? name : path_in(folder, name);
+    const std::string digits = std::filesystem::path(path).parent_path().filename().string();
+    const bool is_known = is_document(digits) && (inside.contains(name) || !app::is_there(path));
+    const auto stored = is_known ? store_.find_scan("fnv1a64:" + digits) : std::nullopt;
+    return stored ? stored->path : path;
+  });
+  return {};
+}
+
 // Returns the content of a project file as JSON for the page. A relative path starts at `folder`.
 Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::string& name,
                                  const std::string& folder) {
@@ -283,6 +313,7 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   } else if (!image.empty() && !folder.empty()) {
     image = (std::filesystem::path(folder) / image).lexically_normal().string();
   }
+  RELIEVO_CHECK(place_ornaments(file.ornaments, folder, project.options));
   if (!folder.empty() && input.sample.empty())
     input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
   if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
