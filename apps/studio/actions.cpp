@@ -45,6 +45,16 @@ std::string* text_of(Json& options, const char* option) {
   return found == options.end() ? nullptr : found->get_ptr<std::string*>();
 }
 
+// Returns the options of a project, followed by those of its snapshots.
+std::vector<Json*> option_lists(Json& project) {
+  std::vector<Json*> lists{&project["options"]};
+  if (Json& studio = project["studio"]; studio.is_object() && studio.contains("snapshots"))
+    for (Json& snapshot : studio["snapshots"])
+      if (snapshot.is_object()) lists.push_back(&snapshot["options"]);
+  std::erase_if(lists, [](const Json* list) { return !list->is_object(); });
+  return lists;
+}
+
 Result<std::shared_ptr<const PackedFile>> packed(const std::string& path, const std::string& name) {
   RELIEVO_TRY(std::vector<std::byte> bytes, read_file(path));
   return std::make_shared<const PackedFile>(name, std::move(bytes));
@@ -232,8 +242,10 @@ Result<Answer> Actions::save(const Json& json) {
   Json project = json.value("project", Json());
   RELIEVO_TRY(const ScanSource input, input_in(project));
   ProjectFile file;
-  if (Json& options = project["options"]; options.is_object()) {
-    RELIEVO_TRY(file.ornaments, pack_ornaments(text_of(options, "font"), text_of(options, "ornaments")));
+  for (Json* const options : option_lists(project)) {
+    RELIEVO_TRY(OrnamentFiles files,
+                pack_ornaments(text_of(*options, "font"), text_of(*options, "ornaments")));
+    file.ornaments.merge(files);
   }
   const bool is_sample = !input.sample.empty();
   if ((is_sample && file.ornaments.empty()) || ending_of(input.path) == "json")
@@ -278,18 +290,20 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
   return store_.keep(*scan);
 }
 
-// Stores the fonts and drawings that were packed in a project. Replaces the paths of such files by those of
-// stored files, which are found by their hash, too; other relative paths then start at `folder`.
-Result<void> Actions::place_ornaments(const OrnamentFiles& inside, const std::string& folder,
-                                      OptionValues& options) {
+// Stores the fonts and drawings that were packed in a project. Replaces the paths of such files, in the options and
+// in those of snapshots, by those of stored files, which are found by their hash, too; other relative paths then
+// start at `folder`.
+Result<void> Actions::place_ornaments(const OrnamentFiles& inside, const std::string& folder, Json& project) {
   for (const auto& [name, bytes] : inside) RELIEVO_CHECK(kept({name, bytes}));
-  change_ornament_paths(options, [&](const std::string& name) {
+  const auto place = [&](const std::string& name) {
     std::string path = inside.contains(name) ? name : path_in(folder, name);
     const std::string digits = std::filesystem::path(path).parent_path().filename().string();
     const bool is_known = is_document(digits) && (inside.contains(name) || !app::is_there(path));
     const auto stored = is_known ? store_.find_scan("fnv1a64:" + digits) : std::nullopt;
     return stored ? stored->path : path;
-  });
+  };
+  for (Json* const options : option_lists(project))
+    change_ornament_paths(text_of(*options, "font"), text_of(*options, "ornaments"), place);
   return {};
 }
 
@@ -313,7 +327,6 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   } else if (!image.empty() && !folder.empty()) {
     image = (std::filesystem::path(folder) / image).lexically_normal().string();
   }
-  RELIEVO_CHECK(place_ornaments(file.ornaments, folder, project.options));
   if (!folder.empty() && input.sample.empty())
     input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
   if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
@@ -322,11 +335,13 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   for (const OptionRow& option : option_table())
     if (option.is_stated && option.is_number()) usual[option.name] = option.access.number(read).value_or(0);
   if (!image.empty()) options["base-image"] = image;
-  return Json{{"input", app::to_json(input)},
-              {"is_there", is_there(input)},
-              {"options", std::move(options)},
-              {"usual", std::move(usual)},
-              {"studio", Json::parse(file.text).value("studio", Json::object())}};
+  Json all{{"input", app::to_json(input)},
+           {"is_there", is_there(input)},
+           {"options", std::move(options)},
+           {"usual", std::move(usual)},
+           {"studio", Json::parse(file.text).value("studio", Json::object())}};
+  RELIEVO_CHECK(place_ornaments(file.ornaments, folder, all));
+  return all;
 }
 
 Result<void> Actions::begin_with(const std::string& path, const std::string& full) {
