@@ -24,7 +24,9 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
   std::optional<Project> project;
   if (stored) project = stored->project;
   if (project) {
-    find_ornament_files(project->options, stored->folder);
+    change_ornament_paths(project->options, [&](const std::string& path) {
+      return stored->ornaments.contains(path) ? path : path_in(stored->folder, path);
+    });
     RELIEVO_CHECK(take_text_of_file("strokes", stored->folder, project->options));
   }
   OptionValues values = project ? with_given(project->options, order.values) : order.values;
@@ -35,7 +37,7 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
       std::shared_ptr<const Image<float>> image,
       order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
-  RELIEVO_CHECK(read_ornaments(options));
+  RELIEVO_CHECK(read_ornaments(options, stored ? stored->ornaments : OrnamentFiles()));
   return options;
 }
 

@@ -1,11 +1,15 @@
 #include "common/read_inputs.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/files.h"
 #include "common/wording.h"
 #include "relievo/core/json_place.h"
+#include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/io/svg.h"
 
@@ -25,15 +29,39 @@ Result<void> set(T& to, Result<T> from) {
   return {};
 }
 
+// A font that was read, as long as options have it. Options are equal only if their fonts are the same
+// object, and successive pictures have to have equal options.
+struct KnownFont {
+  std::int64_t changed_ns;
+  std::weak_ptr<const FontFile> font;
+};
+
 Result<std::shared_ptr<const FontFile>> read_font(const std::string& path) {
-  RELIEVO_TRY(std::vector<std::byte> bytes, read_file(path));
-  return std::make_shared<const FontFile>(path, std::move(bytes));
+  static Guarded<std::map<std::string, KnownFont>> guarded;
+  return guarded.with([&](auto& fonts) -> Result<std::shared_ptr<const FontFile>> {
+    const std::int64_t changed_ns = time_of_change_ns(path);
+    if (const auto known = fonts.find(path); known != fonts.end() && known->second.changed_ns == changed_ns)
+      if (auto font = known->second.font.lock()) return font;
+    std::erase_if(fonts, [](const auto& each) { return each.second.font.expired(); });
+    RELIEVO_TRY(std::vector<std::byte> bytes, read_file(path));
+    auto font = std::make_shared<const FontFile>(path, std::move(bytes));
+    fonts.insert_or_assign(path, KnownFont{changed_ns, font});
+    return font;
+  });
+}
+
+Result<std::shared_ptr<const FontFile>> font_of(const std::string& path, const std::string& folder,
+                                                const OrnamentFiles& inside) {
+  const auto found = inside.find(path);
+  if (found == inside.end()) return read_font(path_in(folder, path));
+  return std::make_shared<const FontFile>(path, found->second);
 }
 
 // Reads one list of ornaments. Errors name the key whose value is wrong.
 class OrnamentReader {
  public:
-  OrnamentReader(const std::string& name, const std::string& folder) : name_(name), folder_(folder) {}
+  OrnamentReader(const std::string& name, const std::string& folder, const OrnamentFiles& inside)
+      : name_(name), folder_(folder), inside_(inside) {}
 
   Result<std::vector<Ornament>> read(const Json& json) const {
     const auto list = json.is_object() ? json.find("ornaments") : json.end();
@@ -95,8 +123,8 @@ class OrnamentReader {
     const std::string text = value.get<std::string>();
     if (key == "kind") return set(to.kind, parse_choice({}, text, ornament_kinds));
     if (key == "arc") return set(to.arc, parse_choice({}, text, text_arc_choices));
-    if (key == "font") return set(to.font, read_font(path_in(folder_, text)));
-    if (key == "file") return read_drawing(path_in(folder_, text), to);
+    if (key == "font") return set(to.font, font_of(text, folder_, inside_));
+    if (key == "file") return read_drawing(text, to);
     to.text = text;
     return {};
   }
@@ -118,39 +146,64 @@ class OrnamentReader {
     return {};
   }
 
-  static Result<void> read_drawing(const std::string& path, Ornament& to) {
-    RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
+  Result<void> read_drawing(const std::string& file, Ornament& to) const {
+    const auto found = inside_.find(file);
+    const bool is_inside = found != inside_.end();
+    const std::string path = is_inside ? file : path_in(folder_, file);
+    RELIEVO_TRY(const std::vector<std::byte> bytes,
+                is_inside ? Result<std::vector<std::byte>>(found->second) : read_file(path));
     return set(to.outlines, read_svg(text_in(bytes), path));
   }
 
   const std::string &name_, &folder_;
+  const OrnamentFiles& inside_;
 };
 
 }  // namespace
 
 Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::string& name,
-                                              const std::string& folder) {
+                                              const std::string& folder, const OrnamentFiles& inside) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded())
     return input_error(name, json_error_place(text),
                        "expected ornaments in JSON, found text that is no JSON");
-  return OrnamentReader(name, folder).read(json);
+  return OrnamentReader(name, folder, inside).read(json);
 }
 
-void find_ornament_files(OptionValues& own, const std::string& folder) {
-  for (const char* const name : {"font", "ornaments"}) {
-    const auto found = own.find(name);
-    if (found == own.end() || !std::holds_alternative<std::string>(found->second)) continue;
-    const std::string& path = std::get<std::string>(found->second);
-    if (!path.empty() && !is_json(path)) found->second = path_in(folder, path);
+void change_ornament_paths(std::string* font, std::string* ornaments,
+                           const std::function<std::string(const std::string&)>& change) {
+  if (font && !font->empty()) *font = change(*font);
+  if (!ornaments || ornaments->empty()) return;
+  if (!is_json(*ornaments)) {
+    *ornaments = change(*ornaments);
+    return;
   }
+  auto json = nlohmann::ordered_json::parse(*ornaments, nullptr, false);
+  if (!json.is_object() || !json.contains("ornaments")) return;  // reading it says what it expected
+  bool is_changed = false;
+  for (auto& ornament : json["ornaments"])
+    for (const char* const key : {"font", "file"})
+      if (ornament.is_object() && ornament.contains(key) && ornament[key].is_string()) {
+        ornament[key] = change(ornament[key].get<std::string>());
+        is_changed = true;
+      }
+  if (is_changed) *ornaments = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Result<void> read_ornaments(ReliefOptions& options) {
+void change_ornament_paths(OptionValues& options,
+                           const std::function<std::string(const std::string&)>& change) {
+  const auto text_of = [&](const char* name) {
+    const auto found = options.find(name);
+    return found == options.end() ? nullptr : std::get_if<std::string>(&found->second);
+  };
+  change_ornament_paths(text_of("font"), text_of("ornaments"), change);
+}
+
+Result<void> read_ornaments(ReliefOptions& options, const OrnamentFiles& inside) {
   const std::string &font = options.font_name, &source = options.ornament_source;
-  if (!font.empty()) RELIEVO_CHECK(set(options.font, read_font(font)));
+  if (!font.empty()) RELIEVO_CHECK(set(options.font, font_of(font, {}, inside)));
   if (source.empty()) return {};
-  if (is_json(source)) return set(options.ornaments, parse_ornaments(source, "ornaments", {}));
+  if (is_json(source)) return set(options.ornaments, parse_ornaments(source, "ornaments", {}, inside));
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(source));
   const std::string folder = std::filesystem::path(source).parent_path().string();
   return set(options.ornaments, parse_ornaments(text_in(bytes), source, folder));

@@ -1,7 +1,6 @@
 #include "common/project.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -94,7 +93,7 @@ Result<OptionValues> values_without_image(Json json, std::string_view name) {
 // Caches the last height map that was read, since successive pictures need the same one.
 struct LastImage {
   std::string path;
-  timespec changed;
+  std::int64_t changed_ns;
   std::shared_ptr<const Image<float>> image;
 };
 
@@ -102,26 +101,27 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
   if (path.empty()) return nullptr;
   static Guarded<LastImage> guarded;
   return guarded.with([&](LastImage& last) -> Result<std::shared_ptr<const Image<float>>> {
-    struct stat now = {};
-    if (::stat(path.c_str(), &now) != 0) now = {};  // the call of read_base_image() below reports the error
-    const auto [seconds, nanoseconds] = now.st_mtim;
-    if (last.image && last.path == path && last.changed.tv_sec == seconds &&
-        last.changed.tv_nsec == nanoseconds)
-      return last.image;
+    const std::int64_t changed_ns = time_of_change_ns(path);
+    if (last.image && last.path == path && last.changed_ns == changed_ns) return last.image;
     RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(path));
-    last = {path, now.st_mtim, image};
+    last = {path, changed_ns, image};
     return image;
   });
 }
 
 }  // namespace
 
-Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
+Result<ReliefOptions> options_without_ornament_files(const Json& json, std::string_view name) {
   RELIEVO_TRY(const OptionValues values, values_without_image(json, name));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_CHECK(parse_depth(values));
   RELIEVO_TRY(std::shared_ptr<const Image<float>> image, last_base_image(base_image_path_in(json)));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
+  return options;
+}
+
+Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
+  RELIEVO_TRY(ReliefOptions options, options_without_ornament_files(json, name));
   RELIEVO_CHECK(read_ornaments(options));
   return options;
 }

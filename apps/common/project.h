@@ -53,9 +53,13 @@ std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
 // Returns the parsed options of an object that to_json() made. Also reads the height map at its path
-// "base-image". Errors: those of values_from_json(), parse_options(), parse_depth(), read_base_image() and
-// take_base_image().
+// "base-image", and the fonts and the list of ornaments. Errors: those of values_from_json(), parse_options(),
+// parse_depth(), read_base_image(), take_base_image() and read_ornaments().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
+
+// Returns the same options without the fonts and the list of ornaments, which read_ornaments() reads. Errors:
+// those of options_from_json() except for those of read_ornaments().
+Result<ReliefOptions> options_without_ornament_files(const nlohmann::json& json, std::string_view name);
 
 // Returns the path "base-image" of an object with options; empty if it has none.
 std::string base_image_path_in(const nlohmann::json& options);

@@ -24,16 +24,22 @@ struct PackedFile {
 struct ProjectFile {
   std::string text;                                    // see read_project()
   std::shared_ptr<const PackedFile> scan, base_image;  // each is null if the project file does not contain it
+  OrnamentFiles ornaments = {};                        // fonts and drawings
 };
 
 // Unpacks the bytes of a project file. Error messages call it `name`. Errors: kind input, also for an archive
 // that has no project or is larger than 4 GiB.
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name);
 
-// Returns the bytes of a compressed project file that contains the scan and, unless it is null, the height
-// map of the base. Errors: kind output if there is not enough memory.
-Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedFile& scan,
-                                            const PackedFile* base_image);
+// Returns the bytes of a compressed project file that contains the files of `file`. Errors: kind output if there
+// is not enough memory.
+Result<std::vector<std::byte>> pack_project(const ProjectFile& file);
+
+// Returns the fonts and drawings that the options `font` and `ornaments` name, either of which may be null, and
+// replaces their paths by their names in a project file. A list of ornaments that is in a file becomes the
+// option's own text. Errors: those of read_file() and parse_ornaments(); kind option for
+// a font that is none.
+Result<OrnamentFiles> pack_ornaments(std::string* font, std::string* ornaments);
 
 // A project that was read, and the location of its scan.
 struct StoredProject {
@@ -41,6 +47,7 @@ struct StoredProject {
   std::string folder;                        // folder of the project's file
   std::shared_ptr<const PackedFile> packed;  // null unless the file contains the scan
   std::string located;                       // path of the scan if the user gives another one; may be empty
+  OrnamentFiles ornaments = {};              // those of the project's file
 };
 
 // Returns the project if the inputs are a single project file; nothing otherwise. `located` becomes

@@ -1,7 +1,10 @@
 // Reads the inputs of a relief from disk: clouds, meshes, depth images, and scenes that consist of these.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -94,19 +97,30 @@ Result<T> naming(const std::string& name, Result<T> result) {
   return result;
 }
 
+// The bytes of the fonts and drawings that a project contains, by their names in the project.
+using OrnamentFiles = std::map<std::string, std::vector<std::byte>, std::less<>>;
+
 // Returns the ornaments in a JSON text. Error messages call it `name`. Relative paths start at `folder`:
 //   {"ornaments": [{"kind": "text", "text": "LIBERTAS", "arc": "top", "size": 3}, {"kind": "beads"},
 //                  {"kind": "drawing", "file": "crest.svg", "size": 20, "at": [0, 30]}]}
 // docs/lettering.md lists all keys. Errors: kind input for a text that is not JSON, unknown keys, values of
 // another type, and files that cannot be read.
 Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::string& name,
-                                              const std::string& folder);
+                                              const std::string& folder, const OrnamentFiles& inside = {});
 
-// Makes the relative paths in a project's options `font` and `ornaments` relative to the project's folder.
-void find_ornament_files(OptionValues& own, const std::string& folder);
+// Replaces the path of each font and each drawing by what `change` returns for it. `ornaments` is the value
+// of that option, whose list may itself be in a file, and `font` that of the other option. Either may be
+// null.
+void change_ornament_paths(std::string* font, std::string* ornaments,
+                           const std::function<std::string(const std::string&)>& change);
 
-// Reads the files that the options `font` and `ornaments` name. If the text of `ornaments` begins with a
-// brace, it is JSON itself and not a path. Errors: those of read_file() and parse_ornaments().
-Result<void> read_ornaments(ReliefOptions& options);
+// Does so with the values of both options.
+void change_ornament_paths(OptionValues& options,
+                           const std::function<std::string(const std::string&)>& change);
+
+// Reads the files that the options `font` and `ornaments` name, from `inside` if they are there. If the text
+// of `ornaments` begins with a brace, it is JSON itself and not a path. A font that another object still has
+// is not read again, unless its file has changed. Errors: those of read_file() and parse_ornaments().
+Result<void> read_ornaments(ReliefOptions& options, const OrnamentFiles& inside = {});
 
 }  // namespace relievo::app

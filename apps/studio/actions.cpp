@@ -39,6 +39,27 @@ Answer not_open() {
   return answer_of(Json{{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
 }
 
+// Returns the text of an option; null if it has none.
+std::string* text_of(Json& options, const char* option) {
+  const auto found = options.find(option);
+  return found == options.end() ? nullptr : found->get_ptr<std::string*>();
+}
+
+// Returns the options of a project, followed by those of its snapshots.
+std::vector<Json*> option_lists(Json& project) {
+  std::vector<Json*> lists{&project["options"]};
+  if (Json& studio = project["studio"]; studio.is_object() && studio.contains("snapshots"))
+    for (Json& snapshot : studio["snapshots"])
+      if (snapshot.is_object()) lists.push_back(&snapshot["options"]);
+  std::erase_if(lists, [](const Json* list) { return !list->is_object(); });
+  return lists;
+}
+
+Result<std::shared_ptr<const PackedFile>> packed(const std::string& path, const std::string& name) {
+  RELIEVO_TRY(std::vector<std::byte> bytes, read_file(path));
+  return std::make_shared<const PackedFile>(name, std::move(bytes));
+}
+
 Result<ScanSource> input_in(const Json& json) {
   return input_from_json(json.value("input", Json()), "input");
 }
@@ -216,22 +237,28 @@ Result<Answer> Actions::remove(const Json& json) {
   return done();
 }
 
-// Makes a project file with the scan packed in it.
+// Makes a project file with the scan and the files of the options packed in it.
 Result<Answer> Actions::save(const Json& json) {
-  const Json project = json.value("project", Json());
+  Json project = json.value("project", Json());
   RELIEVO_TRY(const ScanSource input, input_in(project));
-  if (!input.sample.empty() || ending_of(input.path) == "json")
-    return refusal(400, "expected a scan of one file");
-  RELIEVO_TRY(std::vector<std::byte> scan, read_file(input.path));
-  const std::string image_path = base_image_path_in(project.value("options", Json()));
-  PackedFile image{plain_name(image_path), {}};
-  if (!image_path.empty()) {
-    RELIEVO_TRY(image.bytes, read_file(image_path));
+  ProjectFile file;
+  for (Json* const options : option_lists(project)) {
+    RELIEVO_TRY(OrnamentFiles files,
+                pack_ornaments(text_of(*options, "font"), text_of(*options, "ornaments")));
+    file.ornaments.merge(files);
   }
-  RELIEVO_TRY(const std::vector<std::byte> file,
-              pack_project(project.dump(1) + "\n", {input.name, std::move(scan)},
-                           image_path.empty() ? nullptr : &image));
-  return Answer{200, "application/zip", std::string(text_in(file))};
+  const bool is_sample = !input.sample.empty();
+  if ((is_sample && file.ornaments.empty()) || ending_of(input.path) == "json")
+    return refusal(400, "expected a scan of one file");
+  if (!is_sample) {
+    RELIEVO_TRY(file.scan, packed(input.path, input.name));
+  }
+  if (const std::string path = base_image_path_in(project["options"]); !path.empty()) {
+    RELIEVO_TRY(file.base_image, packed(path, plain_name(path)));
+  }
+  file.text = project.dump(1) + "\n";
+  RELIEVO_TRY(const std::vector<std::byte> bytes, pack_project(file));
+  return Answer{200, "application/zip", std::string(text_in(bytes))};
 }
 
 Answer Actions::take_scan(const std::string& name, const BodyReader& read) {
@@ -263,6 +290,23 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
   return store_.keep(*scan);
 }
 
+// Stores the fonts and drawings that were packed in a project. Replaces the paths of such files, in the options and
+// in those of snapshots, by those of stored files, which are found by their hash, too; other relative paths then
+// start at `folder`.
+Result<void> Actions::place_ornaments(const OrnamentFiles& inside, const std::string& folder, Json& project) {
+  for (const auto& [name, bytes] : inside) RELIEVO_CHECK(kept({name, bytes}));
+  const auto place = [&](const std::string& name) {
+    std::string path = inside.contains(name) ? name : path_in(folder, name);
+    const std::string digits = std::filesystem::path(path).parent_path().filename().string();
+    const bool is_known = is_document(digits) && (inside.contains(name) || !app::is_there(path));
+    const auto stored = is_known ? store_.find_scan("fnv1a64:" + digits) : std::nullopt;
+    return stored ? stored->path : path;
+  };
+  for (Json* const options : option_lists(project))
+    change_ornament_paths(text_of(*options, "font"), text_of(*options, "ornaments"), place);
+  return {};
+}
+
 // Returns the content of a project file as JSON for the page. A relative path starts at `folder`.
 Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::string& name,
                                  const std::string& folder) {
@@ -291,11 +335,13 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   for (const OptionRow& option : option_table())
     if (option.is_stated && option.is_number()) usual[option.name] = option.access.number(read).value_or(0);
   if (!image.empty()) options["base-image"] = image;
-  return Json{{"input", app::to_json(input)},
-              {"is_there", is_there(input)},
-              {"options", std::move(options)},
-              {"usual", std::move(usual)},
-              {"studio", Json::parse(file.text).value("studio", Json::object())}};
+  Json all{{"input", app::to_json(input)},
+           {"is_there", is_there(input)},
+           {"options", std::move(options)},
+           {"usual", std::move(usual)},
+           {"studio", Json::parse(file.text).value("studio", Json::object())}};
+  RELIEVO_CHECK(place_ornaments(file.ornaments, folder, all));
+  return all;
 }
 
 Result<void> Actions::begin_with(const std::string& path, const std::string& full) {

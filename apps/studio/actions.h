@@ -79,6 +79,8 @@ class Actions {
   Result<Answer> check(const nlohmann::json& json);
 
   Result<ScanSource> kept(const PackedFile& file);
+  Result<void> place_ornaments(const OrnamentFiles& inside, const std::string& folder,
+                               nlohmann::json& project);
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder);
   nlohmann::json recent_list(const std::string& after = {});

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/read_inputs.h"
 #include "common/wording.h"
 #include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
@@ -104,12 +105,19 @@ ReliefOptions without_ornaments(ReliefOptions options) {
 }  // namespace
 
 bool leave_out_ornaments(PictureRequest& request, const Error& error) {
-  const bool is_theirs =
-      error.kind == ErrorKind::option && (error.input == "text" || error.input == "ornaments");
+  const bool is_theirs = error.kind == ErrorKind::option &&
+                         (error.input == "text" || error.input == "ornaments" || error.input == "font");
   if (!is_theirs || request.options.all_ornaments().empty()) return false;
   request.options = without_ornaments(request.options);
   request.ornament_error = error;
   return true;
+}
+
+void read_ornaments_of(PictureRequest& request) {
+  const Result<void> read = read_ornaments(request.options);
+  if (read) return;
+  request.options = without_ornaments(request.options);
+  request.ornament_error = read.error();
 }
 
 Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)

@@ -100,6 +100,10 @@ struct PieceHeight {
 // Leaves out the ornaments of a request if the error of its piece is theirs. Returns whether it did.
 bool leave_out_ornaments(PictureRequest& request, const Error& error);
 
+// Reads the files of the request's ornaments. If one cannot be read, takes the ornaments out of the request and
+// keeps the error in it.
+void read_ornaments_of(PictureRequest& request);
+
 // Not for concurrent use.
 class Drawing {
  public:

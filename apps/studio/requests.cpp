@@ -126,7 +126,9 @@ Result<Json> parse_body(std::string_view body) {
 
 Result<PictureRequest> picture_request(const Json& json) {
   PictureRequest request;
-  RELIEVO_TRY(request.options, options_from_json(json.value("options", Json::object()), "options"));
+  RELIEVO_TRY(request.options,
+              options_without_ornament_files(json.value("options", Json::object()), "options"));
+  read_ornaments_of(request);
   RELIEVO_TRY(request.render, render_from(json));
   request.is_original = flag(json, "original");
   request.is_finished = flag(json, "finished");

@@ -1,7 +1,7 @@
 // Shows the control for the height map of a base. The user chooses an image or drops it on the control.
 
-import {$, make} from "./controls.js";
 import {engineOptions, isGone, markGone} from "./document.js";
+import {FileField, fileNameOf, takeDropsOn} from "./file_field.js";
 import {offer} from "./messages.js";
 
 const NAME = "base-image";
@@ -15,32 +15,12 @@ export class BaseImage {
   // `say` shows a line to the user. `redraw` updates the whole page.
   constructor({engine, doc, say, redraw}) {
     Object.assign(this, {engine, doc, say, redraw});
-    this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
-      "aria-label": "Image for the base"});
-    this.choose = make("button", {type: "button", class: "quiet", "data-option": NAME,
-      onclick: () => this.file.click()});
-    this.remove = make("button", {type: "button", class: "quiet", "aria-label": "Remove the base image",
-      onclick: () => this.doc.change({options: {base: "plane", [NAME]: ""}})}, "×");
-    this.element = make("div", {class: "pair base-image", title: TIP}, make("span", {}, "Base image"),
-      make("span", {}, this.choose, this.remove), this.file);
-    this.listen();
-  }
-
-  listen() {
-    this.file.onchange = () => {
-      const [file] = this.file.files;
-      this.file.value = "";
-      if (file) this.take(file);
-    };
-    const veil = (text) => () => ($("#veil p").textContent = text);
-    this.element.ondragover = veil("Drop to lay the relief on this image");
-    this.element.ondragleave = veil("Drop to open");
-    this.element.ondrop = (event) => {
-      veil("Drop to open")();
-      event.preventDefault(); // otherwise the page would open it as a scan
-      const [file] = event.dataTransfer?.files ?? [];
-      if (file) this.take(file);
-    };
+    this.field = new FileField({label: "Base image", what: "base image", none: "Choose …",
+      noneSaid: "Choose … for the base", accept: ".png,.tif,.tiff", option: NAME, class: "pair by-file base-image",
+      title: TIP, take: (file) => this.take(file),
+      drop: () => this.doc.change({options: {base: "plane", [NAME]: ""}})});
+    this.element = this.field.row;
+    takeDropsOn(this.element, "Drop to lay the relief on this image", (file) => this.take(file));
   }
 
   // Uploads an image and uses it for the base, unless the engine cannot read it or the user has opened another document
@@ -64,19 +44,17 @@ export class BaseImage {
   // Returns whether a picture failed because the height map is missing. In that case informs the user, and returns
   // false for later errors about the same height map.
   isMissing({kind, input}) {
-    const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
+    const path = this.doc.now.options[NAME];
     if (kind !== "input" || !path || isGone(path) || input !== path) return false;
     markGone(path);
-    offer(`The base image ${name} is gone: the relief is shown without it.`, "Choose it again",
-      () => this.file.click());
+    offer(`The base image ${fileNameOf(path)} is gone: the relief is shown without it.`, "Choose it again",
+      this.field.choose);
     return true;
   }
 
   // Shows the name of the document's height map.
   show() {
-    const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
-    this.choose.textContent = isGone(path) ? `${name} is gone` : name || "Choose …";
-    this.choose.setAttribute("aria-label", name ? `Base image ${name}: choose another` : "Choose … for the base");
-    this.remove.hidden = path === "";
+    const path = this.doc.now.options[NAME];
+    this.field.show(path, {isGone: isGone(path)});
   }
 }

@@ -1,5 +1,5 @@
-// Compares the relief with the model: draws a picture of the model over that of the relief, with the same size and
-// position of the figure. The engine fits each picture to its own plate. The model's plate is the figure with its
+// Compares the relief with the model, or with the relief of a snapshot: draws a picture of it over that of the relief,
+// with the same size and position of the figure. The engine fits each picture to its own plate. The model's plate is the figure with its
 // margin, so the two pictures need different zooms.
 
 import {$, clamp, make} from "./controls.js";
@@ -21,7 +21,8 @@ export class Comparing {
     return Boolean(this.isComparing || this.isHolding);
   }
 
-  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding).
+  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding). `rival` has the
+  // settings that are shown on that side instead, or is null.
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;
@@ -54,6 +55,18 @@ export class Comparing {
       ? [make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height})] : [];
   }
 
+  // Returns the settings that are compared; null for the model.
+  get shownRival() {
+    return this.isHolding ? null : this.rival ?? null;
+  }
+
+  // Returns the request for the picture of a snapshot.
+  rivalRequest(isFine, isLast) {
+    const {stage} = this, {light} = stage.doc.now;
+    return stage.request({...stage.pixels(isFine), fine: isFine, finished: isLast, light},
+      {...stage.doc.now, ...this.shownRival});
+  }
+
   // Returns the request for the picture of the model. The camera looks at the centre of the figure, which need not be
   // the centre of the plate. If the figure is mirrored, camera and light are mirrored for the request, and paint()
   // mirrors the picture.
@@ -69,12 +82,16 @@ export class Comparing {
     return this.stage.on.placing.isMirrored;
   }
 
-  // Draws the model at the size and position of the relief, unless the same picture is already drawn.
-  async draw(isFine) {
-    const request = this.request(isFine), {stage} = this, {zoom} = request.camera, {options, ...rest} = request;
-    const {margin, thickness, form} = options, {width_mm: width} = stage.about;
-    const key = JSON.stringify([stage.model, stage.pixelsPerMm, width, margin, thickness, form, rest]);
+  // Draws the model, or the snapshot, at the size and position of the relief, unless the same picture is already drawn.
+  // `isLast` is true for the last picture of a state, which shows the finished piece.
+  async draw(isFine, isLast) {
+    const {stage, shownRival: rival} = this, request = rival ? this.rivalRequest(isFine, isLast) : this.request(isFine);
+    const {options, ...rest} = request, {margin, thickness, form} = options, {width_mm: width} = stage.about;
+    const wanted = rival ? [options] : [width, margin, thickness, form];
+    const key = JSON.stringify([stage.model, stage.pixelsPerMm, Boolean(rival), wanted, rest]);
     if (key === this.drawn) return;
+    request.camera = {...request.camera};
+    const {zoom} = request.camera;
     for (let isAgain = false; ; isAgain = true) {
       request.camera.zoom = clamp(zoom * this.ratio, LEAST_ZOOM, MOST_ZOOM);
       const {image, about} = await stage.engine.frame(request);
@@ -89,6 +106,7 @@ export class Comparing {
     const {canvas} = this, context = canvas.getContext("2d");
     [canvas.width, canvas.height] = [image.width, image.height];
     context.putImageData(image, 0, 0);
+    if (this.shownRival) return;
     if (this.isMirrored) {
       context.globalCompositeOperation = "copy";
       context.setTransform(-1, 0, 0, 1, image.width, 0);

@@ -2,7 +2,7 @@
 // data, so it can be stored and saved as JSON.
 
 import {about, defaultOf, namesOf, optionOf} from "./about.js";
-import {packed, unpacked} from "./strokes.js";
+import {packedSteps, snapshotsIn, unpackedSteps} from "./snapshots.js";
 
 // Returns the value of an option in a new document: the studio's own default, or the engine's if there is none.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
@@ -17,6 +17,7 @@ export const FIRST = Object.freeze({
   isDieOfPiece: false, // whether the die was made from a piece of another kind, see kindOf()
   material: "plaster",
   light: [-1, 1, 1],
+  snapshots: Object.freeze([]),
 });
 
 const MOST_STEPS = 200, MOST_U = 1e12; // MOST_U: the engine's limit of u
@@ -24,7 +25,8 @@ const MOST_STEPS = 200, MOST_U = 1e12; // MOST_U: the engine's limit of u
 // Returns the parameter u of the compression for the paper's alpha and beta.
 export const uOfAlpha = (alpha, beta) => (alpha === 0 ? MOST_U : Math.min(alpha ** -beta, MOST_U));
 
-const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const isSame = (a, b) => a === b || JSON.stringify(a) === JSON.stringify(b);
+const isSameStep = (a, b) => Object.keys(a).every((key) => isSame(a[key], b[key]));
 
 // Returns a step that has the values of `part` in place of the former ones.
 const withPart = (step, part) => ({...step, ...part, options: {...step.options, ...part.options}});
@@ -81,7 +83,7 @@ export class Document {
     const at = Math.max(0, position - this.forgotten);
     if (at >= this.at) return this.change(part);
     const before = this.now, base = this.steps[at];
-    if (isSame(withPart(base, part), base)) return;
+    if (isSameStep(withPart(base, part), base)) return;
     this.steps = [...this.steps.slice(0, at + 1), ...this.steps.slice(at, this.at + 1).map((step) =>
       withPart(step, unlessChanged(part, base, step)))];
     this.at = this.steps.length - 1;
@@ -95,7 +97,7 @@ export class Document {
   append(part, stroke = null) {
     if (stroke !== null && stroke === this.cancelled) return false;
     const next = withPart(this.now, part);
-    if (isSame(next, this.now)) return false;
+    if (isSameStep(next, this.now)) return false;
     if (stroke !== null && stroke === this.stroke) {
       this.steps[this.at] = next;
     } else {
@@ -150,13 +152,13 @@ export class Document {
   }
 
   // Returns the document as plain data.
-  keep = () => ({version: 1, changed: this.changedAt, at: this.at, ...packed(this.steps)});
+  keep = () => ({version: 1, changed: this.changedAt, at: this.at, ...packedSteps(this.steps)});
 
   // Takes over a stored state. Returns whether the state is valid.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
-    this.steps = kept.steps.map((step) =>
-      ({...FIRST, ...step, options: {...FIRST.options, ...unpacked(step.options ?? {}, kept.strokes)}}));
+    this.steps = unpackedSteps(kept).map((step) =>
+      ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
     this.at = kept.at;
     this.changedAt = kept.changed ?? 0;
     this.stroke = null;
@@ -218,8 +220,9 @@ export function shownOptions(step) {
 
 // Returns the content of a project file.
 export function projectOf(step) {
-  const {input, isHeightLocked, u, isDieOfPiece, material, light} = step;
-  const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece})};
+  const {input, isHeightLocked, u, isDieOfPiece, material, light, snapshots} = step;
+  const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece}),
+    ...(snapshots.length > 0 && {snapshots})};
   return {relievo: 1, input, options: engineOptions(step), studio};
 }
 
@@ -227,6 +230,13 @@ export function projectOf(step) {
 // picture.
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
+
+// Returns those settings of a project file that only the studio has, without invalid ones.
+export function studioPart({isHeightLocked, isDieOfPiece, u, material, light}) {
+  return {...(typeof isHeightLocked === "boolean" && {isHeightLocked}), ...(isDieOfPiece === true && {isDieOfPiece}),
+    ...(Number.isFinite(u) && u >= 0 && u <= MOST_U && {u}),
+    ...(about.materials.some(({id}) => id === material) && {material}), ...(isDirection(light) && {light})};
+}
 
 // Returns the step for the content of a project file, as the engine has read it. `usual` has the defaults of numbers
 // that the file does not state. If the file states no width, the size of the plate determines the width.
@@ -238,10 +248,5 @@ export function stepOfProject({input, options: {alpha, ...own} = {}, usual = {},
     step.isHeightLocked = false;
     step.u = uOfAlpha(alpha ?? defaultOf("alpha"), step.options.saturation);
   }
-  if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
-  if (studio.isDieOfPiece === true) step.isDieOfPiece = true;
-  if (Number.isFinite(studio.u) && studio.u >= 0 && studio.u <= MOST_U) step.u = studio.u;
-  if (about.materials.some(({id}) => id === studio.material)) step.material = studio.material;
-  if (isDirection(studio.light)) step.light = studio.light;
-  return step;
+  return {...step, ...studioPart(studio), snapshots: snapshotsIn(studio.snapshots)};
 }

@@ -3,15 +3,18 @@
 import {about} from "./about.js";
 import {$, make, oneAtATime, pair, textField} from "./controls.js";
 import {hasGround, shownOptions} from "./document.js";
+import {FileField, fileInput, fileNameOf, takeDropsOn} from "./file_field.js";
 import {isUnfinished} from "./inputs.js";
 import {LetterMarks} from "./letter_marks.js";
 import {shortLength, shown, typedNumber} from "./lengths.js";
-import {ARCS, KINDS, fileOf, hasPlace, isOnArc, listOf, nameOf, partOf, withoutEmpty} from "./ornaments.js";
+import {ARCS, FILES, KINDS, fileOf, hasPlace, isOnArc, keyOfFile, listOf, nameOf, partOf, withoutEmpty}
+  from "./ornaments.js";
 import {inWords} from "./pieces.js";
 
 const OFFERED = ["text", "beads", "rope", "line"];
 const NEW = {text: {kind: "text", text: "TEXT"}, beads: {kind: "beads"}, rope: {kind: "rope"}, line: {kind: "line"}};
 const COIN_ARC = {arc: "top"}; // of a new text on a round plate
+const SHARE_OF_GROUND = 0.6; // that a new drawing takes of the ground below the relief
 
 // The numbers of an ornament: their labels, and the values that the engine takes.
 const NUMBERS = {
@@ -43,7 +46,56 @@ export class LettersPanel {
       make("button", {type: "button", class: "quiet", onclick: () => this.add(kind),
         ...(kind === "beads" && {"data-option": "ornaments"})}, `Add ${kind === "text" ? "a text" : kind === "line" ? "a line"
         : kind === "rope" ? "a rope" : kind}`)));
+    if (engine.takesLetterFiles) this.takeFiles();
     stage.element.addEventListener("picture", ({detail}) => this.pictured(detail.about));
+  }
+
+  // Adds the button for drawings, and makes the panel take fonts and drawings that are dropped on it.
+  takeFiles() {
+    const input = fileInput("File of a drawing", FILES.file.endings, (file) => this.take(file));
+    const title = "An SVG of filled paths. Drop it here, too";
+    $("#ornament-kinds").append(make("button", {type: "button", class: "quiet", title, onclick: () => input.click()},
+      "Add a drawing"));
+    $("#letters").append(input);
+    takeDropsOn($("#letters"), "Drop to use this font or drawing", (file) => this.take(file));
+  }
+
+  // Takes a dropped or chosen file: a drawing, or the font of the chosen text, or of the only one.
+  take(file) {
+    const {list, chosen} = this, key = keyOfFile(file.name), isText = ({kind = "text"}) => kind === "text";
+    const ofSole = list.filter(isText).length === 1 ? list.findIndex(isText) : -1;
+    if (key === "file") return this.takeFile(file, key, list.length);
+    if (key === undefined) return this.say(`${file.name}: expected a font (TTF, OTF) or a drawing (SVG).`);
+    const at = list[chosen] && isText(list[chosen]) ? chosen : ofSole;
+    if (at < 0) return this.say(`${file.name}: expected one chosen text, whose font it becomes.`);
+    this.takeFile(file, key, at);
+  }
+
+  // Uploads a file and uses it in the ornament at that place of the list, or in a new drawing, unless the engine cannot
+  // read it or the user has opened another document meanwhile.
+  async takeFile(file, key, at) {
+    const {document} = this.engine;
+    if (!this.isShown || fileOf(this.doc.now.options)) return;
+    try {
+      const {path} = await this.engine.upload([file]), list = [...this.list];
+      list[at] = {...(list[at] ?? {kind: "drawing", ...this.roomForDrawing()}), [key]: path};
+      const {options} = partOf(list), part = {...this.doc.now, options: {...this.doc.now.options, ...options}};
+      const {error} = (await this.engine.placeOrnaments(shownOptions(part)))[at];
+      if (error?.input === "font") throw new Error(error.text);
+      if (document !== this.engine.document) return;
+      this.chosen = at;
+      this.doc.change({options});
+    } catch (error) {
+      this.say(`${file.name} cannot be used: ${error.message.replaceAll(/\S*\/scans\/\w+\//g, "")}`);
+    }
+  }
+
+  // Returns size and place of a new drawing: on the ground below the relief.
+  roomForDrawing() {
+    const {size_mm: size, relief_mm: relief} = this.frame ?? {}, {margin} = this.doc.now.options;
+    const low = size ? -size[1] / 2 : 0, high = relief ? relief[0][1] : low + (margin ?? 0);
+    const rounded = (mm) => Math.round(mm * 100) / 100;
+    return {size: Math.max(1, rounded(SHARE_OF_GROUND * (high - low))), at: [0, rounded((low + high) / 2)]};
   }
 
   // Returns the document's ornaments.
@@ -100,7 +152,7 @@ export class LettersPanel {
   makeRows(list, file) {
     this.rows = list.map((ornament, i) => this.row(ornament, i));
     const drop = () => this.doc.change({options: {ornaments: ""}});
-    const ofFile = file && make("li", {class: "pair"}, `Those in ${file.split(/[/\\]/).at(-1)}`,
+    const ofFile = file && make("li", {class: "pair"}, `Those in ${fileNameOf(file)}`,
       make("button", {class: "quiet", onclick: drop}, "Remove"));
     $("#ornaments").replaceChildren(...this.rows.map(({element}) => element), ...(ofFile ? [ofFile] : []));
   }
@@ -123,8 +175,9 @@ export class LettersPanel {
   // Returns {row, show} of the fields of an ornament.
   fields(ornament, at) {
     const {kind = "text"} = ornament;
+    const {takesLetterFiles} = this.engine, key = {text: "font", drawing: "file"}[kind];
     return [...(kind === "text" ? [this.textRow(at), this.arcRow(at)] : []),
-      ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
+      ...(key && takesLetterFiles ? [this.fileRow(key, at)] : []), ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
   }
 
   // The text changes with each letter that is typed. All letters are one step of undo.
@@ -142,6 +195,16 @@ export class LettersPanel {
       this.set(at, {arc: value, at: null, angle: null})}, ...Object.entries(ARCS).map(([value, label]) =>
       make("option", {value}, label)));
     return {row: pair("Line", input), show: ({arc = "straight"}) => (input.value = arc)};
+  }
+
+  fileRow(key, at) {
+    const {what, endings} = FILES[key], isFont = key === "font";
+    const field = new FileField({label: isFont ? "Font" : "File", what, none: "Noto Serif", accept: endings,
+      noneSaid: "Noto Serif: choose another font",
+      title: isFont ? "Noto Serif Bold has Latin, Greek and Cyrillic. Other fonts by file; drop it here, too"
+        : "An SVG of filled paths",
+      take: (file) => this.takeFile(file, key, at), drop: () => this.set(at, {[key]: null})});
+    return {row: field.row, show: (ornament) => field.show(ornament[key] ?? "", {isNeeded: !isFont})};
   }
 
   numberRow(name, at) {

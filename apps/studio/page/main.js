@@ -33,6 +33,7 @@ import {ScenePanel} from "./scene_panel.js";
 import {ShownView} from "./shown_view.js";
 import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
+import {SnapshotPanel} from "./snapshot_panel.js";
 import {StrokePanel} from "./stroke_panel.js";
 import {START, Shelf, nameOf, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
@@ -53,7 +54,8 @@ const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, brush, viewRests: () => shownView.choose()});
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const modes = new Modes({stage, doc, cropFrame});
+const modes = new Modes({stage, doc, cropFrame, compared: () => snapshotPanel.mark()});
+const snapshotPanel = new SnapshotPanel({doc, modes});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const lightPanel = new LightPanel({doc, sliders: sliders.elements, say: refuse});
@@ -163,6 +165,7 @@ function showDocument() {
   letters.show();
   cropFrame.refresh();
   strokePanel.show();
+  snapshotPanel.show();
   entries.show();
   views.tell(doc.now, facts !== null);
   modes.showMaterial(material);

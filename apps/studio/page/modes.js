@@ -4,12 +4,14 @@ import {about} from "./about.js";
 import {$, check, make} from "./controls.js";
 import {takeArrowKeys} from "./inputs.js";
 import {TABLE_LIGHTS} from "./lights.js";
+import {partOfSnapshot} from "./snapshots.js";
 
 const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
 
 export class Modes {
-  constructor({stage, doc, cropFrame}) {
-    Object.assign(this, {stage, doc, cropFrame});
+  // Calls compared() when the comparison changes.
+  constructor({stage, doc, cropFrame, compared}) {
+    Object.assign(this, {stage, doc, cropFrame, compared, rival: null}); // rival: the snapshot that is compared
     $("#materials").append(...about.materials.map(({id, name}) => make("button", {
       role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
     })));
@@ -47,11 +49,17 @@ export class Modes {
 
   toggleTable = () => this.setTable(!isPressed("#light-table"));
 
-  setComparing(isComparing) {
-    if (isComparing === isPressed("#compare")) return;
+  // Shows the model, or the settings of another snapshot, on the left of a divider, or ends that.
+  setComparing(isComparing, rival = null) {
+    if (isComparing === isPressed("#compare") && rival === this.rival) return;
+    this.rival = rival;
     $("#compare").setAttribute("aria-pressed", isComparing);
     $("#split").hidden = $("#labels").hidden = !isComparing;
-    this.stage.comparing.set({isComparing});
+    const names = rival ? [rival.name, "Now"] : ["Model", "Relief"];
+    for (const [i, label] of [...$("#labels").children].entries()) label.textContent = names[i];
+    $("#split").setAttribute("aria-label", `Divider between ${rival ? names.join(" and ") : "model and relief"}`);
+    this.stage.comparing.set({isComparing, rival: rival && partOfSnapshot(rival)});
+    this.compared();
   }
 
   toggleComparing = () => this.setComparing(!isPressed("#compare"));

@@ -1,6 +1,7 @@
 // The list of texts and borders in a document. It is the JSON of the option `ornaments`, so that projects have it inside.
 
 import {FIRST, ON_GROUND} from "./document.js";
+import {fileNameOf} from "./file_field.js";
 
 export const KINDS = {text: "Text", beads: "Beads", rope: "Rope", line: "Line", drawing: "Drawing"};
 export const ARCS = {straight: "Straight", top: "Arc at the top", bottom: "Arc at the bottom", around: "All around"};
@@ -43,4 +44,14 @@ export const hasPlace = ({kind = "text", arc = "straight"}) => kind === "drawing
 // Returns the angle in degrees, counter-clockwise from the right, of the middle of a text on an arc.
 export const angleOf = ({arc, angle}) => angle ?? (arc === "bottom" ? 270 : 90);
 
-export const nameOf = ({kind = "text", text}) => (kind === "text" ? `“${text}”` : KINDS[kind] ?? kind);
+export const nameOf = ({kind = "text", text, file}) =>
+  (kind === "text" ? `“${text}”` : kind === "drawing" && file ? fileNameOf(file) : KINDS[kind] ?? kind);
+
+// The keys of the files that ornaments have, and the endings of such files.
+export const FILES = {
+  font: {what: "font", endings: ".ttf,.otf,.ttc"},
+  file: {what: "drawing", endings: ".svg"},
+};
+export const namesFiles = (options) => listOf(options).some(({font, file}) => font || file);
+export const keyOfFile = (name) => Object.keys(FILES).find((key) =>
+  FILES[key].endings.split(",").some((ending) => name.toLowerCase().endsWith(ending)));

@@ -5,6 +5,7 @@ import {$, download, fileSize, make} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer, toast} from "./messages.js";
 import {plainName} from "./kinds.js";
+import {namesFiles} from "./ornaments.js";
 import {sceneFile} from "./scene_panel.js";
 import {zipOf} from "./zip.js";
 
@@ -94,13 +95,14 @@ export class Projects {
   }
 
   // Saves the step that the promise `promised` gives as a project file. First asks whether to include the scan, if it
-  // can be included.
+  // can be included. A sample is never included, but the fonts and drawings of its ornaments are.
   save(input, promised) {
     const name = plainName(input), saveStep = async (isWithScan) => {
       try {
         const project = projectOf(await promised);
         const text = JSON.stringify(project, null, 1) + "\n";
-        download(isWithScan ? await this.take(this.engine.packProject(project))
+        const isPacked = isWithScan || (input.sample && this.engine.takesLetterFiles && namesFiles(project.options));
+        download(isPacked ? await this.take(this.engine.packProject(project))
           : new Blob([text], {type: "application/json"}), `${name}.relievo`);
         toast(`Saved: ${name}.relievo.`);
       } catch (error) {

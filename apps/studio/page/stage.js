@@ -46,8 +46,9 @@ export class Stage {
     return {width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight)};
   }
 
-  request(extra = {}) {
-    const step = this.doc.now, {material, light} = step;
+  // Returns the request for a picture of a step.
+  request(extra = {}, step = this.doc.now) {
+    const {material, light} = step;
     const request = {options: shownOptions(step), material, light, camera: this.camera, ...extra};
     if (this.turning.shown) request.turned = this.turning.shown;
     if (!step.isHeightLocked && step.u !== null && !hasScale(step) && !extra.original) request.u = step.u;
@@ -141,7 +142,7 @@ export class Stage {
   ask(isFine, isLast) {
     const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
     const frame = this.isTable ? null : this.frame(request, this.unwanted?.signal);
-    return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
+    return {number: this.wanted, model: this.model, changedAt: this.changedAt, isLast, frame};
   }
 
   // Returns a picture of the newest state. Its facts also have the document's options and `isTurned`: whether it shows
@@ -152,7 +153,7 @@ export class Stage {
   }
 
   // Draws the relief. While the picture keeps changing, requests the next picture before it shows this one.
-  async drawRelief(isFine, {model, changedAt, number, frame}) {
+  async drawRelief(isFine, {model, changedAt, number, isLast, frame}) {
     const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view was opened meanwhile
     if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
@@ -163,7 +164,7 @@ export class Stage {
     if (this.tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
-    if (this.comparing.isShown) await this.comparing.draw(isFine);
+    if (this.comparing.isShown) await this.comparing.draw(isFine, isLast);
     // The tool and the document may have changed meanwhile. The next picture will show that.
     if (this.tool === "section" && this.line && this.about) await this.measure.cut(this.line);
     if (this.tool === "measure") this.measure.pictured();

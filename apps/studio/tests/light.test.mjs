@@ -38,9 +38,11 @@ test("sets the direction on the dial by the pointer, as one step of undo, and li
   await made().check();
   const {x, y, width} = await dial().boundingBox(), middle = [x + width / 2, y + width / 2];
   await drag(middle, [middle[0] + width / 4, middle[1]], [middle[0], middle[1] + 0.23 * width]);
-  await soon.equal(() => newest(), "270,45"); // a quarter of the dial's width is half of its radius
-  await soon.equal(lamp, "270,45");
-  await soon.equal(() => dial().getAttribute("aria-valuetext"), "from 270 degrees, 45 degrees high");
+  // A quarter of the dial's width is half of its radius. Firefox rounds places of the pointer to pixels, which are 1 degree.
+  await soon.match(() => newest(), /^(269|270|271),4[456]$/);
+  const [azimuth, elevation] = (await newest()).split(",");
+  await soon.equal(lamp, `${azimuth},${elevation}`);
+  await soon.equal(() => dial().getAttribute("aria-valuetext"), `from ${azimuth} degrees, ${elevation} degrees high`);
   await undo();
   await soon.equal(() => newest(), "135,35");
   await undo();

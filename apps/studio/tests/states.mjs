@@ -71,6 +71,10 @@ export const STATES = {
     await untilReady(page);
   }, leave: undone(2)},
   "a height out of reach": {enter: highest, leave: undone(2)},
+  "a snapshot that is compared": {enter: async (page) => {
+    for (const name of ["Take a snapshot", "Compare Snapshot 1"]) await press(name)(page);
+    await untilReady(page);
+  }, leave: undone(1)},
   comparison: {enter: press("Compare"), leave: press("Compare")},
   "light table": {enter: press("Light table"), leave: press("Light table")},
   "choosing the view": {part: "#view-dialog", enter: press("Choose view"), leave: escape},

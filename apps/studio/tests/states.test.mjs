@@ -77,7 +77,7 @@ function cut() {
   const title = innerWidth < 800 && innerHeight > 560 ? "#title, " : "";
   return [...document.querySelectorAll(`${title}button, legend, h2, #numbers, .labels span, .pair > span`)]
     .filter((it) => it.checkVisibility() && !it.matches(".hidden") && getComputedStyle(it).display !== "inline")
-    .filter((it) => it.scrollWidth > it.clientWidth + 1 && !it.matches(".base-image .quiet"))
+    .filter((it) => it.scrollWidth > it.clientWidth + 1 && !it.matches(".by-file .quiet"))
     .map((it) => it.outerHTML.slice(0, 90));
 }
 

@@ -15,13 +15,14 @@ const LIMITS = [
   "It computes with one processor, and takes several times as long as the program relievo with all of them.",
   "It has at most 4 GiB of memory. Of binary PLY, PCD and LAS with more than 3 million points it takes those that the view shows, piece by piece, within a minute or two.",
   "Depth images in TIFF are read plain or packed by LZW, Deflate or PackBits, not by JPEG, WebP, Zstandard, LERC or LZMA.",
+  "It sets no texts, and takes no fonts and drawings by file; the program relievo does.",
   "Scans and work stay in this browser, for the 24 documents used last; save a project to keep or to move one.",
   "The licences of the software inside stand at the end of this file.",
 ];
 
 export class Transport {
   // slowMs: a slower frame misses the aim of 30 frames per second.
-  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
+  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, takesLetterFiles: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // addresses of the page's pictures by name
