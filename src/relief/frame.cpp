@@ -43,6 +43,7 @@ struct OwnFrames {
   OwnHeights::Workspace<float> own_workspace = {};
   std::optional<LightDirection> light = {};  // the light for which `contrast` was computed
   std::vector<float> contrast = {};
+  std::vector<std::uint16_t> attention = {};  // levels of the surface, computed when a frame first needs them
   StrokeFields<float> strokes{surface};
   std::optional<std::vector<float>> lines = {};  // dark_lines(), computed when a frame first needs them
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
@@ -79,7 +80,14 @@ struct OwnFrames {
   void write_slopes_of(const PaperWeightsStyle& style) { write_slopes<float>(input, style, weight, slopes); }
   void write_slopes_of(const LayeredStyle& style) { write_slopes_by_eight(input, style, weight, slopes); }
 
+  void set_attention(const Shape& shape) {
+    if (shape.attention > 0 && attention.empty()) attention = levels_of(relievo::attention(surface));
+    input.attention =
+        shape.attention > 0 ? std::span<const std::uint16_t>(attention) : std::span<const std::uint16_t>();
+  }
+
   void solve_system(const HeightSystem& system, Frame& frame) {
+    set_attention(frame.options.shape);
     const Stopwatch watch;
     with_style(frame.options.shape, [&](const auto& style) {
       weight.fill(input.delta, style.weighted());

@@ -201,6 +201,8 @@ class ReliefModel::Maker {
         input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {
     if (shape.light) contrast_ = local_contrast(model.surface(), shape.light->from);
     input_.contrast = contrast_;
+    if (shape.attention > 0) attention_ = levels_of(attention(model.surface()));
+    input_.attention = attention_;
   }
 
   // Returns the relief of that shape without the last step of its style; Relief::height is already final.
@@ -237,6 +239,7 @@ class ReliefModel::Maker {
  private:
   const ReliefModel& model_;
   std::vector<float> boundary_weight_, contrast_;
+  std::vector<std::uint16_t> attention_;
   SlopeInput input_;
   std::vector<HeightSpan<double>> spans_;
 };

@@ -21,7 +21,8 @@ export class Comparing {
     return Boolean(this.isComparing || this.isHolding);
   }
 
-  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding).
+  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding), coloured by its
+  // attention (hasAttention) or not.
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;
@@ -58,7 +59,8 @@ export class Comparing {
   // the centre of the plate. If the figure is mirrored, camera and light are mirrored for the request, and paint()
   // mirrors the picture.
   request(isFine) {
-    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true});
+    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true,
+      attention: Boolean(this.hasAttention)});
     const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
     request.camera = {...camera, yaw: sign * camera.yaw, x: sign * (camera.x - x), y: camera.y - y};
     request.light = [sign * light[0], light[1], light[2]];

@@ -1,15 +1,18 @@
 // Sets the modes of the picture: the tool, the light table, the comparison and the material.
 
 import {about} from "./about.js";
-import {$, check, make} from "./controls.js";
+import {$, check, make, pair} from "./controls.js";
 import {takeArrowKeys} from "./inputs.js";
 import {TABLE_LIGHTS} from "./lights.js";
 
 const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
 
 export class Modes {
-  constructor({stage, doc, cropFrame}) {
+  constructor({stage, doc, cropFrame, sliders}) {
     Object.assign(this, {stage, doc, cropFrame});
+    this.attention = make("input", {type: "checkbox", onchange: () => this.showAttention(this.attention.checked)});
+    sliders.attention.append(pair("Show it on the model", this.attention,
+      {title: "Compares the relief with the model, which is orange where viewers are guessed to look"}));
     $("#materials").append(...about.materials.map(({id, name}) => make("button", {
       role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
     })));
@@ -51,7 +54,14 @@ export class Modes {
     if (isComparing === isPressed("#compare")) return;
     $("#compare").setAttribute("aria-pressed", isComparing);
     $("#split").hidden = $("#labels").hidden = !isComparing;
-    this.stage.comparing.set({isComparing});
+    this.attention.checked &&= isComparing;
+    this.stage.comparing.set({isComparing, hasAttention: this.attention.checked});
+  }
+
+  // Shows the model beside the relief, coloured by its attention, or ends the comparison.
+  showAttention(isShown) {
+    this.stage.comparing.set({hasAttention: isShown});
+    this.setComparing(isShown);
   }
 
   toggleComparing = () => this.setComparing(!isPressed("#compare"));
