@@ -144,7 +144,7 @@ std::vector<OptionRow> limit_rows() {
        .help = "depth by which dark lines of a coloured scan sink, such as pupils and painted letters",
        .initial = NumericOptions{}.colour_mm, .access = number<&ReliefOptions::colour_mm>},
       {.name = "strokes", .unit = "JSON", .stage = shape,
-       .help = "local changes painted onto the model, as JSON or a file with it: brush, amount, radius and points of each",
+       .help = "local changes painted onto the model, as JSON or a file with it: brush, area, amount, radius and points of each",
        .otherwise = "none", .is_hidden = true, .access = text<&ReliefOptions::strokes, parse_strokes>},
       {.name = "mode", .unit = "MODE", .stage = model, .choices = names_of(mode_choices),
        .help = "subspace solves for control points: half the memory, 1 to 4 % of the height off; auto does "

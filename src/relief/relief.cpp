@@ -224,6 +224,8 @@ class ReliefModel::Maker {
 
   void finish(Relief& relief) {
     RaisedHeights<double> heights{relief.heights, input_, spans_, {}, relief.height};
+    std::vector<double> uncorrected;
+    if (needs_uncorrected(relief.shape.strokes)) uncorrected = relief.heights;
     HeightCorrection::Workspace workspace;
     const auto make_workspace = [&]() -> HeightCorrection::Workspace& {
       return workspace = model_.correction().make_workspace();
@@ -232,7 +234,7 @@ class ReliefModel::Maker {
                [&](const auto& style) { style.finish(heights, model_.correction(), make_workspace); });
     relief.height = heights.height;
     give_own_heights(model_, relief);
-    apply_strokes(model_.surface(), relief);
+    apply_strokes(model_.surface(), uncorrected, relief);
     sink_lines(model_.surface(), relief);
   }
 
