@@ -6,6 +6,7 @@
 
 #include "common/read_inputs.h"
 #include "common/wording.h"
+#include "relievo/relief/attention.h"
 #include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
 #include "studio/piece.h"
@@ -228,6 +229,11 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   return {};
 }
 
+std::span<const float> Drawing::attention() {
+  if (attention_.empty()) attention_ = relievo::attention(model_->surface());
+  return attention_;
+}
+
 Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   RELIEVO_TRY(request.options, live_.with_width(request.options));
   RenderOptions options = live_.with_lengths(request.render, request.options);
@@ -237,7 +243,9 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   if (request.is_original) {
     options.has_shadows = false;           // at the model's full depth, shadows would cover the ground
     options.material = Material::plaster;  // the chosen material is only for reliefs
-    live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
+    Shown model = live_.renderer().original();
+    if (request.has_attention) model.tint = attention();
+    live_.renderer().render(model, options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;
     return answer;

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct PictureRequest {
   std::optional<double> u;     // strength of the compression; empty if the height is given
   bool is_original = false;    // draw the model itself instead of its relief
   bool is_finished = false;    // draw the piece exactly as it is exported
+  bool has_attention = false;  // colour the model itself by its attention
   std::optional<Error> ornament_error = {};       // why the ornaments of the options were left out
   RenderOptions render;                           // lengths in it are overwritten by those of the options
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
@@ -153,6 +155,7 @@ class Drawing {
   ReliefOptions piece_options(const PictureRequest& request, const LiveFrame& made) const;
   bool is_finished(const ReliefOptions& options) const { return finished_ && finished_->options == options; }
   Result<DrawnPiece*> piece(const ReliefOptions& options);
+  std::span<const float> attention();
   Result<void> draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
                     PictureAnswer& answer);
 
@@ -160,6 +163,7 @@ class Drawing {
   std::shared_ptr<const ReliefModel> model_;
   LiveModel live_;
   std::optional<DrawnPiece> finished_, coarse_;
+  std::vector<float> attention_;  // attention of the model; empty until a picture shows it
   bool is_frozen_ = false;
 };
 

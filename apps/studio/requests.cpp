@@ -132,6 +132,7 @@ Result<PictureRequest> picture_request(const Json& json) {
   RELIEVO_TRY(request.render, render_from(json));
   request.is_original = flag(json, "original");
   request.is_finished = flag(json, "finished");
+  request.has_attention = flag(json, "attention");
   if (const auto turned = json.find("turned"); turned != json.end()) {
     RELIEVO_TRY(const View towards, view_from(*turned));
     request.turned = request.options.view;

@@ -36,6 +36,7 @@ struct NumericOptions {
   std::optional<double> detail;          // the paper's gamma; see effective_detail()
   std::optional<double> steepest_deg;    // largest target slope; 76
   double light_contrast = .8;            // factor of the model's local contrast under the light
+  double attention = 0;                  // exponent of the attention, see Shape
   double colour_mm = 0;                  // depth of lines that are dark in the scan
   std::optional<double> draft_deg;       // least angle between every triangle and the vertical; none
   std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()

@@ -49,7 +49,8 @@ struct DrawnBody {
   float stretch = 1;                      // factor by which `normals` are made steeper
   const SurfaceDetail* detail = nullptr;  // detail between the points, added with `gains` (see Shown)
   std::span<const float> gains = {};
-  Vec2f middle = Vec2f::Zero();  // middle of the surface's points, in the coordinates of `detail`
+  std::span<const float> tint = {};  // see Shown
+  Vec2f middle = Vec2f::Zero();      // middle of the surface's points, in the coordinates of `detail`
   std::vector<Vec3> box_corners = {};
   Box front = {};  // box of the front's points, in mm
   // Whether no point of the front hides another in the view from above. Then rendering that view does not

@@ -108,6 +108,9 @@ constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls transmit light like a plate of about mean thickness
 
+// Linear hues of a body's tint at shares 0 and 1.
+const Vec3f no_tint(.25F, .4F, 1), full_tint(1, .35F, .05F);
+
 // Returns the difference between the detail at `place` and the surface's own normal there. The detail is
 // interpolated bilinearly between the centres of cells.
 Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& own) {
@@ -153,7 +156,7 @@ class Painter {
     lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
     lit.light = light_.at(lit.place);
     if (body_.parts.has_curved_ground) lit.light = faded(lit.light, lit.normal);
-    return tint_(shader_.colour(lit), lit.place);
+    return tinted(tint_(shader_.colour(lit), lit.place), seen);
   }
 
  private:
@@ -170,6 +173,15 @@ class Painter {
     }
     normal.head<2>() *= body_.stretch;
     return normal.normalized();
+  }
+
+  // Returns the colour with the body's tint, as bright as before.
+  Vec3f tinted(const Vec3f& colour, const VisiblePoint& seen) const {
+    if (body_.tint.empty() || seen.part != Part::relief) return colour;
+    const auto& [a, b, c] = seen.corners;
+    const float share = seen.mean(body_.tint[a], body_.tint[b], body_.tint[c]);
+    const Vec3f hue = no_tint + share * (full_tint - no_tint);
+    return colour.mean() / hue.mean() * hue;
   }
 
   // Returns the light, with the map's shadows faded out where the surface turns away from the front. The map

@@ -60,6 +60,7 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   body.is_height_field = true;
   body.detail = shown.detail;
   body.gains = shown.gains;
+  body.tint = shown.tint;
   body.middle = mesh.middle;
   const auto search = [&]() -> std::array<float, 2> {
     const auto [low, high] = std::ranges::minmax(shown.heights);

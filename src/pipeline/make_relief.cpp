@@ -235,6 +235,7 @@ Shape shape_of(const ReliefOptions& options, double mm_per_unit) {
   shape.planes = options.effective_planes();
   if (options.tone) shape.compression.curve = std::make_shared<const ToneCurve>(*options.tone);
   if (options.light) shape.light = ReliefLight{*options.light, options.light_contrast};
+  shape.attention = options.attention;
   shape.line_depth = options.colour_mm / mm_per_unit;
   if (!options.strokes.empty()) shape.strokes.list = std::make_shared<const Strokes>(options.strokes);
   return shape;
@@ -270,8 +271,10 @@ Result<void> check_model(const ReliefModel& model, const ReliefOptions& options)
   const Method method = options.effective_method();
   if (options.colour_mm > 0 && model.surface().colours.empty())
     return option_error("colour", "expected a scan with colours, found one without");
-  if (options.light && model.subspace())
-    return option_error("light", "expected mode exact with it, found a model of control points");
+  for (const auto& [name, is_used] :
+       {std::pair("light", options.light.has_value()), std::pair("attention", options.attention > 0)})
+    if (is_used && model.subspace())
+      return option_error(name, "expected mode exact with it, found a model of control points");
   if (model.serves(method)) return {};
   return option_error("method",
                       cat("expected ", model.paper() ? "paper" : cat("another than ", name_of(method)),

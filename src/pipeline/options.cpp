@@ -36,8 +36,10 @@ Result<void> check_method(const ReliefOptions& options) {
   if (method == Method::paper && has_more)
     return option_error(
         "method", "expected none of tone, steps, planes, colour and strokes with method paper, found some");
-  if (options.light && method != Method::layered)
-    return option_error("light", cat("expected method layered with it, found ", name_of(method)));
+  for (const auto& [name, is_used] :
+       {std::pair("light", options.light.has_value()), std::pair("attention", options.attention > 0)})
+    if (is_used && method != Method::layered)
+      return option_error(name, cat("expected method layered with it, found ", name_of(method)));
   const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
                          options.boundary_width || options.tone || options.steps > 0 || options.planes;
   if (is_shaped && !has_shape(method))

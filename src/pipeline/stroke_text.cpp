@@ -17,6 +17,15 @@ std::string found(const Json& value) {
   return cat(", found ", text.size() <= most_of_a_value ? text : text.substr(0, most_of_a_value) + "...");
 }
 
+bool is_point(const Json& json) {
+  return json.is_array() && json.size() == 3 &&
+         std::ranges::all_of(json, [](const Json& x) { return x.is_number(); });
+}
+
+Vec3 to_point(const Json& json) {
+  return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
 // Reads one stroke. Errors name its number and the key.
 class StrokeReader {
  public:
@@ -35,6 +44,7 @@ class StrokeReader {
     if (!json_.contains("radius")) return fail("expected a radius in the units of the scan");
     RELIEVO_CHECK(read_number("radius", {1e-9, 1e9}, stroke.radius));
     RELIEVO_CHECK(read_points(stroke.points));
+    RELIEVO_CHECK(read_area(stroke));
     return stroke;
   }
 
@@ -42,23 +52,45 @@ class StrokeReader {
   struct Range {
     double least, most;
   };
-  static constexpr std::array<std::string_view, 7> keys{"brush",  "amount", "radius", "softness",
-                                                        "points", "name",   "muted"};
+  static constexpr std::array<std::string_view, 10> keys{
+      "brush", "amount", "radius", "softness", "points", "name", "muted", "area", "direction", "tolerance"};
 
   std::unexpected<Error> fail(std::string expected) const {
     return option_error("strokes", cat("stroke ", number_ + 1, ": ", expected));
   }
 
   Result<void> read_words(Stroke& stroke) const {
-    const Json brush = json_.value("brush", Json()), name = json_.value("name", Json("")),
-               muted = json_.value("muted", Json(false));
-    const Result<Brush> known = parse_choice({}, brush.is_string() ? brush.get<std::string>() : "", brushes);
-    if (!known) return fail(cat("expected ", either(names_of(brushes)), " as brush", found(brush)));
+    const Json name = json_.value("name", Json("")), muted = json_.value("muted", Json(false));
+    RELIEVO_CHECK(read_choice("brush", brushes, stroke.brush));
     if (!name.is_string()) return fail(cat("expected a text as name", found(name)));
     if (!muted.is_boolean()) return fail(cat("expected muted to be true or false", found(muted)));
-    stroke.brush = *known;
     stroke.name = name.get<std::string>();
     stroke.is_muted = muted.get<bool>();
+    return {};
+  }
+
+  template <std::size_t n, typename T>
+  Result<void> read_choice(const char* key, const std::array<Choice<T>, n>& choices, T& to) const {
+    const Json word = json_.value(key, Json());
+    const Result<T> known = parse_choice({}, word.is_string() ? word.get<std::string>() : "", choices);
+    if (!known) return fail(cat("expected ", either(names_of(choices)), " as ", key, found(word)));
+    to = *known;
+    return {};
+  }
+
+  Result<void> read_area(Stroke& stroke) const {
+    if (json_.contains("area")) RELIEVO_CHECK(read_choice("area", stroke_areas, stroke.area));
+    RELIEVO_CHECK(read_number("tolerance", {.1, 180}, stroke.tolerance));
+    if (const auto direction = json_.find("direction"); direction != json_.end()) {
+      if (!is_point(*direction)) return fail(cat("expected a direction [x, y, z]", found(*direction)));
+      stroke.direction = to_point(*direction);
+    }
+    if (stroke.area == StrokeArea::region && stroke.points.size() > 1)
+      return fail(cat("expected one point of a region, found ", stroke.points.size()));
+    if (stroke.area != StrokeArea::lasso) return {};
+    if (stroke.points.size() < 3)
+      return fail(cat("expected at least three points of a lasso, found ", stroke.points.size()));
+    if (!(stroke.direction.norm() > 0)) return fail("expected a direction of the lasso that is not 0");
     return {};
   }
 
@@ -75,10 +107,8 @@ class StrokeReader {
     if (!points.is_array() || points.empty() || points.size() > most_stroke_points)
       return fail(cat("expected 1 to ", most_stroke_points, " points [x, y, z]", found(points)));
     for (const Json& point : points) {
-      const bool is_point = point.is_array() && point.size() == 3 &&
-                            std::ranges::all_of(point, [](const Json& x) { return x.is_number(); });
-      if (!is_point) return fail(cat("expected a point [x, y, z]", found(point)));
-      to.emplace_back(point[0].get<double>(), point[1].get<double>(), point[2].get<double>());
+      if (!is_point(point)) return fail(cat("expected a point [x, y, z]", found(point)));
+      to.push_back(to_point(point));
     }
     return {};
   }

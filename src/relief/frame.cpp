@@ -43,7 +43,9 @@ struct OwnFrames {
   OwnHeights::Workspace<float> own_workspace = {};
   std::optional<LightDirection> light = {};  // the light for which `contrast` was computed
   std::vector<float> contrast = {};
+  std::vector<std::uint16_t> attention = {};  // levels of the surface, computed when a frame first needs them
   StrokeFields<float> strokes{surface};
+  std::vector<float> uncorrected = {};           // heights before the height correction, if strokes need them
   std::optional<std::vector<float>> lines = {};  // dark_lines(), computed when a frame first needs them
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
@@ -79,7 +81,14 @@ struct OwnFrames {
   void write_slopes_of(const PaperWeightsStyle& style) { write_slopes<float>(input, style, weight, slopes); }
   void write_slopes_of(const LayeredStyle& style) { write_slopes_by_eight(input, style, weight, slopes); }
 
+  void set_attention(const Shape& shape) {
+    if (shape.attention > 0 && attention.empty()) attention = levels_of(relievo::attention(surface));
+    input.attention =
+        shape.attention > 0 ? std::span<const std::uint16_t>(attention) : std::span<const std::uint16_t>();
+  }
+
   void solve_system(const HeightSystem& system, Frame& frame) {
+    set_attention(frame.options.shape);
     const Stopwatch watch;
     with_style(frame.options.shape, [&](const auto& style) {
       weight.fill(input.delta, style.weighted());
@@ -157,11 +166,13 @@ struct OwnFrames {
   }
 
   // Scales the relief down if the search ended above the requested height (HeightSearch::bracket()).
-  static void scale_down(RaisedHeights<float>& heights, Frame& frame) {
+  void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))
       return;
-    scale(heights, *height / frame.height);
+    const double factor = *height / frame.height;
+    scale(heights, factor);
+    for (float& z : uncorrected) z *= static_cast<float>(factor);
     frame.height = *height;
   }
 
@@ -169,7 +180,7 @@ struct OwnFrames {
     const Strokes none, *const wanted = frame.options.shape.strokes.list.get();
     strokes.take(wanted ? *wanted : none);
     if (strokes.empty()) return;
-    strokes.apply(frame.height, heights.z);
+    strokes.apply(frame.height, uncorrected, heights.z);
     heights.span = heights.measured();
     const auto height = static_cast<double>(heights.span.size());
     if (height > 0 && height != frame.height) scale(heights, frame.height / height);
@@ -186,6 +197,8 @@ struct OwnFrames {
     const auto workspace_of_correction = [&]() -> HeightCorrection::Workspace& {
       return correction_workspace;
     };
+    uncorrected.clear();
+    if (needs_uncorrected(frame.options.shape.strokes)) uncorrected = frame.heights;
     change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
       style.finish(heights, model.correction(), workspace_of_correction);
       scale_down(heights, frame);

@@ -17,23 +17,22 @@ constexpr std::size_t points_at_once = 8;
 // Inputs that are the same for all points.
 struct SlopeParams {
   const SlopeInput& input;
+  const LayeredStyle& style;
   const WeightTable& weight;
-  LayerWeights layers;
-  float scale, max_slope;
+  float scale, height_share, max_slope;
 };
 
 // Writes layered_slope() for each of the points first to first + 7.
 RELIEVO_INLINE void write_eight(const SlopeParams& params, std::size_t first, Vec2f* slopes) {
-  const LayerWeights& w = params.layers;
   Float8 x, y, weight;
   for (std::size_t k = 0; k < points_at_once; ++k) {
     const std::size_t i = first + k;
-    const Vec2f sum = weighted_sum(params.input.layers[i], w);
+    const Vec2f sum = weighted_sum(params.input.layers[i], params.style.layer_weights(params.input, i));
     x[k] = sum.x(), y[k] = sum.y();
     weight[k] = params.scale * params.weight(params.input.k[i]) * params.input.boundary_weight[i];
   }
   x *= weight, y *= weight;
-  make_slopes<EightFloats>(x, y, w.height_share * w.height_share, params.max_slope);
+  make_slopes<EightFloats>(x, y, params.height_share * params.height_share, params.max_slope);
   for (std::size_t k = 0; k < points_at_once; ++k) slopes[first + k] = {x[k], y[k]};
 }
 
@@ -56,7 +55,11 @@ constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_
 
 void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
                            std::span<Vec2f> slopes) {
-  const SlopeParams params{input, weight, style.layer_weights(), static_cast<float>(style.scale()),
+  const SlopeParams params{input,
+                           style,
+                           weight,
+                           static_cast<float>(style.scale()),
+                           static_cast<float>(style.height_share()),
                            static_cast<float>(style.max_slope())};
   parallel_ranges(slopes.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     RELIEVO_WIDE(write_eights(params, begin, end, slopes.data()));

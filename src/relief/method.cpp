@@ -53,7 +53,7 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
   give_own_heights(model, relief);
   relief.shape.strokes = shape.strokes;
   relief.shape.line_depth = shape.line_depth;
-  apply_strokes(model.surface(), relief);
+  apply_strokes(model.surface(), {}, relief);
   sink_lines(model.surface(), relief);
   return relief;
 }

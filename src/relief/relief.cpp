@@ -201,6 +201,8 @@ class ReliefModel::Maker {
         input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {
     if (shape.light) contrast_ = local_contrast(model.surface(), shape.light->from);
     input_.contrast = contrast_;
+    if (shape.attention > 0) attention_ = levels_of(attention(model.surface()));
+    input_.attention = attention_;
   }
 
   // Returns the relief of that shape without the last step of its style; Relief::height is already final.
@@ -222,6 +224,8 @@ class ReliefModel::Maker {
 
   void finish(Relief& relief) {
     RaisedHeights<double> heights{relief.heights, input_, spans_, {}, relief.height};
+    std::vector<double> uncorrected;
+    if (needs_uncorrected(relief.shape.strokes)) uncorrected = relief.heights;
     HeightCorrection::Workspace workspace;
     const auto make_workspace = [&]() -> HeightCorrection::Workspace& {
       return workspace = model_.correction().make_workspace();
@@ -230,13 +234,14 @@ class ReliefModel::Maker {
                [&](const auto& style) { style.finish(heights, model_.correction(), make_workspace); });
     relief.height = heights.height;
     give_own_heights(model_, relief);
-    apply_strokes(model_.surface(), relief);
+    apply_strokes(model_.surface(), uncorrected, relief);
     sink_lines(model_.surface(), relief);
   }
 
  private:
   const ReliefModel& model_;
   std::vector<float> boundary_weight_, contrast_;
+  std::vector<std::uint16_t> attention_;
   SlopeInput input_;
   std::vector<HeightSpan<double>> spans_;
 };

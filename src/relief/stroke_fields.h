@@ -6,22 +6,16 @@
 #include <vector>
 
 #include "relief/stroke_blur.h"
+#include "relief/stroke_moves.h"
 #include "relievo/relief/relief.h"
 #include "relievo/relief/stroke.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
 
-// The points of a surface under a stroke, and the share of the stroke's change that each point gets.
-struct StrokeMask {
-  std::vector<Index> points;
-  std::vector<float> weights;  // (0, 1], one per point
-};
-
-// Returns the mask of a stroke. At distance d from the line the weight is (1 - x^2)^2, where x rises from 0
-// to 1 over the outer part `softness` of the radius. Near the boundary the weight fades like w_b of (7). The
-// mask has only points that are connected to the line without crossing a depth jump. It is empty if no point
-// of the line is on the visible surface.
+// Returns the mask of a stroke: its points_of(). At distance d the weight is (1 - x^2)^2, where x rises from 0 to 1 over
+// the outer part `softness` of the radius. Near the boundary the weight fades like w_b of (7). The mask is empty if the
+// visible surface has no point of the stroke.
 StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke);
 
 // The strokes of a relief on one surface, which must outlive this object. `Real` is the type of the heights.
@@ -36,22 +30,27 @@ class StrokeFields {
 
   bool empty() const { return changed_.empty(); }
 
-  // Changes the heights z of a relief of the given height, in the surface's units. Heights outside of the
-  // strokes keep their values. No height falls below the base, 0. The highest point may change; the caller
-  // then restores the height.
-  void apply(double height, std::span<Real> z);
+  // Changes the heights z of a relief of the given height, in the surface's units. `uncorrected` has the heights
+  // before the height correction, for Brush::protect; if it is empty, that brush changes nothing. Heights outside of
+  // the strokes keep their values. No height falls below the base, 0. The highest point may change; the caller then
+  // restores the height.
+  void apply(double height, std::span<const Real> uncorrected, std::span<Real> z);
 
  private:
   struct Layer {
     Stroke stroke;
     StrokeMask mask;                       // empty for muted strokes
     std::optional<StrokeBlur<Real>> blur;  // of brushes that need it
+    std::vector<Crossing> crossings;       // of Brush::in_front
   };
 
   Layer layer_of(const Stroke& stroke);
   void take_layers(const Strokes& strokes);
   void take_blurs(std::span<const Real> z);
   void add_blurs(bool wide);
+  void add_sums(double height, std::span<Real> z);
+  template <typename F>
+  void each_of(Brush brush, F&& f) const;
 
   const Surface* surface_;
   std::optional<SurfaceLinks> links_;  // once a blur needs them
@@ -62,7 +61,11 @@ class StrokeFields {
   std::vector<Real> added_, sum_, amount_;
 };
 
-// Applies the strokes of the relief's shape to its heights, and restores the height of the relief.
-void apply_strokes(const Surface& surface, Relief& relief);
+// Returns whether apply() needs the uncorrected heights for these strokes.
+bool needs_uncorrected(const SharedStrokes& strokes);
+
+// Applies the strokes of the relief's shape to its heights, and restores the height of the relief. `uncorrected` is that
+// of apply().
+void apply_strokes(const Surface& surface, std::span<const double> uncorrected, Relief& relief);
 
 }  // namespace relievo

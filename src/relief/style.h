@@ -1,6 +1,7 @@
 // The two styles of reliefs. All differences between the styles are in this file.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "relief/correction/height_correction.h"
 #include "relief/layered_slopes.h"
 #include "relievo/core/parallel.h"
+#include "relievo/relief/attention.h"
 #include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
 
@@ -107,26 +109,36 @@ class PaperWeightsStyle {
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)
-      : shape_(shape), weights_(relievo::layer_weights(shape)), scale_(saturation_scale(shape.compression)) {}
+      : shape_(shape), weights_(relievo::layer_weights(shape)), scale_(saturation_scale(shape.compression)) {
+    if (shape.attention == 0) return;
+    for (int level = 0; level < attention_levels; ++level)
+      by_attention_[static_cast<std::size_t>(level)] = relievo::layer_weights(shape, attention_at(level));
+  }
 
   Compression weighted() const { return saturation_alone(shape_.compression); }
 
+  // Returns the layer weights of a point.
+  const LayerWeights& layer_weights(const SlopeInput& input, std::size_t i) const {
+    return input.attention.empty() ? weights_ : by_attention_[input.attention[i]];
+  }
+
   // Return the parameters of slope(), for write_slopes_by_eight().
-  const LayerWeights& layer_weights() const { return weights_; }
   double scale() const { return scale_; }
   double max_slope() const { return shape_.max_slope; }
 
   template <typename Real>
   Eigen::Vector2<Real> slope(const SlopeInput& input, std::size_t i, Real w_k, Real w_b) const {
     const Real saturation = static_cast<Real>(scale_) * w_k;
-    return layered_slope(input.layers[i], weights_, saturation * w_b, static_cast<Real>(shape_.max_slope));
+    return layered_slope(input.layers[i], layer_weights(input, i), saturation * w_b,
+                         static_cast<Real>(shape_.max_slope));
   }
 
   // Returns the derivative of the slope by the fine layer.
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
-    const float weight = static_cast<float>(scale_) * w_k * w_b, t = weights_.height_share;
-    const float sine_sq = weight * weight * weighted_sum(input.layers[i], weights_).squaredNorm();
-    return weight * weights_.fine / std::sqrt(std::max(1 - t * t * sine_sq, least_gain_divisor));
+    const LayerWeights& weights = layer_weights(input, i);
+    const float weight = static_cast<float>(scale_) * w_k * w_b, t = weights.height_share;
+    const float sine_sq = weight * weight * weighted_sum(input.layers[i], weights).squaredNorm();
+    return weight * weights.fine / std::sqrt(std::max(1 - t * t * sine_sq, least_gain_divisor));
   }
 
   double height_share() const { return relievo::height_share(shape_); }
@@ -150,6 +162,7 @@ class LayeredStyle {
  private:
   const Shape& shape_;
   LayerWeights weights_;
+  std::array<LayerWeights, attention_levels> by_attention_;  // used only if the shape has attention
   double scale_;
 };
 

@@ -98,6 +98,14 @@ LayerWeights layer_weights(const Shape& shape) {
   return LayerWeights::of(shape.compression.u, shape.gamma, height_share(shape));
 }
 
+LayerWeights layer_weights(const Shape& shape, double more_attention) {
+  const double u = shape.compression.u * std::exp(shape.attention * more_attention);
+  const LayerWeights changed = LayerWeights::of(u, shape.gamma, height_share(shape));
+  LayerWeights weights = layer_weights(shape);
+  weights.fine = changed.fine, weights.middle = changed.middle;
+  return weights;
+}
+
 std::vector<float> boundary_weights(std::span<const float> distance, double rho) {
   std::vector<float> weights(distance.size());
   parallel_for(weights.size(), [&](std::size_t i) {

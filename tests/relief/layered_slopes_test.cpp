@@ -15,6 +15,7 @@ struct Points {
   std::vector<Vec3f> normals;
   std::vector<float> k, boundary_weight;
   std::vector<PointLayers> layers;
+  std::vector<std::uint16_t> attention;
   SlopeInput input;
 
   explicit Points(std::size_t n) {
@@ -26,6 +27,7 @@ struct Points {
       normals.emplace_back(0, 0, 1);
       k.push_back(i % 10 == 0 ? 0 : static_cast<float>(random.uniform(-1, 1)));
       boundary_weight.push_back(static_cast<float>(random.uniform()));
+      attention.push_back(static_cast<std::uint16_t>(random.uniform(0, attention_levels)));
       layers.push_back(i % 7 == 0 ? PointLayers{} : PointLayers{xy(), xy(), xy(), xy()});
     }
     input = {normals, k, boundary_weight, .3, layers};
@@ -35,7 +37,8 @@ struct Points {
 // Compares slopes that are computed eight at a time, with and without AVX2, with slopes computed one by one.
 // The number of points is not a multiple of eight.
 void expect_slopes_of_single_points(const Shape& shape) {
-  const Points points(10003);
+  Points points(10003);
+  if (shape.attention > 0) points.input.attention = points.attention;
   const LayeredStyle style(shape);
   WeightTable weight;
   weight.fill(points.input.delta, style.weighted());
@@ -58,6 +61,8 @@ TEST(LayeredSlopes, AreThoseOfSinglePointsToTheLastBit) {
   }
   shape.compression = {.5, 1.5};
   shape.max_slope = .6;
+  expect_slopes_of_single_points(shape);
+  shape.attention = 2;
   expect_slopes_of_single_points(shape);
 }
 

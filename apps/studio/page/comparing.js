@@ -1,6 +1,6 @@
 // Compares the relief with the model, or with the relief of a snapshot: draws a picture of it over that of the relief,
-// with the same size and position of the figure. The engine fits each picture to its own plate. The model's plate is the figure with its
-// margin, so the two pictures need different zooms.
+// with the same size and position of the figure. The engine fits each picture to its own plate. The model's plate is
+// the figure with its margin, so the two pictures need different zooms.
 
 import {$, clamp, make} from "./controls.js";
 import {isRound} from "./measure.js";
@@ -21,8 +21,8 @@ export class Comparing {
     return Boolean(this.isComparing || this.isHolding);
   }
 
-  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding). `rival` has the
-  // settings that are shown on that side instead, or is null.
+  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding), coloured by its
+  // attention (hasAttention) or not. `rival` has the settings that are shown on that side instead, or is null.
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;
@@ -71,7 +71,8 @@ export class Comparing {
   // the centre of the plate. If the figure is mirrored, camera and light are mirrored for the request, and paint()
   // mirrors the picture.
   request(isFine) {
-    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true});
+    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true,
+      attention: Boolean(this.hasAttention)});
     const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
     request.camera = {...camera, yaw: sign * camera.yaw, x: sign * (camera.x - x), y: camera.y - y};
     request.light = [sign * light[0], light[1], light[2]];

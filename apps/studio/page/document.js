@@ -174,7 +174,7 @@ export const NOT_PRINTED = ["draft", "tool", "finish"];
 const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/.test(name));
 
 // The options of the shape that the method `paper` does not have.
-const NOT_OF_PAPER = SHAPE.filter((name) => /^(tone|steps|planes|light|colour|strokes)$/.test(name));
+const NOT_OF_PAPER = SHAPE.filter((name) => /^(tone|steps|planes|light|attention|colour|strokes)$/.test(name));
 
 // The options of texts and ornaments, which need ground around the relief. A document keeps them while it has none.
 export const ON_GROUND = namesOf("plate").filter((name) => /^(text|font|ornaments)/.test(name));

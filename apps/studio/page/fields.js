@@ -16,6 +16,7 @@ const SLIDERS = {
   steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#tuning"},
   steps: {label: "Kept steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#tuning"},
   planes: {label: "Step of planes", hand: [0, 0.3], decimals: 2, spread: spread.linear, place: "#tuning"},
+  attention: {label: "Attention", hand: [0, 4], decimals: 2, spread: spread.root, place: "#tuning"},
   "light-contrast": {label: "Contrast", hand: [0, 1], decimals: 2, spread: spread.linear, place: "#light-rows"},
   colour: {label: "Dark lines", hand: [0, 1], decimals: 2, spread: spread.root, place: "#light-rows"},
   margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},

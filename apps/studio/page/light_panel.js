@@ -115,6 +115,7 @@ export class LightPanel {
     this.choice.title = refusal || "Slopes are chosen for the light under which the piece will hang";
     this.rows.hidden = this.sliders["light-contrast"].hidden = !isLit;
     const isFlat = form === "lithophane" || hasScale(this.doc.now) || this.doc.now.options.method === "paper";
+    this.sliders.attention.hidden = isFlat || this.facts?.can_be_lit === false;
     this.sliders.colour.hidden = !this.facts?.has_colours || isFlat;
     if (!isLit) return;
     const {azimuth, elevation} = parse(light), [x, y] = placeOf({azimuth, elevation});

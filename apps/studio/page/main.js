@@ -54,7 +54,7 @@ const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, brush, viewRests: () => shownView.choose()});
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const modes = new Modes({stage, doc, cropFrame, compared: () => snapshotPanel.mark()});
+const modes = new Modes({stage, doc, cropFrame, sliders: sliders.elements, compared: () => snapshotPanel.mark()});
 const snapshotPanel = new SnapshotPanel({doc, modes});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});

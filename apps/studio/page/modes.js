@@ -1,7 +1,7 @@
 // Sets the modes of the picture: the tool, the light table, the comparison and the material.
 
 import {about} from "./about.js";
-import {$, check, make} from "./controls.js";
+import {$, check, make, pair} from "./controls.js";
 import {takeArrowKeys} from "./inputs.js";
 import {TABLE_LIGHTS} from "./lights.js";
 import {partOfSnapshot} from "./snapshots.js";
@@ -10,8 +10,11 @@ const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "tr
 
 export class Modes {
   // Calls compared() when the comparison changes.
-  constructor({stage, doc, cropFrame, compared}) {
+  constructor({stage, doc, cropFrame, sliders, compared}) {
     Object.assign(this, {stage, doc, cropFrame, compared, rival: null}); // rival: the snapshot that is compared
+    this.attention = make("input", {type: "checkbox", onchange: () => this.showAttention(this.attention.checked)});
+    sliders.attention.append(pair("Show it on the model", this.attention,
+      {title: "Compares the relief with the model, which is orange where viewers are guessed to look"}));
     $("#materials").append(...about.materials.map(({id, name}) => make("button", {
       role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
     })));
@@ -58,8 +61,15 @@ export class Modes {
     const names = rival ? [rival.name, "Now"] : ["Model", "Relief"];
     for (const [i, label] of [...$("#labels").children].entries()) label.textContent = names[i];
     $("#split").setAttribute("aria-label", `Divider between ${rival ? names.join(" and ") : "model and relief"}`);
-    this.stage.comparing.set({isComparing, rival: rival && partOfSnapshot(rival)});
+    this.attention.checked &&= isComparing && !rival;
+    this.stage.comparing.set({isComparing, hasAttention: this.attention.checked, rival: rival && partOfSnapshot(rival)});
     this.compared();
+  }
+
+  // Shows the model beside the relief, coloured by its attention, or ends the comparison.
+  showAttention(isShown) {
+    this.stage.comparing.set({hasAttention: isShown});
+    this.setComparing(isShown);
   }
 
   toggleComparing = () => this.setComparing(!isPressed("#compare"));

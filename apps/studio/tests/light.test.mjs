@@ -109,3 +109,28 @@ test("offers the depth of dark lines for scans with colours alone, and sinks the
   assert.ok(most < -0.3, `only ${-most} mm at the lines`);
   await undo();
 });
+
+test("shows the attention on the model, beside the relief", async () => {
+  const shown = labelled("Show it on the model"), isComparing = (is) =>
+    page.getByRole("button", {name: "Compare", pressed: is}).waitFor();
+  const asked = page.waitForRequest((request) => request.url().endsWith("/api/frame") &&
+    request.postDataJSON().attention === true);
+  await shown.check();
+  await isComparing(true);
+  assert.equal((await asked).postDataJSON().original, true);
+  await untilReady(page);
+  const colours = await page.locator("#before").evaluate((canvas) => { // the strongest blue and the strongest red
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let [blue, red] = [0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] < 255) continue;
+      blue = Math.max(blue, data[i + 2] - data[i]);
+      red = Math.max(red, data[i] - data[i + 2]);
+    }
+    return [blue, red];
+  });
+  assert.ok(colours.every((difference) => difference > 40), `${colours}`);
+  await page.locator("#stage").press("Escape");
+  await isComparing(false);
+  await soon.equal(() => shown.isChecked(), false);
+});

@@ -38,7 +38,7 @@ const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
   alpha: {value: 3, first: {saturation: 0.5}},
   method: {value: "paper"}, mode: {value: "exact"}, steepest: {value: 66}, draft: {value: 12},
-  light: {value: "135,35"}, "light-contrast": {value: 0.5, first: {light: "135,35"}}, colour: {value: 0.2, isColoured: true},
+  attention: {value: 1.5}, light: {value: "135,35"}, "light-contrast": {value: 0.5, first: {light: "135,35"}}, colour: {value: 0.2, isColoured: true},
   steps: {value: 0.2}, planes: {value: 0.1}, tone: {value: "0,0.8;0.5,0.6;1,0.45"}, view: {value: "left"}, up: {value: "1,0,0"},
   crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, plane: {value: "drop"}, gap: {value: 3}, denoise: {value: "0.5"},
   points: {value: 20000},

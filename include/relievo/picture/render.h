@@ -68,6 +68,8 @@ struct Shown {
   // FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
+  // If not empty, colours the relief from blue to orange: a share in [0, 1] per point.
+  std::span<const float> tint = {};
 };
 
 // Draws frames of one model on a rectangular plate. The background is transparent (opacity 0) except for the

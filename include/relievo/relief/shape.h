@@ -67,6 +67,9 @@ struct Shape {
   double planes = 0;
   // The light for which slopes are chosen; only for exact models.
   std::optional<ReliefLight> light = {};
+  // Exponent of the attention, [0, 4]: u of the fine and middle layers is multiplied by exp(attention (A - mean A)),
+  // where A in [0, 1] estimates where viewers look; 0 treats all parts alike. Only for exact models.
+  double attention = 0;
   // Local changes of the finished heights, for all methods except the paper's. If they change the highest
   // point, all heights are scaled, so that the height of the relief stays.
   SharedStrokes strokes = {};

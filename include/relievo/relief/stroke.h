@@ -20,29 +20,49 @@ enum class Brush {
   soften,      // subtracts amount * (z - narrow blur of z)
   raise,       // adds amount * height of the relief
   sink,        // subtracts amount * height of the relief
-  level        // adds amount * (mean height under the stroke - z)
+  level,       // adds amount * (mean height under the stroke - z)
+  protect,     // replaces that share of the height correction by its best plane, so that it flattens no shape
+  in_front  // raises the stroke as a whole until it is amount * height above what is behind it across depth jumps
 };
 
-inline constexpr std::array<Choice<Brush>, 6> brushes{{{"strengthen", Brush::strengthen},
+inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::strengthen},
                                                        {"sharpen", Brush::sharpen},
                                                        {"soften", Brush::soften},
                                                        {"raise", Brush::raise},
                                                        {"sink", Brush::sink},
-                                                       {"level", Brush::level}}};
+                                                       {"level", Brush::level},
+                                                       {"protect", Brush::protect},
+                                                       {"in-front", Brush::in_front}}};
+
+// What belongs to a stroke.
+enum class StrokeArea {
+  line,   // the points within the radius of a line
+  lasso,  // what a closed line encloses for the viewer who drew it; beyond half of its size, nothing behind it
+  region  // the points around the first corner, as far as the surface turns less than the tolerance
+};
+
+inline constexpr std::array<Choice<StrokeArea>, 3> stroke_areas{
+    {{"line", StrokeArea::line}, {"lasso", StrokeArea::lasso}, {"region", StrokeArea::region}}};
 
 // Standard deviations of the two blurs, as shares of the longer side.
 inline constexpr double narrow_blur = .008, wide_blur = .03;
 
-// A line on the model, and the change around it. It belongs to the model, so it has the same position in
+// A line or an area on the model, and the change there. It belongs to the model, so it has the same position in
 // other views, where it affects the visible part of the model.
 struct Stroke {
   std::string name;
   Brush brush = Brush::soften;
-  double amount = 1;           // [0, 1]; strengthen and sharpen: [0, 4]
-  double radius = 0;           // largest distance from the line, in the units of the scan, > 0
+  double amount = 1;  // [0, 1]; strengthen and sharpen: [0, 4]
+  // Largest distance from the line, in the units of the scan, > 0. In other areas, the change fades out over as much
+  // inside of their edge.
+  double radius = 0;
   double softness = 1;         // share of the radius over which the change fades out, [0.05, 1]
   bool is_muted = false;       // a muted stroke changes nothing
   std::vector<Vec3> points{};  // corners of the line, in the coordinates of the scan; a single one is a dab
+  StrokeArea area = StrokeArea::line;
+  Vec3 direction =
+      Vec3::Zero();      // of a lasso: towards the viewer who drew it, in the scan's axes; any length > 0
+  double tolerance = 6;  // of a region: degrees per 1 % of the longer side, [0.1, 180]
 
   bool operator==(const Stroke&) const = default;
 };
@@ -52,7 +72,8 @@ inline constexpr std::size_t most_strokes = 10'000, most_stroke_points = 100'000
 
 // Returns the strokes in a JSON array such as
 //   [{"brush": "soften", "amount": 0.5, "radius": 3, "points": [[0, 1, 2], [1, 1, 2]], "name": "cheek"}].
-// Amount, softness, name and muted are optional. An empty text means no strokes. Errors: kind option, naming
+// Amount, softness, name and muted are optional. An area is "line" without the key "area"; a lasso has at least three
+// points and a "direction" [x, y, z], a region has one point, and perhaps a "tolerance". An empty text means no strokes. Errors: kind option, naming
 // the stroke and what was expected.
 Result<Strokes> parse_strokes(std::string_view json);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -47,6 +48,8 @@ struct SlopeInput {
   double delta = 0;                          // standard deviation of |k|
   std::span<const PointLayers> layers = {};  // only for the layered style
   std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
+  std::span<const std::uint16_t> attention =
+      {};  // levels_of() the attention; empty if the shape asks for none
 };
 
 // Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.
@@ -54,8 +57,10 @@ struct SlopeInput {
 // w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
-// Returns the layer weights of a layered shape.
+// Returns the layer weights of a layered shape; the second function those of points whose attention differs from its
+// mean by `more_attention`.
 LayerWeights layer_weights(const Shape& shape);
+LayerWeights layer_weights(const Shape& shape, double more_attention);
 
 // Separate the saturation from a compression c. The factor of saturation or tone curve for a layered slope is
 // saturation_scale(c) times w_k of saturation_alone(c). It is 1 everywhere for saturation 0.

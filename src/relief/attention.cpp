@@ -1,0 +1,93 @@
+#include "relievo/relief/attention.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "relievo/core/parallel.h"
+#include "scan/surface_blur.h"
+
+namespace relievo {
+namespace {
+
+// Standard deviations of the narrower Gaussian, as shares of the longer side. Lee et al. take 2 to 6 times 0.3 % of
+// the diagonal of the model's box, which is about 1.3 longer sides. The wider Gaussian has twice the width.
+constexpr std::array widths{.008, .012, .016, .02, .024};
+// Standard deviations of the prior around the middle and of the last smoothing, as shares of the longer side. Slopes
+// that are scaled by a sharper field would no longer be those of a surface.
+constexpr double prior_width = .35, smoothing = .02;
+
+std::vector<float> blurred(const Surface& surface, std::span<const float> values, double share) {
+  std::vector<Vec2f> pairs;
+  for (const float value : values) pairs.emplace_back(value, 0);
+  SurfaceBlur(surface.points, share * surface.longer_side()).apply(pairs);
+  std::vector<float> means;
+  for (const Vec2f& pair : pairs) means.push_back(pair.x());
+  return means;
+}
+
+// Returns the mean of all values that no neighbour exceeds, without the highest value.
+double mean_of_other_maxima(const Surface& surface, std::span<const float> values, float highest) {
+  std::vector<std::uint8_t> is_exceeded(values.size(), 0);
+  for (const Triangle& corners : surface.triangulation.triangles)
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Index a = corners[side], b = corners[(side + 1) % 3];
+      if (values[a] != values[b]) is_exceeded[values[a] < values[b] ? a : b] = 1;
+    }
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (is_exceeded[i] || values[i] == highest) continue;
+    sum += static_cast<double>(values[i]), ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// Adds the differences between two means of the curvature, scaled to at most 1, and weighted by the square of what the
+// other maxima lack of the highest one (the suppression S of Lee et al.).
+void add_differences(const Surface& surface, double width, std::span<float> sums) {
+  const std::vector<float> near = blurred(surface, surface.curvature.k, width),
+                           around = blurred(surface, surface.curvature.k, 2 * width);
+  std::vector<float> apart(near.size());
+  for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = std::abs(near[i] - around[i]);
+  const float highest = std::ranges::max(apart);
+  if (!(highest > 0)) return;
+  const auto lacking =
+      static_cast<float>(1 - mean_of_other_maxima(surface, apart, highest) / static_cast<double>(highest));
+  for (std::size_t i = 0; i < apart.size(); ++i) sums[i] += lacking * lacking * apart[i] / highest;
+}
+
+void multiply_by_prior(const Surface& surface, std::span<float> values) {
+  const Vec2 middle = Box::of(surface.points).centre().head<2>();
+  const double width = prior_width * surface.longer_side();
+  parallel_for(values.size(), [&](std::size_t i) {
+    const double away = (surface.points[i].head<2>() - middle).norm() / width;
+    values[i] *= static_cast<float>(std::exp(-away * away / 2));
+  });
+}
+
+}  // namespace
+
+std::vector<float> attention(const Surface& surface) {
+  std::vector<float> values(surface.points.size(), 0);
+  if (values.empty() || !(surface.longer_side() > 0)) return values;
+  for (const double width : widths) add_differences(surface, width, values);
+  multiply_by_prior(surface, values);
+  values = blurred(surface, values, smoothing);
+  const auto [least, most] = std::ranges::minmax(values);
+  const float range = most - least;
+  for (float& value : values) value = range > 0 ? std::clamp((value - least) / range, 0.F, 1.F) : 0;
+  return values;
+}
+
+std::vector<std::uint16_t> levels_of(const std::vector<float>& attention) {
+  const double mean = std::accumulate(attention.begin(), attention.end(), 0.) /
+                      std::max(1., static_cast<double>(attention.size()));
+  std::vector<std::uint16_t> levels;
+  for (const float value : attention)
+    levels.push_back(
+        static_cast<std::uint16_t>(std::lround((static_cast<double>(value) - mean + 1) * attention_steps)));
+  return levels;
+}
+
+}  // namespace relievo

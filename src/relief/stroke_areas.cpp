@@ -1,0 +1,307 @@
+#include "relief/stroke_areas.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/disjoint_sets.h"
+#include "geometry/neighbours.h"
+#include "geometry/outline_union.h"
+#include "relievo/core/parallel.h"
+#include "scan/jumps.h"
+#include "scan/surface_blur.h"
+
+namespace relievo {
+namespace {
+
+double distance_to_segment_sq(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double length_sq = along.squaredNorm();
+  const double t = length_sq > 0 ? std::clamp((p - a).dot(along) / length_sq, 0.0, 1.0) : 0;
+  return (p - a - t * along).squaredNorm();
+}
+
+// A line in pieces of a few corners, so that most points need the distances from few of them.
+class Line {
+ public:
+  explicit Line(std::span<const Vec3> corners) : corners_(corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i % piece == 0) boxes_.emplace_back();
+      // The segment before a corner belongs to the corner's piece.
+      for (const Vec3& end : {corners[i], corners[i == 0 ? 0 : i - 1]}) boxes_.back().extend(end);
+    }
+  }
+
+  // Returns the square of a point's distance from the line; `most_sq` if that is no less.
+  double distance_sq(const Vec3& p, double most_sq) const {
+    double least = most_sq;
+    for (std::size_t k = 0; k < boxes_.size(); ++k) {
+      const Vec3 outside = (boxes_[k].min - p).cwiseMax(p - boxes_[k].max).cwiseMax(0);
+      if (outside.squaredNorm() >= least) continue;
+      const std::size_t end = std::min(corners_.size(), (k + 1) * piece);
+      for (std::size_t i = k * piece; i < end; ++i)
+        least = std::min(least, distance_to_segment_sq(p, corners_[i == 0 ? 0 : i - 1], corners_[i]));
+    }
+    return least;
+  }
+
+ private:
+  static constexpr std::size_t piece = 8;
+
+  std::span<const Vec3> corners_;
+  std::vector<Box> boxes_;  // one per piece
+};
+
+StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, double radius) {
+  Box box;
+  for (const Vec3& p : line) box.extend(p);
+  const Vec3 least = box.min.array() - radius, most = box.max.array() + radius;
+  std::vector<Index> in_box;
+  for (Index i = 0; i < surface.points.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    if ((p.array() < least.array()).any() || (p.array() > most.array()).any()) continue;
+    if (!surface.boundary.is_boundary[i]) in_box.push_back(i);
+  }
+  const Line pieces(line);
+  std::vector<double> distances(in_box.size());
+  const auto measure = [&](std::size_t k) {
+    distances[k] = std::sqrt(pieces.distance_sq(surface.points[in_box[k]], radius * radius));
+  };
+  parallel_for(in_box.size(), measure, 256);
+  StrokePoints near;
+  for (std::size_t k = 0; k < in_box.size(); ++k) {
+    if (distances[k] >= radius) continue;
+    near.points.push_back(in_box[k]);
+    near.distances.push_back(distances[k]);
+  }
+  return near;
+}
+
+// Calls f(a, b) for the sides of the triangles inside the relief, except across depth jumps.
+template <typename F>
+void each_link(const Surface& surface, F&& f) {
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const Triangle& corners = surface.triangulation.triangles[t];
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Index a = corners[side], b = corners[(side + 1) % 3];
+      if (!is_jump(surface, a, b)) f(a, b);
+    }
+  }
+}
+
+// Returns connected components of the given points, by each_link().
+DisjointSets connected(const Surface& surface, std::span<const Index> points) {
+  std::vector<Index> number(surface.points.size(), no_index);
+  for (Index i = 0; i < points.size(); ++i) number[points[i]] = i;
+  DisjointSets sets(points.size());
+  each_link(surface, [&](Index a, Index b) {
+    if (number[a] != no_index && number[b] != no_index) sets.join(number[a], number[b]);
+  });
+  return sets;
+}
+
+// Keeps the points with distances for which is_kept(i) is true.
+template <typename IsKept>
+StrokePoints kept(const StrokePoints& all, IsKept&& is_kept) {
+  StrokePoints some;
+  for (Index i = 0; i < all.points.size(); ++i) {
+    if (!is_kept(i)) continue;
+    some.points.push_back(all.points[i]);
+    some.distances.push_back(all.distances[i]);
+  }
+  return some;
+}
+
+StrokePoints points_at_line(const Surface& surface, std::span<const Vec3> line, double radius) {
+  const StrokePoints near = points_near(surface, line, radius);
+  DisjointSets sets = connected(surface, near.points);
+  const double touching = std::max(2 * surface.rho, radius / 4);
+  std::vector<std::uint8_t> is_touched(near.points.size(), 0);
+  for (Index i = 0; i < near.points.size(); ++i)
+    if (near.distances[i] <= touching) is_touched[sets.find(i)] = 1;
+  return kept(near, [&](Index i) { return is_touched[sets.find(i)] != 0; });
+}
+
+// A lasso seen along its direction, in coordinates whose z is towards its viewer.
+class SeenLasso {
+ public:
+  SeenLasso(std::span<const Vec3> corners, const Vec3& to_viewer)
+      : turn_(Eigen::Quaterniond::FromTwoVectors(to_viewer, Vec3::UnitZ()).toRotationMatrix()),
+        to_viewer_(to_viewer) {
+    Box box;
+    for (const Vec3& corner : corners) box.extend(turn_ * corner);
+    for (const Vec3& corner : corners) {
+      rim_.push_back(flat(turn_ * corner));
+      outline_[0].push_back(rim_.back().head<2>());
+    }
+    rim_.push_back(rim_[0]);
+    low_ = box.min, high_ = box.max;
+    deepest_ = low_.z() - box.longer_side() / 2;
+  }
+
+  bool has(const Vec3& p, const Vec3f& normal) const {
+    const Vec3 q = turn_ * p;
+    if ((q.head<2>().array() < low_.head<2>().array()).any()) return false;
+    if ((q.head<2>().array() > high_.head<2>().array()).any()) return false;
+    if (q.z() < deepest_ || !(normal.cast<double>().dot(to_viewer_) > 0)) return false;
+    return winding_number(outline_, q.head<2>()) != 0;
+  }
+
+  Vec3 seen(const Vec3& p) const { return flat(turn_ * p); }
+  std::span<const Vec3> rim() const { return rim_; }
+
+ private:
+  static Vec3 flat(const Vec3& q) { return {q.x(), q.y(), 0}; }
+
+  Mat3 turn_;
+  Vec3 to_viewer_, low_, high_;
+  double deepest_ = 0;
+  std::vector<Vec3> rim_;  // closed
+  Outlines outline_ = Outlines(1);
+};
+
+StrokePoints points_in_lasso(const Surface& surface, const SeenLasso& lasso, double radius) {
+  std::vector<double> distances(surface.points.size(), -1);
+  const Line rim(lasso.rim());
+  parallel_for(distances.size(), [&](std::size_t i) {
+    const Vec3& p = surface.points[i];
+    if (!surface.boundary.is_boundary[i] && lasso.has(p, surface.normals[i]))
+      distances[i] = radius - std::sqrt(rim.distance_sq(lasso.seen(p), radius * radius));
+  });
+  StrokePoints inside;
+  for (Index i = 0; i < distances.size(); ++i) {
+    if (distances[i] < 0) continue;
+    inside.points.push_back(i);
+    inside.distances.push_back(distances[i]);
+  }
+  return inside;
+}
+
+// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side: the angle between normals
+// over the length of the edges around the point, as a root mean square times sqrt(2), which is the rate across a
+// crease. The normals are means over a width that removes noise.
+std::vector<float> turning_of(const Surface& surface) {
+  constexpr double width = .008, least_width_rho = 1.5;
+  const double side = surface.longer_side();
+  std::vector<Vec2f> xy(surface.points.size()), z(xy.size());
+  for (std::size_t i = 0; i < xy.size(); ++i) {
+    xy[i] = surface.normals[i].head<2>();
+    z[i] = Vec2f(surface.normals[i].z(), 0);
+  }
+  const SurfaceBlur blur(surface.points, std::max(width * side, least_width_rho * surface.rho));
+  for (std::vector<Vec2f>* part : {&xy, &z}) blur.apply(*part);
+  const auto normal = [&](Index i) {
+    return Vec3(Vec3f(xy[i].x(), xy[i].y(), z[i].x()).cast<double>().normalized());
+  };
+  std::vector<double> angles(xy.size(), 0),
+      lengths(xy.size(), 0);  // sums of squares, degrees and 1 % of the side
+  each_link(surface, [&](Index a, Index b) {
+    const double angle =
+        2 * std::asin(std::min(1., (normal(a) - normal(b)).norm() / 2)) * 180 / std::numbers::pi;
+    const double length = (surface.points[a] - surface.points[b]).norm() / side * 100;
+    for (const Index end : {a, b}) angles[end] += angle * angle, lengths[end] += length * length;
+  });
+  std::vector<float> turning(xy.size(), 0);
+  for (std::size_t i = 0; i < turning.size(); ++i)
+    if (lengths[i] > 0) turning[i] = static_cast<float>(std::sqrt(2 * angles[i] / lengths[i]));
+  return turning;
+}
+
+// Returns the points that an edge, except across a depth jump, connects to a point outside of the region.
+std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) {
+  std::vector<std::uint8_t> is_in(surface.points.size(), 0), is_rim(surface.points.size(), 0);
+  for (const Index i : region) is_in[i] = 1;
+  each_link(surface, [&](Index a, Index b) {
+    if (is_in[a] != is_in[b]) is_rim[is_in[a] ? a : b] = 1;
+  });
+  std::vector<Vec3> rim;
+  for (const Index i : region)
+    if (is_rim[i]) rim.push_back(surface.points[i]);
+  return rim;
+}
+
+// Returns the points of a region, with those of its holes: parts outside of it with less than a tenth of its points.
+std::vector<Index> without_holes(const Surface& surface, std::span<const Index> region) {
+  constexpr std::size_t times_less = 10;
+  std::vector<std::uint8_t> is_in(surface.points.size(), 0);
+  for (const Index i : region) is_in[i] = 1;
+  std::vector<Index> outside;
+  for (Index i = 0; i < is_in.size(); ++i)
+    if (!is_in[i]) outside.push_back(i);
+  DisjointSets sets = connected(surface, outside);
+  std::vector<std::size_t> size(outside.size(), 0);
+  std::vector<std::uint8_t> touches(outside.size(), 0);
+  for (Index i = 0; i < outside.size(); ++i) ++size[sets.find(i)];
+  std::vector<Index> number(surface.points.size(), no_index);
+  for (Index i = 0; i < outside.size(); ++i) number[outside[i]] = i;
+  each_link(surface, [&](Index a, Index b) {
+    if (is_in[a] != is_in[b]) touches[sets.find(number[is_in[a] ? b : a])] = 1;
+  });
+  std::vector<Index> all;
+  for (Index i = 0; i < is_in.size(); ++i) {
+    const Index part = is_in[i] ? no_index : sets.find(number[i]);
+    const bool is_hole = part != no_index && touches[part] && size[part] * times_less < region.size();
+    if (is_in[i] || (is_hole && !surface.boundary.is_boundary[i])) all.push_back(i);
+  }
+  return all;
+}
+
+// Returns the number among `points` of the one that is nearest to a place; no_index if none is near.
+Index nearest_of(const Surface& surface, std::span<const Index> points, const Vec3& place) {
+  constexpr double most_rho = 4;
+  double least = most_rho * surface.rho;
+  Index nearest = no_index;
+  for (Index i = 0; i < points.size(); ++i) {
+    const double distance = (surface.points[points[i]] - place).norm();
+    if (distance < least) least = distance, nearest = i;
+  }
+  return nearest;
+}
+
+StrokePoints points_of_region(const Surface& surface, const Stroke& stroke, const Vec3& seed) {
+  const std::vector<float> turning = turning_of(surface);
+  std::vector<Index> calm;
+  for (Index i = 0; i < turning.size(); ++i)
+    if (!surface.boundary.is_boundary[i] && turning[i] <= static_cast<float>(stroke.tolerance))
+      calm.push_back(i);
+  const Index first = nearest_of(surface, calm, seed);
+  if (first == no_index) return {};
+  DisjointSets sets = connected(surface, calm);
+  std::vector<Index> reached;
+  for (Index i = 0; i < calm.size(); ++i)
+    if (sets.find(i) == sets.find(first)) reached.push_back(calm[i]);
+  StrokePoints region{without_holes(surface, reached), {}};
+  const std::vector<Vec3> rim = rim_of(surface, region.points);
+  const KdTree<Vec3> tree(rim);
+  region.distances.resize(region.points.size(), 0);
+  parallel_for(region.points.size(), [&](std::size_t i) {
+    Index near = 0;
+    double distance_sq = 0;
+    if (tree.nearest(surface.points[region.points[i]], 1, &near, &distance_sq) == 1)
+      region.distances[i] = std::max(0., stroke.radius - std::sqrt(distance_sq));
+  });
+  return kept(region, [&](Index i) { return region.distances[i] < stroke.radius; });
+}
+
+}  // namespace
+
+StrokePoints points_of(const Surface& surface, const Stroke& stroke) {
+  const Mat3& R = surface.view.R_view_model;
+  std::vector<Vec3> corners;
+  for (const Vec3& p : stroke.points) corners.push_back(R * (p - surface.centre));
+  if (corners.empty() || !(stroke.radius > 0)) return {};
+  switch (stroke.area) {
+    case StrokeArea::line:
+      return points_at_line(surface, corners, stroke.radius);
+    case StrokeArea::lasso:
+      return points_in_lasso(surface, {corners, R * stroke.direction.normalized()}, stroke.radius);
+    case StrokeArea::region:
+      return points_of_region(surface, stroke, corners[0]);
+  }
+  return {};
+}
+
+}  // namespace relievo

@@ -1,0 +1,57 @@
+// The brushes that move shapes as a whole: Brush::protect and Brush::in_front. Tested by
+// tests/relief/stroke_moves_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+
+// The points of a surface under a stroke, and the share of the stroke's change that each point gets.
+struct StrokeMask {
+  std::vector<Index> points;
+  std::vector<float> weights;  // (0, 1], one per point
+};
+
+// The heights of a relief whose height is `height`, before and after the height correction.
+template <typename Real>
+struct CorrectedHeights {
+  const Surface& surface;
+  double height;
+  std::span<const Real> uncorrected;
+  std::span<Real> z;
+};
+
+// Moves the heights under a stroke, by their weights times `amount`, towards the uncorrected heights plus the plane
+// that fits the height correction best. If that exceeds the height of the relief anywhere, the plane is lower. The mask
+// must not be empty. Instantiated for float and double.
+template <typename Real>
+void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, double amount);
+
+// An edge from a point of a mask across a depth jump.
+struct Crossing {
+  Index from;    // number of the point in the mask
+  Index behind;  // the point of the surface behind it
+};
+
+// Returns the edges from points of a mask, with at least half of the weight, across depth jumps to points behind it
+// that are not in the mask.
+std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask);
+
+// How far a stroke should be in front of what is behind it.
+template <typename Real>
+struct InFront {
+  std::span<const Crossing> crossings;
+  Real step;    // least rise of each crossing
+  Real height;  // of the relief
+};
+
+// Raises the heights z under a stroke by their weights times r (1 - z / height), so that nothing exceeds the height and
+// higher points stay higher. r is the least value with which all crossings have their step; it is at most the height,
+// which may be too little for points near the top. Instantiated for float and double.
+template <typename Real>
+void bring_forward(const InFront<Real>& wanted, const StrokeMask& mask, std::span<Real> z);
+
+}  // namespace relievo

@@ -1,0 +1,187 @@
+#include "relief/stroke_moves.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "relief/stroke_fields.h"
+#include "relievo/relief/frame.h"
+#include "support/shapes.h"
+#include "support/surfaces.h"
+
+namespace relievo {
+namespace {
+
+using test::surface_of;
+
+// Returns a level square of side 2.
+Surface square(std::size_t points = 20000) {
+  return surface_of(test::height_field(
+      points, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
+}
+
+Stroke dab(const Vec3& at, double radius, double amount = 1) {
+  return {.name = {}, .brush = Brush::protect, .amount = amount, .radius = radius, .points = {at}};
+}
+
+// Returns the position of a point of the surface in the scan's coordinates.
+Vec3 place_of(const Surface& surface, Index i) {
+  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
+}
+
+// Returns heights with waves in which each brush changes something.
+std::vector<double> waves(const Surface& surface) {
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(40 * p.x()) * std::sin(30 * p.y()));
+  return z;
+}
+
+// Returns heights with waves, and the same heights under a smooth correction that is no plane.
+struct Corrected {
+  std::vector<double> before, after;
+};
+
+Corrected corrected_waves(const Surface& surface) {
+  Corrected heights{waves(surface), {}};
+  for (Index i = 0; i < heights.before.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    heights.after.push_back(.8 * heights.before[i] + .1 * p.x() - .2 * p.y() * p.y());
+  }
+  return heights;
+}
+
+std::vector<double> protect(const Surface& surface, const Stroke& stroke, const Corrected& heights,
+                            double height) {
+  std::vector<double> z = heights.after;
+  StrokeFields<double> fields(surface);
+  fields.take({stroke});
+  fields.apply(height, heights.before, std::span<double>(z));
+  return z;
+}
+
+// Under a protected stroke, only a plane lies between the heights before and after the correction.
+TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
+  const Surface surface = square();
+  const Corrected heights = corrected_waves(surface);
+  Stroke stroke = dab({.1, .2, 0}, .4);
+  stroke.softness = .25;
+  const std::vector<double> z = protect(surface, stroke, heights, 9);
+  std::vector<Index> inside;
+  for (Index i = 0; i < z.size(); ++i)
+    if ((place_of(surface, i) - Vec3(.1, .2, 0)).norm() < .29) inside.push_back(i);
+  Eigen::MatrixXd terms(inside.size(), 3);
+  Eigen::VectorXd moved(inside.size());
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    const Vec3& p = surface.points[inside[k]];
+    terms.row(static_cast<Eigen::Index>(k)) << 1, p.x(), p.y();
+    moved[static_cast<Eigen::Index>(k)] = z[inside[k]] - heights.before[inside[k]];
+  }
+  const Eigen::VectorXd plane = terms.householderQr().solve(moved);
+  EXPECT_LT((terms * plane - moved).cwiseAbs().maxCoeff(), 1e-9);
+  double before = 0, after = 0, weight = 0;  // the plane moves the stroke as the correction did on average
+  const StrokeMask mask = stroke_mask(surface, stroke);
+  for (std::size_t k = 0; k < mask.points.size(); ++k) {
+    const auto w = static_cast<double>(mask.weights[k]);
+    const auto lifted = (z[mask.points[k]] - heights.after[mask.points[k]]) / w;
+    after += w * lifted, before += w * std::abs(lifted), weight += w;
+  }
+  EXPECT_LT(std::abs(after), 1e-6 * weight);
+  EXPECT_GT(before, .005 * weight);
+}
+
+TEST(StrokeMoves, ProtectWithinTheHeight) {
+  const Surface surface = square();
+  const Corrected heights = corrected_waves(surface);
+  const double height = *std::ranges::max_element(heights.after);
+  const std::vector<double> z = protect(surface, dab({-.3, .2, 0}, .5), heights, height);
+  EXPECT_LE(*std::ranges::max_element(z), height + 1e-12);
+}
+
+TEST(StrokeMoves, ProtectByTheirAmount) {
+  const Surface surface = square();
+  const Corrected heights = corrected_waves(surface);
+  const auto half = protect(surface, dab({.1, .2, 0}, .4, .5), heights, 9),
+             whole = protect(surface, dab({.1, .2, 0}, .4, 1), heights, 9);
+  for (std::size_t i = 0; i < half.size(); ++i)
+    EXPECT_NEAR(half[i] - heights.after[i], (whole[i] - heights.after[i]) / 2, 1e-12);
+  EXPECT_NE(half, whole);
+}
+
+std::vector<double> in_front(const Surface& surface, const Stroke& stroke, std::vector<double> z) {
+  StrokeFields<double> fields(surface);
+  fields.take({stroke});
+  fields.apply(1, {}, std::span<double>(z));
+  return z;
+}
+
+TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
+  // The left half of the square is in front. Its heights in the relief are hardly above those of the right half.
+  const Surface surface = surface_of(test::height_field(
+      40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; },
+      [](double, double) { return Vec2(0, 0); }));
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(.4 + .02 * std::sin(9 * p.y()) + (p.x() < 0 ? .03 : 0.));
+  Stroke stroke{.name = {}, .brush = Brush::in_front, .amount = .2, .radius = .3};
+  stroke.points = {{-.05, -.3, .25}, {-.05, .3, .25}};
+  const std::vector<double> changed = in_front(surface, stroke, z);
+  const StrokeMask mask = stroke_mask(surface, stroke);
+  std::vector<float> weights(z.size(), 0);
+  for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
+  double least = 1;
+  std::size_t pairs = 0;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+    for (const Index a : surface.triangulation.triangles[t])
+      for (const Index b : surface.triangulation.triangles[t])
+        if (weights[a] >= .5F && surface.points[b].z() < surface.points[a].z() - .1) {
+          least = std::min(least, changed[a] - changed[b]);
+          ++pairs;
+        }
+  ASSERT_GT(pairs, 50U);
+  EXPECT_NEAR(least, .2, 1e-9);  // as far in front as asked, and no further
+  for (Index i = 0; i < z.size(); ++i) {
+    EXPECT_TRUE(weights[i] > 0 || changed[i] == z[i]);
+    EXPECT_GE(changed[i], z[i]);
+  }
+  for (Index i = 0; i < z.size(); ++i)
+    if (surface.points[i].z() > 0) z[i] += .5;
+  EXPECT_EQ(in_front(surface, stroke, z), z);  // what is in front already stays
+}
+
+Shape painted(const Stroke& stroke) {
+  Shape shape = layered_shape();
+  shape.strokes.list = std::make_shared<const Strokes>(Strokes{stroke});
+  return shape;
+}
+
+// The parts of the correction that a stroke takes back stay under it.
+TEST(StrokeMoves, ProtectNothingElse) {
+  const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
+  Stroke stroke = dab({-.2, .2, -1.117}, .3);
+  const Relief plain = value_of(model.make_at_height(.2, layered_shape(), 1)),
+               changed = value_of(model.make_at_height(.2, painted(stroke), 1));
+  std::vector<std::uint8_t> is_painted(plain.heights.size(), 0);
+  for (const Index i : stroke_mask(model.surface(), stroke).points) is_painted[i] = 1;
+  double most = 0;
+  for (std::size_t i = 0; i < plain.heights.size(); ++i) {
+    const double moved = std::abs(changed.heights[i] - plain.heights[i]);
+    EXPECT_TRUE(is_painted[i] || moved < 1e-12);
+    most = std::max(most, moved);
+  }
+  EXPECT_GT(most, .01 * .2);
+  FrameMaker frames(model);
+  Frame frame;
+  FrameOptions options;
+  options.shape = painted(stroke);
+  options.height = .2;
+  options.height_tolerance = 1e-5;
+  frames.make(options, frame);
+  for (std::size_t i = 0; i < plain.heights.size(); ++i)
+    EXPECT_NEAR(frame.heights[i], changed.heights[i], 2e-3 * .2);
+  stroke.is_muted = true;
+  EXPECT_EQ(value_of(model.make_at_height(.2, painted(stroke), 1)).heights, plain.heights);
+}
+
+}  // namespace
+}  // namespace relievo
