@@ -37,9 +37,9 @@ bool is_text(const Source& source);
 // read, before or after the vertices. Each ascii row begins on a new line.
 //   Vertices with opacity, f_dc, scale and rot are Gaussian splats. f_dc determines their colours; splats
 //   that are less than half opaque are left out. The splats of a .splat file are read in the same way.
-// - OBJ: v (also with colours), vn and f. The normal of a vertex is the mean of the normals that faces give
-// it. If no face refers to any normal, it is the vn with the same index. Faces may refer to missing normals.
-// Vertices without colours get those of map_Kd, whose picture may have any format that is read as depths.
+// - OBJ: v (also with weights and colours), vn and f, and the colours of ZBrush (#MRGB). The normal of a vertex
+// is the mean of the normals that faces give it. If no face refers to any normal, it is the vn with the same
+// index. Faces may refer to missing normals. Vertices without colours get those of map_Kd, whose picture may have any format that is read as depths.
 // - STL, binary and ascii: coincident corners are merged; the file's normals are ignored.
 // - OFF, text and binary, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the

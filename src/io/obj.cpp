@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <vector>
 
 #include "io/formats.h"
@@ -22,6 +23,7 @@ class ObjReader {
 
   Result<RawCloud> read() {
     while (next_line()) {
+      take_painted(line_);
       Words words(before_comment(line_));
       const std::string_view keyword = words.next();
       if (keyword == "v") RELIEVO_CHECK(take_vertex(words));
@@ -39,6 +41,8 @@ class ObjReader {
                                            "expected faces, found curves or surfaces, which are not read; "
                                            "the CAD program that made them exports triangles, too");
     RELIEVO_CHECK(check_vertices());
+    if (behind_weights_.size() == colours_.size()) colours_ = std::move(behind_weights_);
+    if (colours_.empty()) colours_ = std::move(painted_);
     forget_missing_normals();
     std::vector<Vec3f> normals = point_normals();
     RawCloud raw{Cloud{std::move(points_), std::move(normals)}, "OBJ"};
@@ -86,17 +90,34 @@ class ObjReader {
     return {};
   }
 
-  // Reads a vertex, and the colour that may follow its coordinates. A single number there is a weight.
+  // Reads a vertex, and the colour that may follow its coordinates. A single number there is a weight. Of four
+  // numbers, the first is a weight if it is 1 in all vertices; otherwise the last is an opacity.
   Result<void> take_vertex(Words& words) {
     RELIEVO_CHECK(take_vector(words, points_));
-    Vec3f colour;
-    for (float& value : colour) {
+    std::array<float, 4> values = {};
+    std::size_t count = 0;
+    for (; count < values.size(); ++count) {
       const auto number = parse_number(words.next());
-      if (!number) return {};
-      value = static_cast<float>(*number);
+      if (!number) break;
+      values[count] = static_cast<float>(*number);
     }
-    colours_.push_back(colour);
+    if (count >= 3) colours_.emplace_back(values[0], values[1], values[2]);
+    if (count == 4 && values[0] == 1) behind_weights_.emplace_back(values[1], values[2], values[3]);
     return {};
+  }
+
+  // Reads colours that ZBrush writes as comments: after '#MRGB ' eight hexadecimal digits for each vertex, of which the
+  // first two are a mask.
+  void take_painted(std::string_view line) {
+    constexpr std::string_view keyword = "#MRGB ";
+    if (!line.starts_with(keyword)) return;
+    for (line.remove_prefix(keyword.size()); line.size() >= 8; line.remove_prefix(8)) {
+      std::uint32_t bits = 0;
+      const auto [end, failed] = std::from_chars(line.data(), line.data() + 8, bits, 16);
+      if (failed != std::errc() || end != line.data() + 8) return;
+      painted_.push_back(Vec3f(static_cast<float>(bits >> 16 & 255), static_cast<float>(bits >> 8 & 255),
+                               static_cast<float>(bits & 255)));
+    }
   }
 
   void take_curve() {
@@ -210,7 +231,8 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  std::vector<Vec3f> colours_;  // as written in the file
+  // As written in the file: behind the coordinates, behind weights of 1 there, and in comments.
+  std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // all faces
   std::vector<std::size_t> face_ends_;  // per face: index after its last corner

@@ -46,6 +46,12 @@ TEST(EsriGrid, ReadsOtherSpellings) {
                               std::string("1 2 3 4 5 6 7 8 1 2 3 4 5 6 7 8"));
   EXPECT_EQ(image.pixel_size, Vec2(2, 3));
   EXPECT_EQ(image.step, 1);
+  const auto commas =
+      image_in("ncols 4\nnrows 4\nxllcorner 0,5\nyllcorner 7\ncellsize 2,5\nNODATA_value -1,5\n" +
+               std::string("1,25 2 3 4 5 6 7 8 1 2 3 4 5 6 7 -1,5"));
+  EXPECT_EQ(commas.pixel_size, Vec2(2.5, 2.5));
+  EXPECT_EQ(commas.values.at(0, 0), 1.25F);
+  EXPECT_TRUE(std::isnan(commas.values.at(3, 3)));
 }
 
 // A grid a few units wide with heights of hundreds of metres, in the range of degrees, has degrees as its

@@ -28,7 +28,10 @@ TEST(Obj, ColoursMayFollowTheCoordinates) {
   const std::string faces = "f 1 2 3\n";
   for (const std::string& text : {std::string("v 0 0 0 1 0 0.5\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n"),
                                   std::string("v 0 0 0 255 0 128\nv 1 0 0 0 255 0\nv 0 1 0 0 0 255\n"),
-                                  std::string("v 0 0 0 1 0 .5 1\nv 1 0 0 0 1 0 1\nv 0 1 0 0 0 1 1\n")}) {
+                                  std::string("v 0 0 0 1 0 .5 1\nv 1 0 0 0 1 0 1\nv 0 1 0 0 0 1 1\n"),
+                                  std::string("v 0 0 0 1 1 0 .5\nv 1 0 0 1.0 0 1 0\nv 0 1 0 1 0 0 1\n"),
+                                  std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n#MRGB ffff0080ff00ff00\n"
+                                              "#MRGB 000000ff\n#MRGB 00\n# MRGB ffffffff\n")}) {
     const CloudFile file = file_of(text + faces, "a.obj");
     EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 128}, {0, 255, 0}, {0, 0, 255}}));
     EXPECT_EQ(file.mesh.colours, file.cloud.colours);

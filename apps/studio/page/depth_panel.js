@@ -53,8 +53,14 @@ export class DepthPanel {
 
   // Shows only the options that have an effect.
   show() {
-    const {is_surface: isSurface, is_scaled: isScaled} = this.depth ?? {}, {options} = this.doc.now;
-    for (const name of ["background", "blur"]) this.rows[name].hidden = !isSurface;
+    for (const name of ["background", "blur"]) this.rows[name].hidden = !this.depth?.is_surface;
+    this.showScale();
+  }
+
+  // Shows the options of pictures whose heights are proportional to their values: how deep the figure is, or what one
+  // unit of the values is.
+  showScale() {
+    const isScaled = this.depth?.is_scaled, {options} = this.doc.now;
     this.rows["depth-range"].hidden = !isScaled || hasScale(this.doc.now);
     this.rows["mm-per-value"].hidden = !isScaled || options.form === "lithophane";
     this.rows.ground.hidden = !isScaled || !hasScale(this.doc.now);

@@ -37,15 +37,23 @@ double* find_entry(GridHeader& header, std::string_view name) {
   return found == entries.end() ? nullptr : found->second;
 }
 
+// Returns the number in a word. Blanks separate the numbers, so a comma in one is a decimal comma.
+std::optional<double> number_in(std::string_view word) {
+  if (!word.contains(',')) return parse_number(word);
+  std::string with_point(word);
+  std::ranges::replace(with_point, ',', '.');
+  return parse_number(with_point);
+}
+
 // Reads the lines up to the first one that begins with a number. Returns that line.
 Result<std::string_view> read_grid_header(SourceLines& lines, GridHeader& header) {
   while (const auto line = lines.next()) {
     Words words(*line);
     const std::string_view name = words.next(), word = words.next();
     if (name.empty()) continue;
-    if (parse_number(name)) return *line;
+    if (number_in(name)) return *line;
     double* entry = find_entry(header, name);
-    const auto value = parse_number(word);
+    const auto value = number_in(word);
     if (!entry || !value)
       return lines.fail(
           "expected ncols, nrows, cellsize or another entry of an Esri grid with its number, found " +
@@ -104,7 +112,7 @@ Result<DepthImage> read_esri_grid(const Source& source, const PictureChannels&) 
   for (std::optional<std::string_view> rest = line; rest; rest = lines.next()) {
     Words words(*rest);
     for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++n) {
-      const auto value = parse_number(word);
+      const auto value = number_in(word);
       if (!value) return lines.fail("expected a height, found " + in_quotes(word));
       if (n == image.values.size()) return lines.fail(cat("expected ", n, " heights, found more"));
       image.values[n] =
