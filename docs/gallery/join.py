@@ -12,15 +12,14 @@ HEIGHT = 400
 
 
 def read(path):
-    """Channels and rows of bytes of an 8-bit PNG, grey or RGB."""
+    """Bytes per pixel and rows of bytes of a PNG, grey or RGB."""
     data, at, packed = open(path, "rb").read(), 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at : at + 8])
         body = data[at + 8 : at + 8 + size]
         if kind == b"IHDR":
             width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            channels = {0: 1, 2: 3}[colour]
-            assert depth == 8, path
+            channels = {0: 1, 2: 3}[colour] * depth // 8
         packed += body if kind == b"IDAT" else b""
         at += 12 + size
     raw, step, rows, last = zlib.decompress(packed), channels * width, [], bytearray(channels * width)
@@ -77,7 +76,8 @@ def write(path, rows):
     open(path, "wb").write(b"\x89PNG\r\n\x1a\n" + png)
 
 
-is_whole = sys.argv[1] == "--whole"
-out, *previews = sys.argv[2 if is_whole else 1 :]
-parts = [shrunk(path, 1 if is_whole else 2) for path in previews]
-write(out, [bytearray().join(rows) for rows in zip(*parts)])
+if __name__ == "__main__":
+    is_whole = sys.argv[1] == "--whole"
+    out, *previews = sys.argv[2 if is_whole else 1 :]
+    parts = [shrunk(path, 1 if is_whole else 2) for path in previews]
+    write(out, [bytearray().join(rows) for rows in zip(*parts)])
