@@ -3,7 +3,7 @@
 
 import {$, clamp, make, pair} from "./controls.js";
 import {hasScale} from "./document.js";
-import {KINDS, Painting} from "./painting.js";
+import {AREAS, KINDS, Painting} from "./painting.js";
 
 const SLIDERS = {
   size: {label: "Size", name: "Brush size", min: 1, max: 30, first: 8,
@@ -12,6 +12,8 @@ const SLIDERS = {
     help: "A pen's pressure lowers it"},
   softness: {label: "Fall-off", name: "Brush fall-off", min: 5, max: 100, first: 100,
     help: "Share of the radius over which the change fades"},
+  tolerance: {label: "Tolerance", name: "Tolerance of the region", min: 1, max: 30, first: 6, unit: "°",
+    help: "A region ends where the surface turns more than this within 1 % of the longer side"},
 };
 const KEPT = "brush"; // key of the kept settings
 const KEY_STEP = 12, RESIZE = 1.15; // pixels of an arrow key, factor of a bracket
@@ -19,9 +21,10 @@ const KEY_STEP = 12, RESIZE = 1.15; // pixels of an arrow key, factor of a brack
 // Returns the settings that were kept; those that are missing or wrong get their first values.
 function keptSettings() {
   const kept = JSON.parse(localStorage.getItem(KEPT) ?? "{}"), kind = kept.kind in KINDS ? kept.kind : "soften";
+  const area = kept.area in AREAS ? kept.area : "line";
   const values = Object.entries(SLIDERS).map(([key, {min, max, first}]) =>
     [key, kept[key] >= min && kept[key] <= max ? kept[key] : first]);
-  return {kind, isMirrored: kept.isMirrored === true, ...Object.fromEntries(values)};
+  return {kind, area, isMirrored: kept.isMirrored === true, ...Object.fromEntries(values)};
 }
 
 export class Brush {
@@ -31,10 +34,14 @@ export class Brush {
     this.kind = make("select", {"aria-label": "Brush"}, ...Object.entries(KINDS).map(([value, {label}]) =>
       make("option", {value}, label)));
     this.kind.onchange = () => this.set({kind: this.kind.value});
+    this.area = make("select", {"aria-label": "Shape of the stroke",
+      title: "A line, what a closed line encloses, or the surface around a click up to creases"},
+      ...Object.entries(AREAS).map(([value, label]) => make("option", {value}, label)));
+    this.area.onchange = () => this.set({area: this.area.value});
     this.mirror = make("input", {type: "checkbox"});
     this.mirror.onchange = () => this.set({isMirrored: this.mirror.checked});
     this.ranges = Object.entries(SLIDERS).map(([key, slider]) => this.slider(key, slider));
-    $("#brush").append(make("div", {class: "kind"}, this.kind, pair("Mirror", this.mirror,
+    $("#brush").append(make("div", {class: "kind"}, this.kind, this.area, pair("Mirror", this.mirror,
       {title: "Paint on the other side of the figure's middle, too"})), ...this.ranges.map(({element}) => element));
     this.set({});
   }
@@ -50,13 +57,15 @@ export class Brush {
     const settings = Object.assign(this.settings, part);
     localStorage.setItem(KEPT, JSON.stringify(settings));
     this.kind.value = settings.kind;
+    this.area.value = settings.area;
+    this.area.hidden = settings.kind === "erase";
     this.mirror.checked = settings.isMirrored;
     for (const {key, range, shown, element} of this.ranges) {
-      const {min, max} = SLIDERS[key], text = `${Math.round(settings[key])} %`;
+      const {min, max, unit = " %"} = SLIDERS[key], text = `${Math.round(settings[key])}${unit}`;
       range.value = settings[key];
       range.style.setProperty("--filled", `${100 * (settings[key] - min) / (max - min)}%`);
       range.setAttribute("aria-valuetext", shown.textContent = text);
-      element.hidden = key !== "size" && settings.kind === "erase";
+      element.hidden = (key !== "size" && settings.kind === "erase") || (key === "tolerance" && settings.area !== "region");
     }
     this.stage?.drawOverlay();
   }
@@ -107,6 +116,19 @@ export class Brush {
     return stage.toPixels([this.isMirroredForm ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
   }
 
+  // Returns the point of the model's space at a place, as deep in the view as another point.
+  pointAt(place, other) {
+    const {rotation, origin, size} = this.facts(), row = (i) => rotation.slice(3 * i, 3 * i + 3);
+    const depth = row(2).reduce((sum, x, i) => sum + x * other[i], 0);
+    const seen = [...place.map((share, i) => origin[i] + share * size[i]), depth];
+    return [0, 1, 2].map((axis) => seen.reduce((sum, x, i) => sum + x * row(i)[axis], 0));
+  }
+
+  // The direction towards the viewer in the scan's coordinates.
+  get toViewer() {
+    return this.facts().rotation.slice(6, 9).map((x) => Number(x.toFixed(6)));
+  }
+
   // Marks a stroke of the document on the picture, or none if that is null.
   highlight(stroke) {
     this.highlighted = stroke;
@@ -119,7 +141,7 @@ export class Brush {
     if (!stroke || yaw !== 0 || pitch !== 0) return [];
     const {longer, longerMm} = this.scaleOf(stage), width = 2 * stroke.radius * longerMm / longer * stage.pixelsPerMm;
     const corners = stroke.points.map((point) => this.pixelOf(stage, point).map((x) => x.toFixed(1)).join(" "));
-    const d = `M${corners.join("L")}${corners.length === 1 ? "h0" : ""}`;
+    const d = `M${corners.join("L")}${corners.length === 1 ? "h0" : stroke.area === "lasso" ? "Z" : ""}`;
     return [make("path", {class: "stroke", d, "stroke-width": width.toFixed(1)}), make("path", {class: "cut", d})];
   }
 
@@ -133,6 +155,7 @@ export class Brush {
   brushMarks(stage) {
     const {width, height} = stage.size, [cx, cy] = this.at ?? [];
     if (!(cx <= width && cy <= height)) return [];
+    if (this.painting?.isLasso) return [make("path", {class: "brush", d: `M${this.painting.trail.join("L")}Z`})];
     const r = this.radiusIn(stage), full = r * (1 - this.settings.softness / 100);
     const circle = (r, name) => make("circle", {class: name, cx, cy, r});
     return [circle(r, "brush"), ...(full > 2 && this.settings.kind !== "erase" ? [circle(full, "brush full")] : [])];
@@ -186,5 +209,6 @@ export class Brush {
     const {width, height} = stage.size, [offsetX, offsetY] = this.at ?? [width / 2, height / 2];
     this.doc.endStroke();
     this.press(stage, {offsetX, offsetY});
+    if (this.painting?.settings.area === "region") this.end();
   }
 }

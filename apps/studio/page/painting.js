@@ -7,8 +7,10 @@ import {erased, simplified, strokesOf, textOf} from "./strokes.js";
 export const KINDS = {
   soften: {label: "Soften", most: 1}, sharpen: {label: "Sharpen", most: 2}, strengthen: {label: "Strengthen", most: 2},
   raise: {label: "Raise", most: 0.3}, sink: {label: "Sink", most: 0.3}, level: {label: "Level", most: 1},
+  protect: {label: "Protect", most: 1}, "in-front": {label: "Bring in front", most: 0.3},
   erase: {label: "Erase strokes"},
 };
+export const AREAS = {line: "Line", lasso: "Lasso", region: "Region up to creases"};
 const APART = 1 / 6, LEAST_APART = 2; // of places along a stroke, in radii and in pixels
 const TOLERANCE = 1 / 40; // by which a line may differ from the drawn one, in radii
 const DIGITS = 1e5; // points are rounded to this part of the longer side
@@ -25,18 +27,21 @@ export class Painting {
 
   constructor(brush, stage) {
     const {engine: {document}, doc, settings} = brush;
-    Object.assign(this, {brush, doc, document, settings: {...settings}, id: `brush ${++Painting.count}`,
-      before: strokesOf(doc.now), ...brush.scaleOf(stage), waiting: [], lines: [[], []], pressures: []});
+    const area = settings.kind === "erase" ? "line" : settings.area;
+    Object.assign(this, {brush, doc, document, settings: {...settings, area}, id: `brush ${++Painting.count}`,
+      before: strokesOf(doc.now), ...brush.scaleOf(stage), waiting: [], lines: [[], []], pressures: [], trail: []});
     this.radius = this.longer * settings.size / 200;
     this.name = newName(KINDS[settings.kind], this.before);
     this.look = oneAtATime(() => this.lookUp());
   }
 
-  // Continues the stroke at a pixel, unless the last place is near.
+  // Continues the stroke at a pixel, unless the last place is near. A region has only its first place.
   follow(stage, [x, y], pressure) {
+    if (this.last && this.settings.area === "region") return;
     const least = Math.max(LEAST_APART, APART * this.brush.radiusIn(stage));
     if (this.last && Math.hypot(x - this.last[0], y - this.last[1]) < least) return;
     this.last = [x, y];
+    this.trail.push(this.last);
     this.pressures.push(pressure);
     this.waiting.push(this.brush.shareOf(stage, [x, y]));
     this.look();
@@ -47,13 +52,25 @@ export class Painting {
     const places = this.waiting.splice(0), {isMirrored} = this.settings;
     const mirrored = isMirrored ? places.map(([u, v]) => [1 - u, v]) : [];
     if (places.length > 0) {
-      const points = await this.brush.engine.pointsUnder([...places, ...mirrored]).catch(() => []);
-      const found = (part) => part.filter(Boolean).map((point) => point.map((x) => this.rounded(x)));
-      this.lines[0].push(...found(points.slice(0, places.length)));
-      this.lines[1].push(...found(points.slice(places.length)));
-      this.show();
+      const all = [...places, ...mirrored], points = await this.brush.engine.pointsUnder(all).catch(() => []);
+      const found = points.map((point, i) => point ?? this.pointBeside(all[i]));
+      [found.slice(0, places.length), found.slice(places.length)].forEach((part, i) =>
+        this.lines[i].push(...part.filter(Boolean).map((point) => point.map((x) => this.rounded(x)))));
+      if (!this.isLasso) this.show();
     }
-    if (this.isOver && this.waiting.length === 0) this.doc.endStroke(this.id);
+    if (!this.isOver || this.waiting.length > 0) return;
+    if (this.isLasso) this.show();
+    this.doc.endStroke(this.id);
+  }
+
+  get isLasso() {
+    return this.settings.area === "lasso";
+  }
+
+  // Returns a corner of a lasso at a place beside the model, as deep as its last corner; null for other strokes.
+  pointBeside(place) {
+    const last = this.lines[0].at(-1);
+    return this.isLasso && last ? this.brush.pointAt(place, last) : null;
   }
 
   rounded(x) {
@@ -69,21 +86,25 @@ export class Painting {
 
   // Returns the strokes of the document with this one.
   strokes() {
-    const {kind, strength, softness} = this.settings, lines = this.lines.filter((line) => line.length > 0);
+    const {kind, strength, softness, area} = this.settings;
+    const lines = this.lines.filter((line) => line.length >= (this.isLasso ? 3 : 1));
     if (kind === "erase")
       return lines.flat().reduce((strokes, point) => erased(strokes, point, this.radius), this.before);
     const pressure = this.pressures.reduce((sum, x) => sum + x, 0) / this.pressures.length;
     const amount = Number((KINDS[kind].most * strength / 100 * pressure).toPrecision(3));
     const radius = Number(this.radius.toPrecision(5));
+    const own = {line: {}, lasso: {area, direction: this.brush.toViewer}, region: {area, tolerance: this.settings.tolerance}};
+    const cornersOf = (line) => (this.isLasso && line.length > 3
+      ? [...simplified(line.slice(0, -1), TOLERANCE * this.radius), line.at(-1)] : simplified(line, TOLERANCE * this.radius));
     return [...this.before, ...lines.map((line, i) => ({name: i === 0 ? this.name : `${this.name}, mirrored`,
-      brush: kind, amount, radius, softness: softness / 100, points: simplified(line, TOLERANCE * this.radius)}))];
+      brush: kind, amount, radius, softness: softness / 100, ...own[area], points: cornersOf(line)}))];
   }
 
   // Changes the document, unless another change came between.
   show() {
     const isOther = this.isBegun ? this.doc.stroke !== this.id : this.doc.now.options.strokes !== textOf(this.before);
     if (isOther || this.document !== this.brush.engine.document) this.isGivenUp = true;
-    if (this.isGivenUp || this.lines.every((line) => line.length === 0)) return;
+    if (this.isGivenUp || this.lines.every((line) => line.length < (this.isLasso ? 3 : 1))) return;
     this.doc.change({options: {strokes: textOf(this.strokes())}}, this.id);
     this.isBegun = this.doc.stroke === this.id;
   }

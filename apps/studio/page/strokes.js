@@ -65,9 +65,13 @@ function partsOutside(points, point, radius) {
 }
 
 // Returns the strokes without the parts of their lines within the radius of a point. What is left of a line that was
-// cut in two is two strokes.
+// cut in two is two strokes. A lasso or region is erased as a whole, at its edge or its point.
 export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
-  const parts = partsOutside(stroke.points, point, radius);
+  const {area = "line", points: [first]} = stroke, isLine = area === "line";
+  const outline = area === "lasso" ? [...stroke.points, first] : stroke.points;
+  const parts = partsOutside(outline, point, radius);
+  if (!isLine) return parts.length === 1 && parts[0].length === outline.length &&
+    parts[0].every((corner, i) => apart(corner, outline[i]) === 0) ? [stroke] : [];
   return parts.map((points, i) => ({...stroke, ...(i > 0 && {name: `${stroke.name}, part ${i + 1}`}), points}));
 });
 

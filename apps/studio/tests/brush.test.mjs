@@ -206,6 +206,49 @@ test("paints on both sides of the figure's middle", async () => {
   await clear();
 });
 
+const shape = () => labelled("Shape of the stroke");
+
+test("changes what a lasso encloses, and the region around a click", async () => {
+  await shape().selectOption("lasso");
+  await drawUntil(1, "sink", [0.45, 0.45], [0.55, 0.45], [0.55, 0.55], [0.45, 0.55]);
+  await untilReady(page);
+  const [{area, direction, points}] = strokes(), {rotation} = await engine.json("facts"), {options: {height}} = sent;
+  assert.equal(area, "lasso");
+  assert.ok(points.length >= 4 && direction.every((x, i) => Math.abs(x - rotation[6 + i]) < 1e-5), `${direction}`);
+  const across = await both([-40, 0], [40, 0]), changes = across.map(([before, after]) => after - before);
+  assert.ok(changes[Math.round(changes.length / 2)] < -0.05 * height, `${changes}`);
+  assert.ok(Math.abs(changes[2]) < 1e-3 * height && Math.abs(changes.at(-3)) < 1e-3 * height);
+  await soon.ok(() => labelled("Tolerance of the region").isHidden());
+  await shape().selectOption("region");
+  await labelled("Tolerance of the region").fill("12");
+  await drawUntil(2, "soften", [0.5, 0.5], [0.55, 0.5]);
+  const {area: other, tolerance, points: seed} = strokes()[1];
+  assert.deepEqual([other, tolerance, seed.length], ["region", 12, 1]);
+  await soon.deepEqual(names, ["Sink 1", "Soften 1"]);
+  await shape().selectOption("line");
+  await clear();
+});
+
+test("draws lassos and regions by keys", async () => {
+  await kind().selectOption("protect");
+  await shape().selectOption("lasso");
+  const stage = page.locator("#stage"), side = (key) => Array(6).fill(key);
+  await page.mouse.move(0, 0);
+  await stage.focus();
+  for (const key of [" ", ...side("ArrowRight"), ...side("ArrowUp"), ...side("ArrowLeft"), " "]) await page.keyboard.press(key);
+  await untilStrokes(1);
+  assert.deepEqual([strokes()[0].area, strokes()[0].brush], ["lasso", "protect"]);
+  await shape().selectOption("region");
+  await stage.focus();
+  await page.keyboard.press("Space");
+  await untilStrokes(2);
+  await page.keyboard.press("ArrowUp"); // the region is finished already
+  await untilReady(page);
+  assert.deepEqual(strokes().map(({points, area}) => area === "region" ? points.length : area), ["lasso", 1]);
+  await shape().selectOption("line");
+  await clear();
+});
+
 test("erases what the brush crosses", async () => {
   await drawUntil(1, "raise", [0.44, 0.5], [0.56, 0.5]);
   await drawUntil(2, "erase", [0.5, 0.47], [0.5, 0.53]);

@@ -50,6 +50,14 @@ test("erases exactly what is within the radius", () => {
   assert.deepEqual([erased(dab, [1.3, 0, 0], radius), erased(dab, [1.5, 0, 0], radius)], [[], dab]);
 });
 
+test("erases lassos and regions as a whole, at their edge or point", () => {
+  const lasso = {area: "lasso", points: [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]]};
+  const region = {area: "region", points: [[9, 9, 0]]};
+  for (const [point, left] of [[[2, 2, 0], [lasso, region]], [[0, 2, 0], [region]], [[4, 1, 0], [region]],
+    [[9, 9.5, 0], [lasso]]])
+    assert.deepEqual(erased([lasso, region], point, 1), left);
+});
+
 test("keeps each stroke once, however many steps have it", () => {
   const strokes = Array.from({length: 40}, (_, i) => ({name: `Soften ${i}`, radius: i + 0.125, points: wave(9)}));
   const steps = strokes.map((_, i) => ({u: i, options: {height: 3, strokes: textOf(strokes.slice(0, i))}}));
