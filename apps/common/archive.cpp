@@ -149,6 +149,12 @@ Result<std::string> find_model(const std::vector<std::string>& names, std::strin
   return models[0];
 }
 
+bool has_arrays_alone(const std::vector<std::string>& names) {
+  return !names.empty() && std::ranges::all_of(names, [](const auto& name) {
+    return is_hidden(name) || name.ends_with(".npy");
+  });
+}
+
 Result<std::string> find_array(const std::vector<std::string>& names, std::string_view archive) {
   constexpr std::array usual = {"points", "pts3d",  "point_map", "pointmap",      "world_points", "xyz",
                                 "depth",  "depths", "depth_map", "inverse_depth", "disparity",    "heights"};

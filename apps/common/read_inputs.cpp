@@ -211,9 +211,11 @@ bool is_scene_file(const std::string& path) {
 }
 
 Result<std::optional<UnpackedFile>> unpack_array(std::span<const std::byte> bytes, const std::string& path) {
-  if (ending_of(path) != "npz" || !is_archive(bytes)) return std::nullopt;
+  if (!is_archive(bytes)) return std::nullopt;
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
-  RELIEVO_TRY(const std::string name, find_array(archive.names(), path));
+  const std::vector<std::string> names = archive.names();
+  if (ending_of(path) != "npz" && !has_arrays_alone(names)) return std::nullopt;
+  RELIEVO_TRY(const std::string name, find_array(names, path));
   RELIEVO_TRY(std::vector<std::byte> content, archive.content(name));
   return UnpackedFile{std::move(content), cat(path, "/", name)};
 }

@@ -46,7 +46,8 @@ struct UnpackedFile {
   std::string name;  // "a.npz/points.npy"
 };
 
-// Returns the array of NumPy's archive (NPZ) that find_array() chooses. Returns nothing for any other file.
+// Returns the array that find_array() chooses of an archive that is called NPZ or has arrays alone. Returns
+// nothing for any other file.
 Result<std::optional<UnpackedFile>> unpack_array(std::span<const std::byte> bytes, const std::string& path);
 
 // Reads the bytes of a cloud or mesh as read_cloud() does. Also reads the files in the folder of `path` to

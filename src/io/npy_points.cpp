@@ -37,6 +37,16 @@ std::vector<std::vector<double>> rows_among(const Source& source, const NpyArray
   return some;
 }
 
+// Returns an error for pictures with normals or colours, which have three numbers per pixel, too.
+Result<void> check_pictures(const Source& source, const std::vector<std::vector<double>>& rows) {
+  const std::string_view found = are_unit_vectors(rows, 0) ? "normals"
+                                 : are_colours(rows, 0)    ? "colours"
+                                                           : "";
+  if (found.empty()) return {};
+  return source.error({}, cat("expected a picture of points, found one of ", found,
+                              "; in Python a.reshape(-1, 3) makes a list of points of it"));
+}
+
 // Sets one vector per row from three columns.
 template <typename Vector, typename Convert>
 void fill_vectors(const Source& source, const NpyArray& array, std::size_t first, std::vector<Vector>& to,
@@ -60,7 +70,9 @@ Result<RawCloud> read_npy_points(const Source& source) {
   RELIEVO_TRY(const std::size_t rows, count_rows(source, array));
   XyzLayout layout;
   layout.columns = array.sizes.back();
-  find_normals_and_colours(rows_among(source, array, rows), 0, layout);
+  const std::vector<std::vector<double>> some = rows_among(source, array, rows);
+  if (array.sizes.size() > 2) RELIEVO_CHECK(check_pictures(source, some));
+  find_normals_and_colours(some, 0, layout);
   RawCloud raw{{}, cat("NPY, ", array.samples.bits, " bits, ", columns_text(layout))};
   raw.cloud.points.resize(rows);
   fill_vectors(source, array, 0, raw.cloud.points, [](const Vec3& point) { return point; });

@@ -147,30 +147,6 @@ std::string_view line_around(std::string_view data, std::size_t byte) {
   return data.substr(first + begin, byte + end - first - begin);
 }
 
-// Returns whether nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
-// with two decimals, whose length has an error of up to 0.01.
-bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
-  const auto is_unit = [&](const Row& row) {
-    return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
-  };
-  const auto units = std::ranges::count_if(rows, is_unit);
-  return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
-}
-
-// Returns whether three columns are integers from 0 to 255, some of them above the largest class, or
-// fractions from 0 to 1.
-bool are_colours(const std::vector<Row>& rows, std::size_t column) {
-  double largest = 0;
-  bool has_fractions = false;
-  for (const Row& row : rows)
-    for (std::size_t i = column; i < column + 3; ++i) {
-      if (!(row[i] >= 0)) return false;
-      largest = std::max(largest, row[i]);
-      has_fractions |= row[i] != std::trunc(row[i]);
-    }
-  return has_fractions ? largest <= 1 : largest > largest_class && largest <= 255;
-}
-
 // A test of three consecutive columns.
 using IsTriple = bool (*)(const std::vector<Row>&, std::size_t column);
 
@@ -277,6 +253,26 @@ std::string columns_text(const XyzLayout& layout) {
              : layout.has_normals                     ? " with normals"
              : layout.has_colours                     ? " with colours"
                                                       : "");
+}
+
+bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
+  const auto is_unit = [&](const Row& row) {
+    return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
+  };
+  const auto units = std::ranges::count_if(rows, is_unit);
+  return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
+}
+
+bool are_colours(const std::vector<Row>& rows, std::size_t column) {
+  double largest = 0;
+  bool has_fractions = false;
+  for (const Row& row : rows)
+    for (std::size_t i = column; i < column + 3; ++i) {
+      if (!(row[i] >= 0)) return false;
+      largest = std::max(largest, row[i]);
+      has_fractions |= row[i] != std::trunc(row[i]);
+    }
+  return has_fractions ? largest <= 1 : largest > largest_class && largest <= 255;
 }
 
 bool has_coordinates(const ColumnNames& names) {

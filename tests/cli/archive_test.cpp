@@ -83,6 +83,10 @@ TEST(Archive, AnNpzGivesItsPointsOrElseItsDepths) {
   const auto only = read_npz({{"arr_0.npy", points}});
   ASSERT_TRUE(only) << only.error().message();
   EXPECT_EQ(only->file->cloud.points, tetrahedron_points);
+  const std::string zip = archive_of({{"points.npy", points}});
+  const auto unnamed = parse_input(std::as_bytes(std::span(zip)), "scan.zip", {}, 1e5, nullptr);
+  ASSERT_TRUE(unnamed) << unnamed.error().message();
+  EXPECT_EQ(unnamed->file->cloud.points, tetrahedron_points);
   expect_error(
       read_npz({{"a.npy", points}, {"b.npy", points}}),
       "a.npz: expected an array named points, pts3d, depth or alike, found 2 others, such as a.npy; np.save "

@@ -49,15 +49,17 @@ TEST(NpyPoints, KeepTheDigitsOfLargeCoordinates) {
 
 // Picture (a, b) of a batch, in the order of Fortran: the first index runs fastest.
 TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
-  const auto in_order = file_of(npy("<f4", numbers<float>(24, 3, counted), "2, 3, 4, 3"), "scan");
-  EXPECT_EQ(in_order.cloud.points, counted_points(24));
+  const auto far = [](std::size_t row, std::size_t column) { return counted(row + 100, column); };
+  std::vector<Vec3> points = counted_points(124);
+  points.erase(points.begin(), points.begin() + 100);
+  EXPECT_EQ(file_of(npy("<f4", numbers<float>(24, 3, far), "2, 3, 4, 3"), "scan").cloud.points, points);
   std::string data;
   for (std::size_t column = 0; column < 3; ++column)
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t picture = 0; picture < 2; ++picture)
-          data += raw(static_cast<float>(counted((picture * 3 + r) * 4 + c, column)));
-  EXPECT_EQ(file_of(npy("<f4", data, "2, 3, 4, 3", true), "scan").cloud.points, counted_points(24));
+          data += raw(static_cast<float>(far((picture * 3 + r) * 4 + c, column)));
+  EXPECT_EQ(file_of(npy("<f4", data, "2, 3, 4, 3", true), "scan").cloud.points, points);
 }
 
 // Rows of more numbers have normals and colours if the values show it; a short table is a depth image, as before.
@@ -103,6 +105,24 @@ TEST(NpyPoints, APointMapIsSmoothedAndLosesMissingPoints) {
         << missing;
     for (const Vec3f& n : map.cloud.normals) EXPECT_LT(n.z(), -.99F);
   }
+}
+
+TEST(NpyPoints, PicturesOfNormalsAndColoursAreRefused) {
+  const auto unit = [](std::size_t r, std::size_t c) {
+    const double turn = .1 * static_cast<double>(r);
+    return c == 0 ? std::cos(turn) : c == 1 ? std::sin(turn) : 0;
+  };
+  const auto share = [](std::size_t r, std::size_t c) { return static_cast<double>(r * 3 + c) / 200; };
+  const std::string normals = numbers<float>(60, 3, unit), colours = numbers<float>(60, 3, share);
+  EXPECT_EQ(
+      message_of(npy("<f4", normals, "6, 10, 3"), "scan"),
+      "scan: expected a picture of points, found one of normals; in Python a.reshape(-1, 3) makes a list of "
+      "points of it");
+  EXPECT_EQ(
+      message_of(npy("<f4", colours, "6, 10, 3"), "scan"),
+      "scan: expected a picture of points, found one of colours; in Python a.reshape(-1, 3) makes a list of "
+      "points of it");
+  EXPECT_EQ(file_of(npy("<f4", colours, "60, 3"), "scan").cloud.size(), 60U);
 }
 
 TEST(NpyPoints, AreRefusedIfTheFileIsCut) {
