@@ -61,11 +61,15 @@ StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, 
     double sum = area;
     for (const auto& [to, weight] : links.links[points_[i]]) {
       const double pull = variance * static_cast<double>(weight);
-      links_.items.push_back({to, static_cast<Real>(pull)});
-      if (const Index j = number[to]; j != no_index && j < i) entries.emplace_back(i, j, -pull);
       sum += pull;
+      if (number[to] == no_index) {
+        number[to] = static_cast<Index>(points_.size() + around_.size());
+        around_.push_back(to);
+      }
+      const Index j = number[to];
+      if (j < i) entries.emplace_back(i, j, -pull);
+      if (j < i || j >= points_.size()) links_.push_back({i, j, static_cast<Real>(pull)});
     }
-    links_.begin.push_back(static_cast<Index>(links_.items.size()));
     entries.emplace_back(i, i, sum);
     areas_.push_back(static_cast<Real>(area));
     places.emplace_back(surface.points[points_[i]].template head<2>());
@@ -85,12 +89,15 @@ template <typename Real>
 void StrokeBlur<Real>::take(std::span<const Real> z) {
   removed_.assign(points_.size(), 0);
   if (!system_) return;
-  std::vector<Real> pulled(points_.size()), moved(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    Real sum = 0;
-    for (const auto& [to, pull] : links_[i]) sum += pull * (z[to] - z[points_[i]]);
-    pulled[i] = sum;
+  std::vector<Real> near, pulled(points_.size() + around_.size(), 0), moved(points_.size());
+  near.reserve(pulled.size());
+  for (const std::vector<Index>* part : {&points_, &around_})
+    for (const Index i : *part) near.push_back(z[i]);
+  for (const auto& [a, b, pull] : links_) {
+    const Real flow = pull * (near[b] - near[a]);
+    pulled[a] += flow, pulled[b] -= flow;
   }
+  pulled.resize(points_.size());
   const auto solve = [&] {
     system_->solve(std::span<const Real>(pulled), std::span<Real>(moved), *workspace_);
   };

@@ -39,13 +39,14 @@ class StrokeBlur {
   const std::vector<Real>& removed() const { return removed_; }
 
  private:
+  // A link from a point, or from one around the points, to a point. Numbers are those in points_, then in around_.
   struct Link {
-    Index to;  // number of the point in the surface
+    Index to, from;
     Real pull;
   };
 
-  std::vector<Index> points_;
-  Groups<Link> links_;  // around each point
+  std::vector<Index> points_, around_;
+  std::vector<Link> links_;
   std::vector<Real> areas_;
   std::optional<solver::Cholesky> system_;
   std::optional<solver::Cholesky::Workspace> workspace_;

@@ -1,6 +1,7 @@
 #include "relief/stroke_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -24,6 +25,11 @@ bool is_wide(Brush brush) {
 
 bool is_blur(Brush brush) {
   return is_wide(brush) || brush == Brush::sharpen || brush == Brush::soften;
+}
+
+// Returns the amount of a stroke, negative if its brush subtracts.
+double signed_amount(const Stroke& stroke) {
+  return stroke.brush == Brush::soften || stroke.brush == Brush::sink ? -stroke.amount : stroke.amount;
 }
 
 template <typename Real>
@@ -57,7 +63,7 @@ StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke) {
 
 template <typename Real>
 typename StrokeFields<Real>::Layer StrokeFields<Real>::layer_of(const Stroke& stroke) {
-  Layer layer{stroke, stroke.is_muted ? StrokeMask() : stroke_mask(*surface_, stroke), {}, {}};
+  Layer layer{stroke, stroke.is_muted ? StrokeMask() : stroke_mask(*surface_, stroke), {}, {}, {}};
   if (stroke.brush == Brush::in_front) layer.crossings = crossings_of(*surface_, layer.mask);
   if (!is_blur(stroke.brush) || layer.mask.points.empty()) return layer;
   if (!links_) links_ = surface_links(*surface_);
@@ -97,6 +103,7 @@ void StrokeFields<Real>::take(const Strokes& strokes) {
   changed_.clear();
   for (Index i = 0; i < is_changed.size(); ++i)
     if (is_changed[i]) changed_.push_back(i);
+  sum_masks();
 }
 
 // Computes what blurs remove, unless it is known for these heights.
@@ -112,21 +119,32 @@ void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
       blurs.size(), [&](std::size_t i) { blurs[i]->take(z); }, 1);
 }
 
-// Adds the changes of the blurs of one width. Several strokes together may not subtract more than there is.
+// Sums what depends on the strokes alone. Several strokes together may not subtract more than a blur removes.
 template <typename Real>
-void StrokeFields<Real>::add_blurs(bool wide) {
-  for (const Index i : changed_) sum_[i] = amount_[i] = 0;
-  for (const Layer& layer : layers_) {
-    const auto& [stroke, mask, blur, crossings] = layer;
-    if (!blur || is_wide(stroke.brush) != wide) continue;
-    const auto amount = static_cast<Real>(stroke.brush == Brush::soften ? -stroke.amount : stroke.amount);
-    for (std::size_t k = 0; k < mask.points.size(); ++k) {
-      const Real share = amount * static_cast<Real>(mask.weights[k]);
-      amount_[mask.points[k]] += share;
-      sum_[mask.points[k]] += share * blur->removed()[k];
-    }
+void StrokeFields<Real>::sum_masks() {
+  std::vector<Index> number(surface_->points.size(), no_index);
+  for (Index k = 0; k < changed_.size(); ++k) number[changed_[k]] = k;
+  std::array<std::vector<Real>, 2> amounts;  // of the narrow blurs and of the wide ones
+  for (std::vector<Real>* sums : {&amounts[0], &amounts[1], &risen_}) sums->assign(changed_.size(), 0);
+  const auto each_share = [&](Layer& layer, auto&& f) {
+    const auto amount = static_cast<Real>(signed_amount(layer.stroke));
+    for (std::size_t k = 0; k < layer.mask.points.size(); ++k)
+      f(number[layer.mask.points[k]], amount * static_cast<Real>(layer.mask.weights[k]));
+  };
+  for (Layer& layer : layers_) {
+    const Brush brush = layer.stroke.brush;
+    if (!layer.blur && brush != Brush::raise && brush != Brush::sink) continue;
+    std::vector<Real>& sums = layer.blur ? amounts[is_wide(brush)] : risen_;
+    each_share(layer, [&](Index at, Real share) { sums[at] += share; });
   }
-  for (const Index i : changed_) added_[i] += sum_[i] / std::max(Real(1), -amount_[i]);
+  for (Layer& layer : layers_) {
+    layer.shares.clear();
+    if (!layer.blur) continue;
+    const std::vector<Real>& sums = amounts[is_wide(layer.stroke.brush)];
+    each_share(layer, [&](Index at, Real share) {
+      layer.shares.push_back({at, share / std::max(Real(1), -sums[at])});
+    });
+  }
 }
 
 // Calls f(layer) for the layers of one brush that have points.
@@ -141,16 +159,12 @@ void StrokeFields<Real>::each_of(Brush brush, F&& f) const {
 template <typename Real>
 void StrokeFields<Real>::add_sums(double height, std::span<Real> z) {
   take_blurs(z);
-  for (std::vector<Real>* each : {&added_, &sum_, &amount_}) each->resize(z.size());
-  for (const Index i : changed_) added_[i] = 0;
-  for (const bool wide : {false, true}) add_blurs(wide);
-  for (const auto& [brush, sign] : {std::pair(Brush::raise, 1), std::pair(Brush::sink, -1)})
-    each_of(brush, [&](const Layer& layer) {
-      const auto rise = static_cast<Real>(sign * height * layer.stroke.amount);
-      for (std::size_t k = 0; k < layer.mask.points.size(); ++k)
-        added_[layer.mask.points[k]] += rise * static_cast<Real>(layer.mask.weights[k]);
-    });
-  for (const Index i : changed_) z[i] += added_[i];
+  added_.resize(changed_.size());
+  for (std::size_t k = 0; k < added_.size(); ++k) added_[k] = static_cast<Real>(height) * risen_[k];
+  for (const Layer& layer : layers_)
+    for (std::size_t k = 0; k < layer.shares.size(); ++k)
+      added_[layer.shares[k].at] += layer.shares[k].share * layer.blur->removed()[k];
+  for (std::size_t k = 0; k < added_.size(); ++k) z[changed_[k]] += added_[k];
 }
 
 template <typename Real>

@@ -37,17 +37,23 @@ class StrokeFields {
   void apply(double height, std::span<const Real> uncorrected, std::span<Real> z);
 
  private:
+  // What a point under a stroke gets of what the stroke's blur removes.
+  struct Share {
+    Index at;  // number of the point in changed_
+    Real share;
+  };
   struct Layer {
     Stroke stroke;
     StrokeMask mask;                       // empty for muted strokes
     std::optional<StrokeBlur<Real>> blur;  // of brushes that need it
     std::vector<Crossing> crossings;       // of Brush::in_front
+    std::vector<Share> shares;             // one per point of the mask, if the brush needs a blur
   };
 
   Layer layer_of(const Stroke& stroke);
   void take_layers(const Strokes& strokes);
   void take_blurs(std::span<const Real> z);
-  void add_blurs(bool wide);
+  void sum_masks();
   void add_sums(double height, std::span<Real> z);
   template <typename F>
   void each_of(Brush brush, F&& f) const;
@@ -57,8 +63,8 @@ class StrokeFields {
   std::vector<Layer> layers_;          // one per stroke
   std::vector<Index> changed_;         // the points under at least one stroke
   std::vector<Real> blurred_;          // the heights of which the blurs are known
-  // Scratch memory per point: what all strokes add, what blurs of one width add, and the sum of their amounts.
-  std::vector<Real> added_, sum_, amount_;
+  // One per point of changed_: the shares of the height that strokes raise it, and scratch memory for what they add.
+  std::vector<Real> risen_, added_;
 };
 
 // Returns whether apply() needs the uncorrected heights for these strokes.
