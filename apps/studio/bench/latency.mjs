@@ -18,7 +18,9 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
-  brush: {tool: "Brush", from: 0.45, to: 0.6},
+  // The brush goes round and never rests: a place near the last one changes nothing, so no picture shows it.
+  brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
+  handle: {isHandle: true, from: 0.45, to: 0.6}, // of a text on an arc, whose outlines the page moves itself
 };
 
 const found = await findBrowser();
@@ -89,23 +91,31 @@ async function openInProgram(page, scan) {
   return () => engine.stop();
 }
 
-async function drag(page, {slider, tool, from, to}) {
+async function addText(page) {
+  await page.getByRole("button", {name: "Add a text", exact: true}).click();
+  await page.getByLabel("Line of the text", {exact: true}).selectOption({label: "Arc at the top"});
+  return page.locator(".letter-handle");
+}
+
+async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
   if (tool) await page.getByRole("radio", {name: tool, exact: true}).click();
-  const target = tool ? page.locator("#stage") : page.getByRole("slider", {name: slider});
+  const target = isHandle ? await addText(page) : tool ? page.locator("#stage") : page.getByRole("slider", {name: slider});
   await target.scrollIntoViewIfNeeded();
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-  const box = await target.boundingBox();
-  const grip = tool ? from : await target.evaluate((range) => range.value / range.max); // position of the thumb
-  const place = (share) => [box.x + box.width * share, box.y + box.height / 2];
+  const isRange = !tool && !isHandle, box = await target.boundingBox();
+  if (isHandle) Object.assign(box, {x: box.x + box.width / 2 - from * 600, width: 600});
+  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // position of the thumb
+  const place = (share, above = 0) => [box.x + box.width * share, box.y + box.height / 2 - above * box.width];
   await page.mouse.move(...place(grip));
   await page.mouse.down();
-  await page.evaluate(listen, tool ? "pointermove" : "input");
+  await page.evaluate(listen, isRange ? "input" : "pointermove");
   const begin = performance.now();
   for (let i = 0; i < SECONDS * EVENTS_PER_SECOND; ++i) {
     const wait = begin + 1000 * i / EVENTS_PER_SECOND - performance.now();
     if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
-    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // there and back in 2 s
-    await page.mouse.move(...place(share));
+    const angle = i / EVENTS_PER_SECOND * Math.PI, half = (to - from) / 2; // there and back in 2 s
+    const share = from + half * (1 - Math.cos(angle));
+    await page.mouse.move(...place(share, isRound ? half * Math.sin(angle) : 0));
   }
   const heard = await page.evaluate(() => window.heard);
   await page.mouse.up();
@@ -117,12 +127,16 @@ async function drag(page, {slider, tool, from, to}) {
 function listen(type) {
   const heard = window.heard = {events: [], pictures: [], pixels: 0};
   addEventListener(type, (event) => heard.events.push(event.timeStamp), {capture: true});
-  document.querySelector("#stage").addEventListener("picture", ({detail: {about, ms}}) => {
-    const shows = performance.now() - ms;
-    heard.pixels = about.width * about.height;
-    // The browser calls the function just before it draws this picture; the timer then runs when the picture is on its
-    // way to the screen.
+  // The browser calls the function just before it draws this picture; the timer then runs when the picture is on its
+  // way to the screen.
+  const drawn = (shows) =>
     requestAnimationFrame(() => setTimeout(() => heard.pictures.push({shows, at: performance.now()})));
+  const handle = document.querySelector(".letter-handle");
+  if (handle && !handle.hidden)
+    return new MutationObserver(() => drawn(performance.now())).observe(handle, {attributeFilter: ["style"]});
+  document.querySelector("#stage").addEventListener("picture", ({detail: {about, ms}}) => {
+    heard.pixels = about.width * about.height;
+    drawn(performance.now() - ms);
   });
 }
 
