@@ -37,9 +37,10 @@ bool is_text(const Source& source);
 // read, before or after the vertices. Each ascii row begins on a new line.
 //   Vertices with opacity, f_dc, scale and rot are Gaussian splats. f_dc determines their colours; splats
 //   that are less than half opaque are left out. The splats of a .splat file are read in the same way.
-// - OBJ: v (also with weights and colours), vn and f, and the colours of ZBrush (#MRGB). The normal of a vertex
-// is the mean of the normals that faces give it. If no face refers to any normal, it is the vn with the same
-// index. Faces may refer to missing normals. Vertices without colours get those of map_Kd, whose picture may have any format that is read as depths.
+// - OBJ: v (also with weights and colours), vn and f, and the colours of ZBrush (#MRGB). The normal of a
+// vertex is the mean of the normals that faces give it. If no face refers to any normal, it is the vn with
+// the same index. Faces may refer to missing normals. Vertices without colours get those of map_Kd, whose
+// picture may have any format that is read as depths.
 // - STL, binary and ascii: coincident corners are merged; the file's normals are ignored.
 // - OFF, text and binary, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
@@ -57,16 +58,16 @@ bool is_text(const Source& source);
 // - E57: all scans with cartesian or spherical coordinates, transformed by their poses; with colours and
 // normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
 // right.
-// - NPY: rows of x y z, of which 3 to 9 numbers are fractions, with the normals and colours that XYZ has; H x W x
-// 3, whose points are those of an organised cloud, also several of them. Other arrays are depth images.
+// - NPY: rows of x y z, of which 3 to 9 numbers are fractions, with the normals and colours that XYZ has;
+// H x W x 3, whose points are those of an organised cloud, also several of them. Other arrays are depth images.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
 //   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
-//   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //) and a line of column names, which then
-//   decide. Other columns may contain anything. Numbers have a decimal point, or a decimal comma if
-//   semicolons separate them; they may be in quotation marks. Two columns of whole numbers before three of
-//   fractions are a scanner's rows and columns, and x y z come third. A first column that numbers the points is
-//   skipped.
+//   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //)
+//   and a line of column names, which then decide. Other columns may contain anything. Numbers have a
+//   decimal point, or a decimal comma if semicolons separate them; they may be in quotation marks. Two
+//   columns of whole numbers before three of fractions are a scanner's rows and columns, and x y z come
+//   third. A first column that numbers the points is skipped.
 // - PTX: all scans, moved by their matrices. Points at 0 0 0 of their scanner are not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);

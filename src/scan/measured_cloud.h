@@ -13,7 +13,8 @@ namespace relievo {
 
 class MeasuredCloud {
  public:
-  // Measures the part of the cloud that the view's crop keeps. Errors: those of find_surface() that do not depend on the visible points.
+  // Measures the part of the cloud that the view's crop keeps. Errors: those of find_surface() that do not
+  // depend on the visible points.
   static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
                                                               Progress* progress = nullptr);
 
