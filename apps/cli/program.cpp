@@ -63,6 +63,10 @@ std::string words_of(const CLI::Error& error, const CLI::App& app) {
     return cat(between("convert: ", " ="), ": expected a number, found '", between(" = ", "\n"), "'");
   if (const std::string unknown = first_unknown(app); !unknown.empty())
     return cat("expected only known options, ", found_name(app, unknown));
+  if (text.contains(": At Most 1 required but received "))
+    return cat(flag, ": expected it once, found it ", between("received ", "\n"), " times");
+  if (text.contains(" required ") && text.ends_with(" missing"))
+    return cat(flag, ": expected a value, found none");
   if (text == "A subcommand is required") return "expected a command such as make, found none";
   if (text.ends_with(" is required")) return cat("expected ", between("", " is required"), ", found none");
   return text;

@@ -19,7 +19,15 @@ namespace {
 using Json = nlohmann::json;
 
 bool is_json(const std::string& text) {
-  return text.starts_with('{');
+  return text.starts_with('{') || text.starts_with('[');
+}
+
+// Returns the list in {"ornaments": [...]} or in [...]; nullptr in any other JSON.
+template <typename AnyJson>
+auto* list_in(AnyJson& json) {
+  AnyJson* list =
+      json.is_object() && json.size() == 1 && json.contains("ornaments") ? &json["ornaments"] : &json;
+  return list->is_array() ? list : nullptr;
 }
 
 template <typename T>
@@ -64,8 +72,8 @@ class OrnamentReader {
       : name_(name), folder_(folder), inside_(inside) {}
 
   Result<std::vector<Ornament>> read(const Json& json) const {
-    const auto list = json.is_object() ? json.find("ornaments") : json.end();
-    if (!json.is_object() || list == json.end() || !list->is_array() || list->empty() || json.size() > 1)
+    const Json* const list = list_in(json);
+    if (!list || list->empty())
       return input_error(name_, {}, "expected {\"ornaments\": [...]} with at least one" + found(json));
     constexpr std::size_t most = 200;
     if (list->size() > most)
@@ -179,9 +187,10 @@ void change_ornament_paths(std::string* font, std::string* ornaments,
     return;
   }
   auto json = nlohmann::ordered_json::parse(*ornaments, nullptr, false);
-  if (!json.is_object() || !json.contains("ornaments")) return;  // reading it says what it expected
+  auto* const list = list_in(json);
+  if (!list) return;  // reading it says what it expected
   bool is_changed = false;
-  for (auto& ornament : json["ornaments"])
+  for (auto& ornament : *list)
     for (const char* const key : {"font", "file"})
       if (ornament.is_object() && ornament.contains(key) && ornament[key].is_string()) {
         ornament[key] = change(ornament[key].get<std::string>());
@@ -204,6 +213,10 @@ Result<void> read_ornaments(ReliefOptions& options, const OrnamentFiles& inside)
   if (!font.empty()) RELIEVO_CHECK(set(options.font, font_of(font, {}, inside)));
   if (source.empty()) return {};
   if (is_json(source)) return set(options.ornaments, parse_ornaments(source, "ornaments", {}, inside));
+  if (!is_there(source))
+    return option_error(
+        "ornaments",
+        cat("expected JSON such as [{\"kind\": \"beads\"}], or a file with it, found '", source, "'"));
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(source));
   const std::string folder = std::filesystem::path(source).parent_path().string();
   return set(options.ornaments, parse_ornaments(text_in(bytes), source, folder));

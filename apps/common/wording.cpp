@@ -43,9 +43,10 @@ std::string text_of(const SampleNote& note) {
 }
 
 std::string reach_text(const Tool& tool, const ToolReach& reach) {
-  return cat("the tool ", relievo::text_of(tool), " reaches ", 100 * reach.reached_share,
+  const auto rounded = [](double value) { return std::round(1e3 * value) / 1e3; };
+  return cat("the tool ", relievo::text_of(tool), " reaches ", std::floor(1e3 * reach.reached_share) / 10,
              " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
-             reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample, " mm)");
+             rounded(reach.largest_residual_mm), " mm (sampled every ", rounded(reach.mm_per_sample), " mm)");
 }
 
 std::string wrap_text(const ReliefReport::Wrapped& wrap) {
@@ -98,7 +99,7 @@ std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
   if (scan.crumbs > 0)
     all.push_back({cat("left out ", scan.crumbs, scan.crumbs == 1 ? " small piece" : " small pieces",
                        " of the surface"),
-                   "crumbs", "keep", "keeps all but single specks"});
+                   "crumbs", "keep", "leaves in all but single specks"});
   if (scan.plane) all.push_back(remark_on(*scan.plane));
   if (scan.lacks_plane) all.push_back({"found no table or background to leave out", "plane"});
   if (scan.removed_noise > 0 && scan.removed_noise == scan.measured_noise)
@@ -119,8 +120,10 @@ void add_ornament_remarks(const ReliefReport& report, std::vector<std::string>& 
                                                                : report.tool->diameter_mm;
   const auto in_mm = [](double mm) { return cat(std::round(1e3 * mm) / 1e3, " mm"); };
   if (thinnest_mm < least_mm)
-    lines.push_back(cat("the thinnest stroke of the ornaments is ", in_mm(thinnest_mm), " wide, and ",
-                        report.tool ? "the tool is wider: " : "a usual nozzle wider: ", in_mm(least_mm)));
+    lines.push_back(cat("the thinnest stroke of the ornaments is ", in_mm(thinnest_mm), " wide, less than ",
+                        report.tool ? "the tool of " : "a usual nozzle of ", in_mm(least_mm),
+                        ": larger letters, a bolder font, or a ",
+                        report.tool ? "thinner tool" : "printer for resin", " can make it"));
   if (report.rim_height_mm && highest_mm > *report.rim_height_mm)
     lines.push_back(cat("the ornaments reach ", in_mm(highest_mm), ", and the rim only ",
                         in_mm(*report.rim_height_mm), ": rim-height or text-height change that"));

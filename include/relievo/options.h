@@ -109,10 +109,11 @@ struct ReliefOptions : NumericOptions {
   double effective_alpha() const { return alpha.value_or(4); }
   // The default is the angle of Shape::max_slope.
   double effective_steepest_deg() const { return steepest_deg.value_or(76); }
-  // The default margin is small if a diameter is given, as for coins. It is wide enough for a text.
+  // The default margin is small if a diameter is given, as for coins. It is wide enough for texts and borders.
   double effective_margin_mm() const {
     if (text_mm && !text.empty()) return margin_mm.value_or(std::max(diameter_mm ? 1. : 5., *text_mm / .6));
-    return margin_mm.value_or(diameter_mm && text.empty() ? 1 : 5);
+    const bool has_ornaments = !text.empty() || !ornaments.empty() || !ornament_source.empty();
+    return margin_mm.value_or(diameter_mm && !has_ornaments ? 1 : 5);
   }
   // Returns the text and all further ornaments.
   std::vector<Ornament> all_ornaments() const;

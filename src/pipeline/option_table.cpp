@@ -210,7 +210,7 @@ std::vector<OptionRow> plate_rows() {
        .help = "how far the relief lies to the right of the middle of a plate whose size is given, and above it",
        .otherwise = "0,0", .access = text<&ReliefOptions::shift_mm, shift_of>},
       {.name = "margin", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
-       .help = "least flat ground around the relief", .otherwise = "5; 1 with a diameter", .is_stated = true,
+       .help = "least flat ground around the relief", .otherwise = "5; 1 with a diameter and no ornaments", .is_stated = true,
        .access = number<&ReliefOptions::margin_mm, &ReliefOptions::effective_margin_mm>},
       {.name = "thickness", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
        .help = "smallest thickness of the plate, without the relief",
@@ -251,7 +251,7 @@ std::vector<OptionRow> ornament_rows() {
        .otherwise = "the font inside, Noto Serif Bold, for Latin, Greek and Cyrillic", .is_hidden = true,
        .access = text<&ReliefOptions::font_name, same>},
       {.name = "ornaments", .unit = "FILE", .stage = plate,
-       .help = "further texts, beads, rope, lines and SVG drawings: a JSON file, or its content",
+       .help = "further texts, beads, rope, lines and SVG drawings, as JSON such as [{\"kind\": \"beads\"}] or a file with it",
        .otherwise = "none", .access = text<&ReliefOptions::ornament_source, same>},
   };
 }

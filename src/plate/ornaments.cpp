@@ -47,7 +47,7 @@ std::unexpected<Error> touching(const RaisedShape& shape, std::string_view what)
   return option_error(is_text ? "text" : "ornaments",
                       cat("expected room for ", shape.name, ", found ", what,
                           " in its place: a smaller text-size, a wider margin or, in ornaments, "
-                          "another place gives room"));
+                          "another inset gives room"));
 }
 
 // Checks that shapes lie on level ground.
@@ -119,11 +119,14 @@ class GroundMaker {
       ShapePoints points = points_of(shape);
       RELIEVO_CHECK(around.check(shape, points));
       const SegmentGrid others(feet, 1);
+      const auto number = static_cast<Index>(points_.size());
       for (const auto& [a, b] : points.edges) {
         const Vec2 from = points.points[a].head<2>(), to = points.points[b].head<2>();
-        if (others.nearest(from, clear_mm).segment != no_index || others.is_crossed(from, to))
-          return touching(shape, "other ornaments");
-        if (a < points.feet && b < points.feet) added_feet_.push_back({from, to});
+        if (others.nearest(from, clear_mm).segment != no_index || others.is_crossed(from, to)) {
+          const Index other = others.nearest(from, (to - from).norm() + clear_mm).segment;
+          return touching(shape, other == no_index ? "another ornament" : shapes[feet[other].curve].name);
+        }
+        if (a < points.feet && b < points.feet) added_feet_.push_back({from, to, number});
       }
       feet.insert(feet.end(), added_feet_.begin(), added_feet_.end());
       added_feet_.clear();

@@ -57,7 +57,7 @@ TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
   const Cloud crumb = moved(sphere(200, .03), {1.6, 0, 0});
   write_all(folder_ / "button.ply", write_ply(joined(button(40000, 1, .15), crumb)));
   const std::string crumbs =
-      "left out 1 small piece of the surface; --crumbs keep keeps all but single specks";
+      "left out 1 small piece of the surface; --crumbs keep leaves in all but single specks";
   EXPECT_NE(run("make button.ply -o t.stl --resolution 1").err.find(crumbs), std::string::npos);
   EXPECT_EQ(run("make button.ply -o t.stl --resolution 1 --crumbs keep").err.find("small piece"),
             std::string::npos);

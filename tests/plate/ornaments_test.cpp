@@ -177,7 +177,8 @@ TEST(Ornaments, SayWhatIsInTheirPlace) {
   Ornament low = legend("LIBERTAS");
   low.inset_mm = 4;
   expect_error(make_plate(figure(), coin({low})), ErrorKind::option, "found the relief in its place");
-  expect_error(make_plate(figure(), coin({legend("A"), legend("A")})), ErrorKind::option, "other ornaments");
+  expect_error(make_plate(figure(), coin({legend("A"), legend("A")})), ErrorKind::option,
+               "found the text 'A'");
   Ornament disc = ornament(OrnamentKind::drawing);
   disc.outlines = {ellipse(60, 1, 1)};
   disc.size_mm = 29;
