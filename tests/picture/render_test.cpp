@@ -265,6 +265,32 @@ TEST(Render, ShowsTheModelItself) {
   EXPECT_EQ(original.normals.size(), original.heights.size());
 }
 
+// The tint goes from blue to orange on the figure, and leaves the plate around it as it is.
+TEST(Render, TintsTheFigureAlone) {
+  FrameRenderer renderer(ball());
+  Shown shown = renderer.original();
+  Picture plain, tinted;
+  renderer.render(shown, small(), plain);
+  std::vector<float> tint;
+  for (const Vec3& p : ball()->surface().points) tint.push_back(p.x() > 0 ? 1 : 0);
+  shown.tint = tint;
+  renderer.render(shown, small(), tinted);
+  const int middle = 100, side = 20;
+  const auto blue_minus_red = [&](const Picture& made, int x) {
+    const std::uint8_t* rgba = &made.image.at(x, middle);
+    return int{rgba[2]} - int{rgba[0]};
+  };
+  EXPECT_GT(blue_minus_red(tinted, 120 - side), 40);
+  EXPECT_LT(blue_minus_red(tinted, 120 + side), -40);
+  std::size_t changed = 0;
+  for (int x = 0; x < small().width; ++x) {
+    const bool is_changed = blue_minus_red(tinted, x) != blue_minus_red(plain, x);
+    changed += is_changed;
+    EXPECT_TRUE(!is_changed || std::abs(x - 120) < 95) << x;
+  }
+  EXPECT_GT(changed, 100U);
+}
+
 TEST(Render, AProfileFollowsTheHeights) {
   FrameRenderer renderer(ball());
   const Field slope = field([](const Vec3& p) { return .25 * p.x() + .5; });

@@ -10,7 +10,7 @@ export const KINDS = {
   protect: {label: "Protect", most: 1}, "in-front": {label: "Bring in front", most: 0.3},
   erase: {label: "Erase strokes"},
 };
-export const AREAS = {line: "Line", lasso: "Lasso", region: "Region up to creases"};
+export const AREAS = {line: "Line", lasso: "Lasso", region: "Region"};
 const APART = 1 / 6, LEAST_APART = 2; // of places along a stroke, in radii and in pixels
 const TOLERANCE = 1 / 40; // by which a line may differ from the drawn one, in radii
 const DIGITS = 1e5; // points are rounded to this part of the longer side
