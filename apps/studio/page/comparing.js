@@ -1,6 +1,6 @@
 // Compares the relief with the model, or with the relief of a snapshot: draws a picture of it over that of the relief,
-// with the same size and position of the figure. The engine fits each picture to its own plate. The model's plate is the figure with its
-// margin, so the two pictures need different zooms.
+// with the same size and position of the figure. The engine fits each picture to its own plate. The model's plate is
+// the figure with its margin, so the two pictures need different zooms.
 
 import {$, clamp, make} from "./controls.js";
 import {isRound} from "./measure.js";
