@@ -99,7 +99,8 @@ async function addText(page) {
 
 async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
   if (tool) await page.getByRole("radio", {name: tool, exact: true}).click();
-  const target = isHandle ? await addText(page) : tool ? page.locator("#stage") : page.getByRole("slider", {name: slider});
+  const tooled = () => (tool ? page.locator("#stage") : page.getByRole("slider", {name: slider}));
+  const target = isHandle ? await addText(page) : tooled();
   await target.scrollIntoViewIfNeeded();
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   const isRange = !tool && !isHandle, box = await target.boundingBox();

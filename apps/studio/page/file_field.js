@@ -32,8 +32,9 @@ export class FileField {
   constructor({label, what, none, noneSaid, accept, option, take, drop, ...attributes}) {
     Object.assign(this, {what, none, noneSaid});
     this.input = fileInput(`File of the ${what}`, accept, take);
-    this.button = make("button", {type: "button", class: "quiet", "data-option": option, onclick: () => this.choose()});
-    this.remove = make("button", {type: "button", class: "quiet", "aria-label": `Remove the ${what}`, onclick: drop}, "×");
+    const quiet = {type: "button", class: "quiet"};
+    this.button = make("button", {...quiet, "data-option": option, onclick: () => this.choose()});
+    this.remove = make("button", {...quiet, "aria-label": `Remove the ${what}`, onclick: drop}, "×");
     this.row = make("div", {class: "pair by-file", ...attributes}, make("span", {}, label),
       make("span", {}, this.button, this.remove), this.input);
   }

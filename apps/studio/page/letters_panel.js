@@ -177,7 +177,8 @@ export class LettersPanel {
     const {kind = "text"} = ornament;
     const {takesLetterFiles} = this.engine, key = {text: "font", drawing: "file"}[kind];
     return [...(kind === "text" ? [this.textRow(at), this.arcRow(at)] : []),
-      ...(key && takesLetterFiles ? [this.fileRow(key, at)] : []), ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
+      ...(key && takesLetterFiles ? [this.fileRow(key, at)] : []),
+      ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
   }
 
   // The text changes with each letter that is typed. All letters are one step of undo.

@@ -62,8 +62,8 @@ export class SnapshotPanel {
     const apply = button("Apply", "Change everything to these settings", () =>
       this.doc.change(partOfSnapshot(this.list[at])));
     const compare = button("Compare", "", () => this.compare(at));
-    const remove = make("button", {type: "button", class: "quiet", "aria-label": `Remove ${name}`, title: `Remove ${name}`,
-      onclick: () => this.remove(at)}, "×");
+    const remove = make("button", {type: "button", class: "quiet", "aria-label": `Remove ${name}`,
+      title: `Remove ${name}`, onclick: () => this.remove(at)}, "×");
     return {field, compare, remove, element: make("li", {}, field, remove, apply, compare)};
   }
 
@@ -77,7 +77,8 @@ export class SnapshotPanel {
       const snapshot = this.list[i], isOther = !snapshot || !hasView(snapshot);
       compare.setAttribute("aria-pressed", snapshot !== undefined && snapshot === this.modes.rival);
       compare.disabled = isOther;
-      compare.title = isOther ? "It shows the scan from another side: apply it to see it" : "See it beside the present settings";
+      compare.title = isOther ? "It shows the scan from another side: apply it to see it"
+        : "See it beside the present settings";
     }
   }
 }

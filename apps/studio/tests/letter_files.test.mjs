@@ -86,13 +86,15 @@ test("sets a text in a font by file and adds a drawing, which are in the saved p
   assert.ok(!with_drawing.equals(before));
   const project = path.join(folder, "files.relievo"), made = path.join(folder, "files.stl");
   writeFileSync(project, await savedProject());
-  for (const {font, file} of await list()) rmSync(path.dirname(font ?? file), {recursive: true}); // make must not need them
+  for (const {font, file} of await list()) // make must not need the studio's copies
+    rmSync(path.dirname(font ?? file), {recursive: true});
   run("make", project, "-o", made);
   assert.ok(readFileSync(made).equals(with_drawing), "the bytes differ");
   await enter(labelled("Size"), "4.5");
   await note().getByText(/own\.ttf: expected a file that can be read/).waitFor();
   await untilReady(page); // the picture goes on without them
   await page.locator("#file").setInputFiles(project); // brings the files back
+  await soon.equal(() => button("crest.svg").getAttribute("aria-expanded"), "false"); // in the document that opens
   await button("crest.svg").click();
   await soon.equal(() => labelled("Size").inputValue(), "4");
   await soon.equal(() => note().textContent(), "");

@@ -38,7 +38,8 @@ test("sets the direction on the dial by the pointer, as one step of undo, and li
   await made().check();
   const {x, y, width} = await dial().boundingBox(), middle = [x + width / 2, y + width / 2];
   await drag(middle, [middle[0] + width / 4, middle[1]], [middle[0], middle[1] + 0.23 * width]);
-  // A quarter of the dial's width is half of its radius. Firefox rounds places of the pointer to pixels, which are 1 degree.
+  // A quarter of the dial's width is half of its radius. Firefox rounds places of the pointer to pixels, that is to 1
+  // degree here.
   await soon.match(() => newest(), /^(269|270|271),4[456]$/);
   const [azimuth, elevation] = (await newest()).split(",");
   await soon.equal(lamp, `${azimuth},${elevation}`);

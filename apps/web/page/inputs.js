@@ -21,7 +21,7 @@ export const BASE_IMAGE = "base-image"; // the option with the path of a base's 
 
 // Returns the hashes, in digits, of all files that the state of a document needs.
 export const scansOf = (state) => [scanOf(inputOf(state)),
-  ...state.steps.map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
+  ...[...state.steps, ...(state.snapshots ?? [])].map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
 
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // endings of files that accompany a model
