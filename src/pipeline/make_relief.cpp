@@ -275,6 +275,9 @@ Result<void> check_model(const ReliefModel& model, const ReliefOptions& options)
        {std::pair("light", options.light.has_value()), std::pair("attention", options.attention > 0)})
     if (is_used && model.subspace())
       return option_error(name, "expected mode exact with it, found a model of control points");
+  const auto protects = [](const Stroke& stroke) { return stroke.brush == Brush::protect; };
+  if (!model.paper() && !model.own_heights().empty() && std::ranges::any_of(options.strokes, protects))
+    return option_error("strokes", "expected no brush protect, as a model of the scene has its own height");
   if (model.serves(method)) return {};
   return option_error("method",
                       cat("expected ", model.paper() ? "paper" : cat("another than ", name_of(method)),

@@ -106,6 +106,13 @@ TEST(OwnHeights, LettersAreLevelAndTheirEdgeIsAWall) {
     }
 }
 
+TEST(OwnHeights, RefuseTheBrushThatProtects) {
+  ReliefOptions options;
+  options.strokes = {{"cheek", Brush::protect, 1, .2, 1, false, {Vec3(0, 0, 1)}}};
+  expect_error(prepared(legend_beside_head(.3)).relief(options), "expected no brush protect");
+  EXPECT_TRUE(prepared(legend_beside_head({})).relief(options));
+}
+
 TEST(OwnHeights, OtherModelsKeepTheirHeights) {
   const LiveModel with = prepared(legend_beside_head(.3)), without = prepared(legend_beside_head({}));
   const Relief raised = relief_of(with), usual = relief_of(without);

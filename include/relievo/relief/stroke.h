@@ -13,7 +13,8 @@
 namespace relievo {
 
 // The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside of the
-// stroke, so other heights do not change. The blurs are Gaussian, along the surface, and do not cross depth jumps.
+// stroke, so other heights do not change. The blurs are Gaussian, along the surface, and do not cross depth jumps. A
+// scene in which a model has its own height refuses `protect`.
 enum class Brush {
   strengthen,  // adds amount * (z - wide blur of z), which emphasises shapes as wide as a finger or a brow
   sharpen,     // adds amount * (z - narrow blur of z)
