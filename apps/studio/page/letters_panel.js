@@ -160,7 +160,7 @@ export class LettersPanel {
   // Returns {element, show} of an ornament.
   row(ornament, at) {
     const isChosen = at === this.chosen;
-    const name = make("button", {type: "button", class: "name quiet", "aria-expanded": isChosen,
+    const name = make("button", {type: "button", class: "name quiet", "aria-expanded": String(isChosen),
       onclick: () => this.choose(at)});
     const remove = make("button", {type: "button", class: "quiet", onclick: () => this.remove(at)}, "Remove");
     const fields = isChosen ? this.fields(ornament, at) : [];
