@@ -276,7 +276,9 @@ Result<void> check_model(const ReliefModel& model, const ReliefOptions& options)
     if (is_used && model.subspace())
       return option_error(name, "expected mode exact with it, found a model of control points");
   const auto protects = [](const Stroke& stroke) { return stroke.brush == Brush::protect; };
-  if (!model.paper() && !model.own_heights().empty() && std::ranges::any_of(options.strokes, protects))
+  const auto is_own = [](float height) { return height > 0; };
+  if (std::ranges::any_of(model.surface().own_heights, is_own) &&
+      std::ranges::any_of(options.strokes, protects))
     return option_error("strokes", "expected no brush protect, as a model of the scene has its own height");
   if (model.serves(method)) return {};
   return option_error("method",
