@@ -32,6 +32,7 @@ TEST_F(CliRefusals, RefusesBadInput) {
     expect_refusal("make " + std::string(file) + " -o t.stl --preview p.png", file);
   expect_refusal("make torus.ply -o t.stl --height 5000", "at most");
   expect_refusal("info missing.ply", "missing.ply");
+  expect_refusal("make torus.ply -o t.stl --height", "--height: expected a value, found none");
 }
 
 TEST_F(CliRefusals, LeavesOutPointsThatAreNotFiniteAndSaysSo) {

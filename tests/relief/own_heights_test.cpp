@@ -109,7 +109,8 @@ TEST(OwnHeights, LettersAreLevelAndTheirEdgeIsAWall) {
 TEST(OwnHeights, RefuseTheBrushThatProtects) {
   ReliefOptions options;
   options.strokes = {{"cheek", Brush::protect, 1, .2, 1, false, {Vec3(0, 0, 1)}}};
-  expect_error(prepared(legend_beside_head(.3)).relief(options), "expected no brush protect");
+  expect_error(prepared(legend_beside_head(.3)).relief(options),
+               "expected no brush protect, as a model of the scene has its own height");
   EXPECT_TRUE(prepared(legend_beside_head({})).relief(options));
 }
 
