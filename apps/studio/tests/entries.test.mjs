@@ -109,8 +109,9 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   await waits("Trying Plate size, Longer side, Rim width …");
   const plateWidthAndRim = () => Promise.all(["plate", "width", "rim"].map(value));
   await soon.deepEqual(plateWidthAndRim, ["abc", "90.0", "2"]);
+  const refused = page.getByText(/^Plate size: expected/).waitFor(); // a message is shown for eight seconds at most
   await release();
-  await page.getByText(/^Plate size: expected/).waitFor(); // the entry after the refused one is taken
+  await refused; // the entry after the refused one is taken
   await soon.deepEqual(plateWidthAndRim, ["200x150", "90.0", "2"]);
   await undo();
   await soon.equal(() => value("rim"), "");
