@@ -18,10 +18,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-bool is_json(const std::string& text) {
-  return text.starts_with('{') || text.starts_with('[');
-}
-
 // Returns the list in {"ornaments": [...]} or in [...]; nullptr in any other JSON.
 template <typename AnyJson>
 auto* list_in(AnyJson& json) {
@@ -178,11 +174,15 @@ Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::
   return OrnamentReader(name, folder, inside).read(json);
 }
 
+bool is_ornament_json(std::string_view value) {
+  return value.starts_with('{') || value.starts_with('[');
+}
+
 void change_ornament_paths(std::string* font, std::string* ornaments,
                            const std::function<std::string(const std::string&)>& change) {
   if (font && !font->empty()) *font = change(*font);
   if (!ornaments || ornaments->empty()) return;
-  if (!is_json(*ornaments)) {
+  if (!is_ornament_json(*ornaments)) {
     *ornaments = change(*ornaments);
     return;
   }
@@ -212,7 +212,8 @@ Result<void> read_ornaments(ReliefOptions& options, const OrnamentFiles& inside)
   const std::string &font = options.font_name, &source = options.ornament_source;
   if (!font.empty()) RELIEVO_CHECK(set(options.font, font_of(font, {}, inside)));
   if (source.empty()) return {};
-  if (is_json(source)) return set(options.ornaments, parse_ornaments(source, "ornaments", {}, inside));
+  if (is_ornament_json(source))
+    return set(options.ornaments, parse_ornaments(source, "ornaments", {}, inside));
   if (!is_there(source))
     return option_error(
         "ornaments",

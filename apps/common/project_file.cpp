@@ -82,7 +82,7 @@ Result<std::vector<std::byte>> pack_project(const ProjectFile& file) {
 }
 
 Result<OrnamentFiles> pack_ornaments(std::string* font, std::string* ornaments) {
-  if (ornaments && !ornaments->empty() && !ornaments->starts_with('{')) {
+  if (ornaments && !ornaments->empty() && !is_ornament_json(*ornaments)) {
     RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(*ornaments));
     const std::string folder = std::filesystem::path(*ornaments).parent_path().string();
     *ornaments = text_in(bytes);

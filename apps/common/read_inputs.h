@@ -104,10 +104,13 @@ using OrnamentFiles = std::map<std::string, std::vector<std::byte>, std::less<>>
 // Returns the ornaments in a JSON text. Error messages call it `name`. Relative paths start at `folder`:
 //   {"ornaments": [{"kind": "text", "text": "LIBERTAS", "arc": "top", "size": 3}, {"kind": "beads"},
 //                  {"kind": "drawing", "file": "crest.svg", "size": 20, "at": [0, 30]}]}
-// docs/lettering.md lists all keys. Errors: kind input for a text that is not JSON, unknown keys, values of
+// The list may also stand alone. docs/lettering.md lists all keys. Errors: kind input for a text that is not JSON, unknown keys, values of
 // another type, and files that cannot be read.
 Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::string& name,
                                               const std::string& folder, const OrnamentFiles& inside = {});
+
+// Returns whether the value of `ornaments` is JSON itself, an object or a list, and not a path.
+bool is_ornament_json(std::string_view value);
 
 // Replaces the path of each font and each drawing by what `change` returns for it. `ornaments` is the value
 // of that option, whose list may itself be in a file, and `font` that of the other option. Either may be
@@ -119,9 +122,9 @@ void change_ornament_paths(std::string* font, std::string* ornaments,
 void change_ornament_paths(OptionValues& options,
                            const std::function<std::string(const std::string&)>& change);
 
-// Reads the files that the options `font` and `ornaments` name, from `inside` if they are there. If the text
-// of `ornaments` begins with a brace, it is JSON itself and not a path. A font that another object still has
-// is not read again, unless its file has changed. Errors: those of read_file() and parse_ornaments().
+// Reads the files that the options `font` and `ornaments` name, from `inside` if they are there. A font that
+// another object still has is not read again, unless its file has changed. Errors: those of read_file() and
+// parse_ornaments().
 Result<void> read_ornaments(ReliefOptions& options, const OrnamentFiles& inside = {});
 
 }  // namespace relievo::app

@@ -6,7 +6,7 @@ import {fileNameOf} from "./file_field.js";
 export const KINDS = {text: "Text", beads: "Beads", rope: "Rope", line: "Line", drawing: "Drawing"};
 export const ARCS = {straight: "Straight", top: "Arc at the top", bottom: "Arc at the bottom", around: "All around"};
 
-const isPath = (source) => source !== "" && !source.startsWith("{");
+const isPath = (source) => !/^(?:[{[]|$)/.test(source);
 
 // Returns the file that has the list, or "". The page cannot change such a list, only remove it.
 export const fileOf = ({ornaments}) => (isPath(ornaments) ? ornaments : "");
@@ -20,7 +20,8 @@ function ownText({text, font, ...options}) {
 function parsed(source) {
   if (source === "" || isPath(source)) return [];
   try {
-    return JSON.parse(source).ornaments ?? [];
+    const json = JSON.parse(source);
+    return Array.isArray(json) ? json : json.ornaments ?? [];
   } catch {
     return []; // the engine says what is wrong with it
   }
