@@ -18,12 +18,6 @@ namespace {
 
 using test::surface_of;
 
-// Returns a level square of side 2.
-Surface square(std::size_t points = 20000) {
-  return surface_of(test::height_field(
-      points, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
-}
-
 Stroke dab(Brush brush, const Vec3& at, double radius = .3, double amount = 1) {
   return {.name = {}, .brush = brush, .amount = amount, .radius = radius, .points = {at}};
 }
@@ -48,7 +42,7 @@ Vec3 place_of(const Surface& surface, Index i) {
 }
 
 TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   Stroke stroke = dab(Brush::raise, {-.4, .1, 0}, .25);
   stroke.points.emplace_back(.4, .1, 0);
   const StrokeMask mask = stroke_mask(surface, stroke);
@@ -62,7 +56,7 @@ TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
 }
 
 TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   Stroke stroke{.name = {}, .brush = Brush::raise, .radius = .07};
   for (int i = 0; i < 45; ++i) stroke.points.emplace_back(-.8 + .035 * i, .6 * std::sin(.9 * i), 0);
   std::vector<float> weights(surface.points.size(), 0);
@@ -81,7 +75,7 @@ TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
 }
 
 TEST(StrokeMask, IsFullInsideAHardStroke) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   Stroke stroke = dab(Brush::raise, {0, 0, 0}, .4);
   stroke.softness = .25;
   const StrokeMask mask = stroke_mask(surface, stroke);
@@ -127,7 +121,7 @@ TEST(StrokeMask, DoesNotReachAcrossADepthJump) {
 }
 
 TEST(StrokeFields, RaiseAndSinkByAShareOfTheHeight) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const std::vector<double> z(surface.points.size(), .5);
   const auto changed = applied(
       surface, {dab(Brush::raise, {.3, .3, 0}, .2, .1), dab(Brush::sink, {-.4, -.4, 0}, .3, .05)}, z, 2);
@@ -162,7 +156,7 @@ TEST(StrokeFields, KeepEveryHeightOutside) {
 }
 
 TEST(StrokeFields, LevelToTheMean) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   std::vector<double> z;
   for (const Vec3& p : surface.points) z.push_back(1 + .3 * p.x());
   Stroke stroke = dab(Brush::level, {.2, 0, 0}, .4);
@@ -178,7 +172,7 @@ TEST(StrokeFields, LevelToTheMean) {
 
 // Two blurs with half of the variance each multiply a wave of wave number k by 1 / (1 + sigma^2 k^2 / 4)^2.
 TEST(StrokeFields, BlurWavesAsTheirTransferFunctionSays) {
-  const Surface surface = square(80000);
+  const Surface surface = surface_of(test::sheet(80000, 1, 0));
   for (const auto& [brush, sigma, sign] :
        {std::tuple(Brush::soften, 2 * narrow_blur, -1), std::tuple(Brush::sharpen, 2 * narrow_blur, 1),
         std::tuple(Brush::strengthen, 2 * wide_blur, 1)}) {
@@ -207,7 +201,7 @@ std::vector<double> waves(const Surface& surface) {
 }
 
 TEST(StrokeFields, ChangeNothingWhenMuted) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const std::vector<double> z(surface.points.size(), .5);
   Stroke stroke = dab(Brush::raise, {0, 0, 0});
   stroke.is_muted = true;
@@ -216,7 +210,7 @@ TEST(StrokeFields, ChangeNothingWhenMuted) {
 }
 
 TEST(StrokeFields, AreThoseOfTheLastStrokesAlone) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Strokes first{dab(Brush::raise, {0, 0, 0}), dab(Brush::soften, {.5, 0, 0})},
       last{dab(Brush::raise, {0, 0, 0}), dab(Brush::level, {-.5, 0, 0})};
   std::vector<double> z;
@@ -232,7 +226,7 @@ TEST(StrokeFields, AreThoseOfTheLastStrokesAlone) {
 }
 
 TEST(StrokeFields, AreTheSumOfStrokesThatDoNotTouch) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const std::vector<double> z = waves(surface);
   std::vector<double> sum = z;
   Strokes all;
@@ -247,7 +241,7 @@ TEST(StrokeFields, AreTheSumOfStrokesThatDoNotTouch) {
 }
 
 TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const std::vector<double> z = waves(surface);
   Stroke soft = dab(Brush::soften, {0, 0, 0}, .5);
   soft.softness = .05;
@@ -260,7 +254,7 @@ TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
 
 // A stroke that grows while it is drawn, beside others that stay, changes the same as when it is made at once.
 TEST(StrokeFields, KeepWhatDidNotChangeOnlyForTheSameHeights) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   StrokeFields<double> fields(surface);
   Strokes strokes{dab(Brush::soften, {-.5, 0, 0}), dab(Brush::strengthen, {.5, 0, 0}),
                   dab(Brush::sharpen, {0, .5, 0})};
@@ -278,7 +272,7 @@ TEST(StrokeFields, KeepWhatDidNotChangeOnlyForTheSameHeights) {
 }
 
 TEST(StrokeFields, NeverFallBelowTheBase) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const auto changed =
       applied(surface, {dab(Brush::sink, {0, 0, 0})}, std::vector<double>(surface.points.size(), .2));
   EXPECT_GE(*std::ranges::min_element(changed), 0);

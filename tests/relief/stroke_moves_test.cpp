@@ -16,12 +16,6 @@ namespace {
 
 using test::surface_of;
 
-// Returns a level square of side 2.
-Surface square(std::size_t points = 20000) {
-  return surface_of(test::height_field(
-      points, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
-}
-
 Stroke dab(const Vec3& at, double radius, double amount = 1) {
   return {.name = {}, .brush = Brush::protect, .amount = amount, .radius = radius, .points = {at}};
 }
@@ -63,7 +57,7 @@ std::vector<double> protect(const Surface& surface, const Stroke& stroke, const 
 
 // Under a protected stroke, only a plane lies between the heights before and after the correction.
 TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
   Stroke stroke = dab({.1, .2, 0}, .4);
   stroke.softness = .25;
@@ -92,7 +86,7 @@ TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
 }
 
 TEST(StrokeMoves, ProtectWithinTheHeight) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
   const double height = *std::ranges::max_element(heights.after);
   const std::vector<double> z = protect(surface, dab({-.3, .2, 0}, .5), heights, height);
@@ -100,7 +94,7 @@ TEST(StrokeMoves, ProtectWithinTheHeight) {
 }
 
 TEST(StrokeMoves, ProtectByTheirAmount) {
-  const Surface surface = square();
+  const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
   const auto half = protect(surface, dab({.1, .2, 0}, .4, .5), heights, 9),
              whole = protect(surface, dab({.1, .2, 0}, .4, 1), heights, 9);
