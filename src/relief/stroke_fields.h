@@ -37,7 +37,7 @@ class StrokeFields {
   void apply(double height, std::span<const Real> uncorrected, std::span<Real> z);
 
  private:
-  // What a point under a stroke gets of what the stroke's blur removes.
+  // The share of the detail removed by a stroke's blur that is added to one point.
   struct Share {
     Index at;  // number of the point in changed_
     Real share;

@@ -40,7 +40,7 @@ struct Crossing {
 // that are not in the mask.
 std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask);
 
-// How far a stroke should be in front of what is behind it.
+// The heights by which a stroke is to stand above the surface behind it.
 template <typename Real>
 struct InFront {
   std::span<const Crossing> crossings;

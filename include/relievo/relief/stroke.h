@@ -35,7 +35,7 @@ inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::str
                                                        {"protect", Brush::protect},
                                                        {"in-front", Brush::in_front}}};
 
-// What belongs to a stroke.
+// The points that belong to a stroke.
 enum class StrokeArea {
   line,   // the points within the radius of a line
   lasso,  // what a closed line encloses for the viewer who drew it; beyond half of its size, nothing behind it
