@@ -231,7 +231,7 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  // As written in the file: behind the coordinates, behind weights of 1 there, and in comments.
+  // The colours that follow coordinates, that follow coordinates and a weight of 1, and that stand in comments.
   std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // all faces
