@@ -160,7 +160,7 @@ void judge_pictures(const Cloud& cloud, int side, int first, int count) {
     EXPECT_GE(found.share_used, .98);
     EXPECT_LE(found.farthest_px, 2);
     EXPECT_LE(found.crumbs, 0);
-    // Of details, 8 bits keep what is higher than their steps.
+    // Pictures of 8 bits lose details that are lower than a step.
     const double lost = how.name.contains("8 bits") ? .16 : .03;
     EXPECT_GT(found.similarity, std::min(.9, figure.exact_similarity) - lost);
   }

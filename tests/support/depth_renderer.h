@@ -13,7 +13,7 @@
 
 namespace relievo::test {
 
-// How a camera sees a figure of one metre, whose middle is in front of it: along parallel rays, or as a pinhole camera.
+// A camera with a figure of one metre in front of it. It has parallel rays, or is a pinhole camera.
 struct PictureCamera {
   static constexpr double distance_m = 1.5;
   int side = 200;  // width and height of the picture in pixels
@@ -105,7 +105,7 @@ struct DepthStorage {
   bool is_pinhole = false;  // whether the camera is one; if so, metric depths come with its numbers
 };
 
-// What a depth picture has beside its figure.
+// The pixels of a depth picture beside its figure.
 struct BesideFigure {
   double wall_m = 0;  // distance of a slightly tilted wall behind the figure; 0 for none
   float missing = 0;  // the value of pixels without a depth
