@@ -62,7 +62,8 @@ export class Modes {
     for (const [i, label] of [...$("#labels").children].entries()) label.textContent = names[i];
     $("#split").setAttribute("aria-label", `Divider between ${rival ? names.join(" and ") : "model and relief"}`);
     this.attention.checked &&= isComparing && !rival;
-    this.stage.comparing.set({isComparing, hasAttention: this.attention.checked, rival: rival && partOfSnapshot(rival)});
+    const hasAttention = this.attention.checked;
+    this.stage.comparing.set({isComparing, hasAttention, rival: rival && partOfSnapshot(rival)});
     this.compared();
   }
 
