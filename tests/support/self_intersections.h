@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "relievo/core/text.h"
 #include "relievo/plate/solid.h"
 #include "support/big_integer.h"
@@ -17,28 +19,38 @@ namespace relievo::test {
 
 using Corners = std::array<Vec3, 3>;
 
+// Returns whether three points lie on a line along an axis.
+inline bool on_axis_line(const Vec3& a, const Vec3& b, const Vec3& c) {
+  int common = 0;
+  for (int k = 0; k < 3; ++k) common += a[k] == b[k] && a[k] == c[k];
+  return common >= 2;
+}
+
 // Returns the sign of the determinant of b - a, c - a and d - a. It is 1 if the triangle abc is
-// counter-clockwise as seen from d.
+// counter-clockwise as seen from d. Most determinants that are 0 need no exact arithmetic: two points are the same,
+// three lie on a line along an axis, or all lie in a plane across one.
 inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const auto determinant = [&](auto number) {
-    using Number = decltype(number(0.0));
-    std::array<std::array<Number, 3>, 3> rows;
-    for (int k = 0; k < 3; ++k)
-      rows[0][k] = number(b[k]) - number(a[k]), rows[1][k] = number(c[k]) - number(a[k]),
-      rows[2][k] = number(d[k]) - number(a[k]);
-    const auto& [u, v, w] = rows;
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0]);
-  };
+  if (d == a || d == b || d == c || a == b || a == c || b == c) return 0;
+  if (on_axis_line(a, b, c) || on_axis_line(a, b, d) || on_axis_line(a, c, d) || on_axis_line(b, c, d))
+    return 0;
   for (int k = 0; k < 3; ++k)
     if (a[k] == b[k] && a[k] == c[k] && a[k] == d[k]) return 0;
-  const double value = determinant([](double x) { return x; });
-  const double size = std::max({(b - a).lpNorm<Eigen::Infinity>(), (c - a).lpNorm<Eigen::Infinity>(),
-                                (d - a).lpNorm<Eigen::Infinity>()});
-  // Each of the six products has a relative error below 1e-15, and none exceeds the cube of the largest
-  // entry.
-  if (std::abs(value) > 1e-14 * size * size * size) return value > 0 ? 1 : -1;
-  return determinant(BigInteger::scaled).sign();
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double value = u.dot(v.cross(w));
+  const auto product = [&](int i, int j) { return std::abs(v[i] * w[j]) + std::abs(v[j] * w[i]); };
+  const double products =
+      std::abs(u[0]) * product(1, 2) + std::abs(u[1]) * product(2, 0) + std::abs(u[2]) * product(0, 1);
+  // By Shewchuk (1997) the rounding errors of `value` are below 8e-16 of the sum of the products' magnitudes.
+  if (std::abs(value) > 1e-15 * products) return value > 0 ? 1 : -1;
+  const auto row = [&](const Vec3& p) {
+    std::array<BigInteger, 3> exact;
+    for (int k = 0; k < 3; ++k) exact[k] = BigInteger::scaled(p[k]) - BigInteger::scaled(a[k]);
+    return exact;
+  };
+  const std::array p = row(b), q = row(c), r = row(d);
+  return (p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+          p[2] * (q[0] * r[1] - q[1] * r[0]))
+      .sign();
 }
 
 inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
