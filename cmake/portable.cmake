@@ -10,9 +10,9 @@ endif()
 add_executable(relievo_portable EXCLUDE_FROM_ALL $<TARGET_OBJECTS:relievo_cli> packaging/no_jbig.cpp)
 relievo_compiler_options(relievo_portable)
 target_link_options(relievo_portable PRIVATE -static -Wl,--gc-sections -s)
-add_dependencies(relievo_portable relievo_app)
+add_dependencies(relievo_portable relievo_studio)
 target_link_directories(relievo_portable PRIVATE ${RELIEVO_STATIC_LIBRARIES})
 target_link_libraries(relievo_portable PRIVATE
-  $<TARGET_FILE:relievo_app> $<TARGET_FILE:relievo_samples> $<TARGET_FILE:relievo>
+  $<TARGET_FILE:relievo_studio> $<TARGET_FILE:relievo_app> $<TARGET_FILE:relievo_samples> $<TARGET_FILE:relievo>
   cpp-httplib ssl crypto brotlienc brotlidec brotlicommon zip lzf harfbuzz fribidi
   spng tiff webp Lerc zstd lzma jpeg deflate z)
