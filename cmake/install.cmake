@@ -54,12 +54,7 @@ install(DIRECTORY include/relievo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPON
 
 configure_package_config_file(packaging/relievoConfig.cmake.in relievoConfig.cmake
   INSTALL_DESTINATION ${RELIEVO_CMAKE_FOLDER} NO_SET_AND_CHECK_MACRO)
-if(PROJECT_VERSION_MAJOR EQUAL 0)
-  set(compatibility SameMinorVersion)
-else()
-  set(compatibility SameMajorVersion)
-endif()
-write_basic_package_version_file(relievoConfigVersion.cmake COMPATIBILITY ${compatibility})
+write_basic_package_version_file(relievoConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/relievoConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/relievoConfigVersion.cmake
   DESTINATION ${RELIEVO_CMAKE_FOLDER} COMPONENT development)
 

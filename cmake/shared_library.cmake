@@ -1,13 +1,8 @@
 # The shared library exports only the functions of the public headers, which packaging/symbols.txt lists.
 # scripts/update-symbols writes this list, and a test fails if the library exports anything else.
 
-# Before version 1, every minor version may break linked programs, so the minor version is part of the library's name:
-# librelievo.so.0.1.
-if(PROJECT_VERSION_MAJOR EQUAL 0)
-  set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-else()
-  set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR})
-endif()
+# Only a major version may break linked programs, so it is part of the library's name: librelievo.so.1.
+set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR})
 
 set(RELIEVO_SYMBOLS ${PROJECT_SOURCE_DIR}/packaging/symbols.txt)
 set(RELIEVO_VERSION_SCRIPT ${CMAKE_CURRENT_BINARY_DIR}/relievo.map)

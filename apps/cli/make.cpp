@@ -68,9 +68,9 @@ std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
   const std::string_view unit = name_of(outputs.unit);
   const double below_ground = in_units(report.below_ground_mm);
   return cat(outputs.solid.empty() ? outputs.heightmap : outputs.solid, ": ", report.visible_points, " of ",
-             report.input_points, " points, height ", in_units(report.height_mm), " ", unit,
-             below_ground > 0 ? cat(" (", below_ground, " of it below the ground)") : "", ", body ",
-             in_units(size.x()), " x ", in_units(size.y()), " x ", in_units(size.z()), " ", unit);
+             report.input_points, " points are visible in this view, height ", in_units(report.height_mm),
+             " ", unit, below_ground > 0 ? cat(" (", below_ground, " of it below the ground)") : "",
+             ", body ", in_units(size.x()), " x ", in_units(size.y()), " x ", in_units(size.z()), " ", unit);
 }
 
 // The finished files, still in memory, and the lines to print about them.

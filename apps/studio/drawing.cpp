@@ -97,7 +97,7 @@ ReliefOptions without_ornaments(ReliefOptions options) {
   options.font_name.clear();
   options.font = nullptr;
   options.text_arc = TextArc::straight;
-  options.text_mm = options.text_height_mm = std::nullopt;
+  options.text_mm = options.text_height_mm = options.text_inset_mm = std::nullopt;
   options.ornament_source.clear();
   options.ornaments.clear();
   return options;

@@ -51,6 +51,7 @@ struct NumericOptions {
   std::optional<double> rim_bevel_mm;    // width of the rim's bevel; 0.3 of the rim's height
   std::optional<double> text_mm;         // height of the text's capital letters; 0.6 of the margin
   std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament
+  std::optional<double> text_inset_mm;   // distance from the rim to the text, see Ornament
   std::optional<double> points;          // number of visible points to sample; see usual_points()
   std::optional<double> resolution_mm;   // distance between samples; the smaller of width / 700 and rho
   std::optional<double> tolerance_mm;    // largest error of the simplified mesh; no simplification

@@ -136,7 +136,7 @@ async function make(args) {
   writeAll(files);
   if (values.quiet) return;
   for (const line of json.remarks) process.stderr.write(`${line}\n`);
-  process.stderr.write(`${values.output}: ${json.report.visible_points} of ${json.report.input_points} points, height ${json.report.height_mm.toFixed(4).replace(/\.?0+$/, "")} mm\n`);
+  process.stderr.write(`${values.output}: ${json.report.visible_points} of ${json.report.input_points} points are visible in this view, height ${json.report.height_mm.toFixed(4).replace(/\.?0+$/, "")} mm\n`);
 }
 
 function listOptions(head = "") {

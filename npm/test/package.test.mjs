@@ -45,7 +45,7 @@ test("the program makes a relief with the native flags", () => {
   const program = path.join(folder, "node_modules/.bin/relievo");
   const { status, stderr } = node([program, "make", "scan.ply", "-o", "medal.stl", "--height", "2", "--outline=circle", "--report", "r.json", "--heightmap", "h.png"]);
   assert.equal(status, 0, stderr);
-  assert.match(stderr, /medal\.stl: \d+ of 20000 points, height 2 mm/);
+  assert.match(stderr, /medal\.stl: \d+ of 20000 points are visible in this view, height 2 mm/);
   const report = JSON.parse(fs.readFileSync(path.join(folder, "r.json")));
   assert.equal(report.height_mm.toFixed(6), "2.000000");
   assert.equal(fs.statSync(path.join(folder, "medal.stl")).size % 50, 84 % 50);

@@ -96,6 +96,13 @@ double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   return width;
 }
 
+// Returns the names of what leaves a relief less room than its plate has.
+std::string takers_of_room(const ReliefOptions& options) {
+  const std::string_view last = options.shift_mm.isZero() ? "" : " and shift";
+  if (!options.rim_mm) return cat("margin", last);
+  return cat("margin", last.empty() ? " and rim" : ", rim", last);
+}
+
 }  // namespace
 
 bool is_mirrored(Form form) {
@@ -201,9 +208,9 @@ Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& op
   constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a rounded report
   if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding)
     return with_height(surface, std::move(sized));
-  return option_error(
-      "width", cat("expected at most ", std::max(0.0, largest), " mm, which the plate leaves with its margin",
-                   options.rim_mm ? " and rim" : "", ", found ", *sized.width_mm, " mm"));
+  return option_error("width", cat("expected at most ", std::max(0.0, largest),
+                                   " mm, which the plate leaves with its ", takers_of_room(options),
+                                   options.width_mm ? cat(", found ", *options.width_mm, " mm") : ""));
 }
 
 }  // namespace relievo

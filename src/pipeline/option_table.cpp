@@ -246,6 +246,10 @@ std::vector<OptionRow> ornament_rows() {
        .help = "height of the text above the ground; a negative one sinks it. Its walls lean as draft says, else by 15 "
                "degrees",
        .otherwise = "0.2 of its size, below the rim", .is_hidden = true, .access = number<&ReliefOptions::text_height_mm>},
+      {.name = "text-inset", .unit = "MM", .stage = plate, .min = 0, .max = 1e4,
+       .help = "distance from the rim to the text, to the foot of a straight one",
+       .otherwise = "in the middle of the margin inside of borders", .is_hidden = true,
+       .access = number<&ReliefOptions::text_inset_mm>},
       {.name = "font", .unit = "FILE", .stage = plate,
        .help = "TrueType or OpenType font of the text; none takes its place",
        .otherwise = "the font inside, Noto Serif Bold, for Latin, Greek and Cyrillic", .is_hidden = true,

@@ -100,9 +100,10 @@ Result<void> check_draft(const ReliefOptions& options) {
 
 Result<void> check_text_options(const ReliefOptions& options) {
   const bool has_text = !options.text.empty();
-  if (!has_text && (options.text_mm || options.text_height_mm || options.text_arc != TextArc::straight ||
-                    !options.font_name.empty()))
-    return option_error("text", "expected a text with text-arc, text-size, text-height and font, found none");
+  if (!has_text && (options.text_mm || options.text_height_mm || options.text_inset_mm ||
+                    options.text_arc != TextArc::straight || !options.font_name.empty()))
+    return option_error(
+        "text", "expected a text with text-arc, text-size, text-height, text-inset and font, found none");
   if (!has_text && options.ornament_source.empty()) return {};
   if (options.outline == Outline::none)
     return option_error("text", "expected an outline with ground for it, found none");
@@ -210,6 +211,7 @@ std::vector<Ornament> ReliefOptions::all_ornaments() const {
     Ornament ornament{.text = text, .font = font, .arc = text_arc};
     ornament.size_mm = text_mm;
     ornament.height_mm = text_height_mm;
+    ornament.inset_mm = text_inset_mm;
     all.push_back(std::move(ornament));
   }
   all.insert(all.end(), ornaments.begin(), ornaments.end());

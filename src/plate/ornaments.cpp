@@ -46,8 +46,8 @@ std::unexpected<Error> touching(const RaisedShape& shape, std::string_view what)
   const bool is_text = shape.name.starts_with("the text");
   return option_error(is_text ? "text" : "ornaments",
                       cat("expected room for ", shape.name, ", found ", what,
-                          " in its place: a smaller text-size, a wider margin or, in ornaments, "
-                          "another inset gives room"));
+                          " in its place: a smaller text-size, a wider margin or another text-inset (in "
+                          "ornaments, inset) gives room"));
 }
 
 // Checks that shapes lie on level ground.

@@ -57,6 +57,18 @@ TEST(OrnamentShapes, LettersStandInTheMiddleOfTheMargin) {
   EXPECT_NEAR(below_high, 29, .02);
 }
 
+TEST(OrnamentShapes, LettersStandAsFarFromTheRimAsTheirInsetSays) {
+  for (const double inset : {0., .7, 2.}) {
+    Ornament text = text_on(TextArc::top, "I");
+    text.inset_mm = inset;
+    EXPECT_NEAR(radii_of(shape_of(text))[1], 30 - inset, .02);
+    text.arc = TextArc::bottom;
+    EXPECT_NEAR(radii_of(shape_of(text))[1], 30 - inset, .02);
+    text.arc = TextArc::straight;
+    EXPECT_NEAR(Box::of(shape_of(text).outlines.at(0)).min.y(), inset, .02);
+  }
+}
+
 TEST(OrnamentShapes, LettersKeepClearOfBorders) {
   // Beads take 1.2 of the margin of 5: capitals of 3 stand in the middle of the 3.8 that are left.
   Ornament beads{.kind = OrnamentKind::beads};

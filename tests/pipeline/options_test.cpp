@@ -159,13 +159,15 @@ TEST(Options, TextsGetAMarginThatHasRoomForThem) {
 
 TEST(Options, TextBecomesTheFirstOrnament) {
   if (!has_lettering()) GTEST_SKIP() << "this build sets no texts";
-  ReliefOptions options = parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}}).value();
+  ReliefOptions options =
+      parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}, {"text-inset", .9}}).value();
   options.ornaments.emplace_back().kind = OrnamentKind::beads;
   const std::vector<Ornament> all = options.all_ornaments();
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].text, "LEX");
   EXPECT_EQ(all[0].arc, TextArc::top);
   EXPECT_EQ(all[0].height_mm, -.3);
+  EXPECT_EQ(all[0].inset_mm, .9);
   EXPECT_EQ(all[1].kind, OrnamentKind::beads);
 }
 

@@ -15,7 +15,7 @@ export function showNumbers({about, ms, isFine, height, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const parts = [
-    [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`, "minor"],
+    [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points visible`, "minor"],
     [`height ${height} ${shown.unit}`], [pieceText(about)],
     [times.length >= FEWEST && `${times.length} frames/s`, "minor"],
     [!isFine && ms && `${ms.toFixed(0)} ms`, "minor"]];

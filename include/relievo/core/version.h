@@ -3,6 +3,6 @@
 
 namespace relievo {
 
-inline constexpr char version[] = "0.1.0";
+inline constexpr char version[] = "1.0.0";
 
 }  // namespace relievo
