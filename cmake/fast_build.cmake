@@ -46,5 +46,5 @@ endfunction()
 # Applies relievo_precompile() and relievo_unite() to a target. The other arguments are those of relievo_precompile().
 function(relievo_fast_build target)
   relievo_precompile(${target} ${ARGN})
-  relievo_unite(${target} 8)
+  relievo_unite(${target} 16)
 endfunction()

@@ -15,7 +15,7 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::size_t most_levels = 8, most_corners = 100'000'000;
+constexpr std::size_t most_levels = 8, most_mesh_corners = 100'000'000;
 
 // A document. Its texts are views of its bytes.
 struct ModelPart {
@@ -154,7 +154,7 @@ class ThreeMfReader {
         if (!placed.part->colours.is_empty())
           colour_corners(placed.part->colours, elements[placed.object], elements[i], first);
       }
-    if (points_.size() <= most_corners && triangles_.size() <= most_corners) return {};
+    if (points_.size() <= most_mesh_corners && triangles_.size() <= most_mesh_corners) return {};
     return fail(elements[mesh], "expected at most 100000000 vertices and triangles, found more");
   }
 
