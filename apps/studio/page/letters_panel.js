@@ -42,7 +42,7 @@ export class LettersPanel {
     Object.assign(this, {engine, doc, stage, say, chosen: -1, rows: [], errors: []});
     this.marks = new LetterMarks({stage, doc, panel: this});
     this.refresh = oneAtATime(() => this.place().catch(() => {})); // a picture of the same state reports its error
-    $("#ornament-kinds").append(...OFFERED.filter((kind) => kind !== "text" || about.has_lettering).map((kind) =>
+    $("#ornament-kinds").append(...OFFERED.map((kind) =>
       make("button", {type: "button", class: "quiet", onclick: () => this.add(kind),
         ...(kind === "beads" && {"data-option": "ornaments"})}, `Add ${kind === "text" ? "a text" : kind === "line" ? "a line"
         : kind === "rope" ? "a rope" : kind}`)));
