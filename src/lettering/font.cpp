@@ -256,7 +256,9 @@ class LineShaper {
     hb_buffer_set_direction(b, run.is_rightwards ? HB_DIRECTION_LTR : HB_DIRECTION_RTL);
     hb_buffer_set_script(b, run.script);
     hb_buffer_set_language(b, hb_language_from_string("und", -1));
-    hb_shape(font_.get(), b, nullptr, 0);
+    // Only some builds of HarfBuzz know the tables of Graphite, which would give other glyphs.
+    constexpr const char* shapers[] = {"ot", nullptr};
+    hb_shape_full(font_.get(), b, nullptr, 0, shapers);
     unsigned count = 0;
     const hb_glyph_info_t* const infos = hb_buffer_get_glyph_infos(b, &count);
     const hb_glyph_position_t* const positions = hb_buffer_get_glyph_positions(b, &count);
