@@ -42,4 +42,7 @@ relievo_web_library(TIFF::TIFF tiff ZLIB::ZLIB)
 relievo_web_library(JPEG::JPEG jpeg)
 relievo_web_library(PkgConfig::LIBLZF lzf)
 relievo_web_library(PkgConfig::LIBZIP zip ZLIB::ZLIB)
-set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF JPEG::JPEG PkgConfig::LIBLZF PkgConfig::LIBZIP)
+relievo_web_library(PkgConfig::HARFBUZZ harfbuzz)
+relievo_web_library(PkgConfig::FRIBIDI fribidi)
+set(RELIEVO_LINKED PkgConfig::SPNG TIFF::TIFF JPEG::JPEG PkgConfig::LIBLZF PkgConfig::LIBZIP PkgConfig::HARFBUZZ
+  PkgConfig::FRIBIDI)

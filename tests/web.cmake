@@ -9,7 +9,7 @@ target_compile_definitions(relievo_gtest PUBLIC GTEST_HAS_PTHREAD=0 GTEST_HAS_EX
   GTEST_HAS_DEATH_TEST=0 GTEST_HAS_FILE_SYSTEM=0 GTEST_HAS_RTTI=0)
 
 find_program(NODE node REQUIRED)
-foreach(room core geometry solver scan relief plate picture io pipeline quality samples)
+foreach(room core geometry solver scan relief lettering plate picture io pipeline quality samples)
   file(GLOB candidates CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${room}/*_test.cpp)
   set(sources "")
   foreach(source IN LISTS candidates)

@@ -194,7 +194,6 @@ nlohmann::json Actions::about() {
               {"readable", readable_formats()},
               {"views", view_list()},
               {"materials", material_list()},
-              {"has_lettering", has_lettering()},
               {"curve", {{"most_points", ToneCurve::most_points}}},
               {"recent", recent_list()},
               {"first", first_},

@@ -87,6 +87,7 @@ function fileOnDisk(name) {
 }
 
 const REFERRING = [".obj", ".gltf", ".json", ".relievo"];
+const NAMING_FILES = ["font", "ornaments"]; // options whose values may be paths
 
 // Gives the engine the input files under the names that the user typed. If these files can refer to others, also gives
 // it all files in their folders.
@@ -118,6 +119,7 @@ async function make(args) {
   const request = { inputs: addFiles(engine, inputs), options: {} };
   if (values.camera && fs.existsSync(values.camera)) values.camera = fs.readFileSync(values.camera, "utf8");
   if (values["stream-above"]) request.stream_above_mb = numberOf(values, "stream-above");
+  addFiles(engine, NAMING_FILES.map((name) => values[name]).filter((name) => name && fs.existsSync(name)));
   if (values["base-image"]) [request.base_image] = addFiles(engine, [values["base-image"]]);
   for (const option of optionTable)
     if (option.name in values) request.options[option.name] = optionValue(option, values[option.name], units);

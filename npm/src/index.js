@@ -46,7 +46,7 @@ async function engineWith(source, options = {}) {
   const engine = await newEngine();
   const files = filesOf(source, options.name);
   for (const [name, file] of files) engine.addFile(name, file);
-  const request = { ...requestOf(options, nearestIn(engine)), inputs: modelsOf(files) };
+  const request = { ...requestOf(options, nearestIn(engine)), inputs: modelsOf(files, options) };
   if (options.baseImage) {
     request.base_image = BASE_IMAGE + (options.baseImage.name ?? "base.png");
     engine.addFile(request.base_image, options.baseImage.bytes ?? options.baseImage);

@@ -40,13 +40,13 @@ export function filesOf(source, name) {
 }
 
 // Returns the files that are models. Leaves out files to which others refer: materials, buffers, textures, and the
-// models of a scene.
-export function modelsOf(files) {
-  const names = files.map(([name]) => name);
+// models of a scene; fonts and drawings; and the list of ornaments that the options name.
+export function modelsOf(files, { ornaments } = {}) {
+  const names = files.map(([name]) => name).filter((name) => name !== ornaments);
   const ending = (name) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
   const scene = names.find((name) => ["json", "relievo"].includes(ending(name)));
   if (scene) return [scene];
-  const beside = new Set(["mtl", "bin", ...(names.some((n) => ["gltf", "obj"].includes(ending(n))) ? ["png", "jpg", "jpeg", "tif"] : [])]);
+  const beside = new Set(["mtl", "bin", "ttf", "otf", "ttc", "svg", ...(names.some((n) => ["gltf", "obj"].includes(ending(n))) ? ["png", "jpg", "jpeg", "tif"] : [])]);
   return names.filter((name) => !beside.has(ending(name)));
 }
 

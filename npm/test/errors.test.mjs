@@ -77,6 +77,18 @@ test("numbers may stand in arrays where the command line has commas", async () =
   assert.deepEqual(await bytes({ view: [1, 0, 3], tone: [[0, 1], [1, 0.5]], denoise: 0 }), await bytes({ view: "1,0,3", tone: "0,1;1,0.5", denoise: "0" }));
 });
 
+test("texts are refused in the words of the native program", async () => {
+  const cloud = await sample("shell", { points: 20000 }), font = new Uint8Array(500).fill(7);
+  for (const [options, message] of [
+    [{ text: "aאb" }, "text: expected characters of the font inside, Noto Serif, found others: 'א' (U+05D0); font names another font"],
+    [{ text: "a\nb" }, "text: expected one line of text, found a control character"],
+    [{ text: " " }, "text: expected visible characters, found none"],
+    [{ text: "a", font: "f.ttf" }, "font: expected a TrueType or OpenType font of at most 64 MiB, found 'f.ttf', which is none"],
+    [{ text: "a", font: "g.ttf" }, /^g\.ttf: expected a file that can be read/]])
+    assert.match((await errorOf(() => make({ "scan.ply": cloud, "f.ttf": font }, options))).message, typeof message === "string"
+      ? new RegExp(`^${message.replace(/[()+]/g, "\\$&")}$`) : message);
+});
+
 test("bytes without a name are what they look like", async () => {
   const names = [["garbage\nnothing else", "scan.xyz"], ["v 0 0 0\nv 1 1\n", "scan.obj"], ["solid a\nfacet\n", "scan.stl"]];
   for (const [content, name] of names) assert.equal((await errorOf(() => make(text([content])))).input, name);

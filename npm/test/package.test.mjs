@@ -36,7 +36,8 @@ test("README's example runs", () => {
 
 test("the licences of all libraries inside are part of the package", () => {
   const licences = fs.readFileSync(path.join(folder, "node_modules/relievo/LIBRARIES.txt"), "utf8");
-  for (const library of ["libeigen3-dev", "libspng-dev", "libtiff-dev", "libzip-dev", "zlib1g-dev", "wasi-libc"])
+  for (const library of ["libeigen3-dev", "libspng-dev", "libtiff-dev", "libzip-dev", "zlib1g-dev",
+    "libharfbuzz-dev", "libfribidi-dev", "fonts-noto-core", "wasi-libc"])
     assert.match(licences, new RegExp(`\n${library}, `));
   assert.match(licences, /Permission is hereby granted/);
 });
@@ -49,6 +50,24 @@ test("the program makes a relief with the native flags", () => {
   const report = JSON.parse(fs.readFileSync(path.join(folder, "r.json")));
   assert.equal(report.height_mm.toFixed(6), "2.000000");
   assert.equal(fs.statSync(path.join(folder, "medal.stl")).size % 50, 84 % 50);
+});
+
+test("fonts and lists of ornaments are files beside the scan, in the program and in calls", async () => {
+  const program = path.join(folder, "node_modules/.bin/relievo"), list = "list.json";
+  const font = fs.readFileSync(new URL("../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url));
+  const ornaments = JSON.stringify([{ text: "LEX", font: "own.ttf" }, { kind: "line" }]);
+  fs.writeFileSync(path.join(folder, "own.ttf"), font);
+  fs.writeFileSync(path.join(folder, list), ornaments);
+  const { status, stderr } = node([program, "make", "scan.ply", "-o", "list.stl", "--margin", "9", "--ornaments", list]);
+  assert.equal(status, 0, stderr);
+  const made = fs.readFileSync(path.join(folder, "list.stl"));
+  const files = { "scan.ply": fs.readFileSync(path.join(folder, "scan.ply")), "own.ttf": font };
+  const solid = async (more, options) => Buffer.from((await relievo.make({ ...files, ...more }, { marginMm: 9, ...options })).solid());
+  assert.ok((await solid({ [list]: new TextEncoder().encode(ornaments) }, { ornaments: list })).equals(made));
+  assert.ok((await solid({}, { ornaments: '[{"kind": "line"}]', text: "LEX", font: "own.ttf" })).equals(made));
+  assert.ok(!(await solid({}, { ornaments: '[{"kind": "line"}]' })).equals(made));
+  const alone = node([program, "make", "scan.ply", "-o", "alone.stl", "--text", "LEX", "--font", "own.ttf"]);
+  assert.equal(alone.status, 0, alone.stderr);
 });
 
 test("the program fails with one line and the exit codes of the native program", () => {

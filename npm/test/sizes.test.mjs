@@ -7,9 +7,9 @@ import { test } from "node:test";
 import zlib from "node:zlib";
 import { packageFolder, temporaryFolder } from "./support.mjs";
 
-const LARGEST_MODULE = 1_050_000; // in bytes, compressed by gzip -9
-const LARGEST_PAGE = 1_700_000; // in bytes, without the pictures of samples
-const LARGEST_TARBALL = 1_050_000;
+const LARGEST_MODULE = 1_230_000; // in bytes, compressed by gzip -9
+const LARGEST_PAGE = 2_045_000; // in bytes, without the pictures of samples
+const LARGEST_TARBALL = 1_250_000;
 
 for (const module of process.env.MODULES.split(":"))
   test(`the module ${path.basename(module)} keeps to its size`, (t) => {

@@ -63,7 +63,7 @@ bool cut_each_other(CutSide& a, CutSide& b) {
 
 // Finds the points where sides meet, by a sweep along x. Returns false if no sides meet.
 bool find_cuts(std::vector<CutSide>& sides) {
-  std::ranges::sort(sides, {}, [](const CutSide& s) { return std::min(s.from.x(), s.to.x()); });
+  std::ranges::stable_sort(sides, {}, [](const CutSide& s) { return std::min(s.from.x(), s.to.x()); });
   bool is_cut = false;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const double right = std::max(sides[i].from.x(), sides[i].to.x()) + touching,
@@ -84,7 +84,7 @@ std::vector<CutSide> pieces_of(std::vector<CutSide> sides) {
   std::vector<CutSide> pieces;
   for (CutSide& side : sides) {
     const Vec2 step = side.to - side.from;
-    std::ranges::sort(side.cuts, {}, [&](const Vec2& p) { return (p - side.from).dot(step); });
+    std::ranges::stable_sort(side.cuts, {}, [&](const Vec2& p) { return (p - side.from).dot(step); });
     side.cuts.push_back(side.to);
     Vec2 from = side.from;
     for (const Vec2& to : side.cuts) {

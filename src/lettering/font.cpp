@@ -14,7 +14,14 @@
 #include "geometry/curve_polygon.h"
 #include "relievo/core/text.h"
 
-// Embeds the bytes of the font in the program.
+// Embeds the bytes of the font in the program. g++ 12 has no #embed, and WebAssembly has no .pushsection.
+#ifdef __wasm__
+#pragma clang diagnostic ignored "-Wc23-extensions"
+static constexpr char relievo_font[] = {
+#embed RELIEVO_FONT
+};
+static constexpr const char *relievo_font_begin = relievo_font, *relievo_font_end = std::end(relievo_font);
+#else
 asm(".pushsection .rodata\n"
     ".global relievo_font_begin\n.hidden relievo_font_begin\n"
     ".global relievo_font_end\n.hidden relievo_font_end\n"
@@ -22,6 +29,7 @@ asm(".pushsection .rodata\n"
     "\"\nrelievo_font_end:\n.byte 0\n"
     ".popsection\n");
 extern "C" __attribute__((visibility("hidden"))) const char relievo_font_begin[], relievo_font_end[];
+#endif
 
 namespace relievo {
 namespace {
@@ -248,7 +256,9 @@ class LineShaper {
     hb_buffer_set_direction(b, run.is_rightwards ? HB_DIRECTION_LTR : HB_DIRECTION_RTL);
     hb_buffer_set_script(b, run.script);
     hb_buffer_set_language(b, hb_language_from_string("und", -1));
-    hb_shape(font_.get(), b, nullptr, 0);
+    // Only some builds of HarfBuzz know the tables of Graphite, which would give other glyphs.
+    constexpr const char* shapers[] = {"ot", nullptr};
+    hb_shape_full(font_.get(), b, nullptr, 0, shapers);
     unsigned count = 0;
     const hb_glyph_info_t* const infos = hb_buffer_get_glyph_infos(b, &count);
     const hb_glyph_position_t* const positions = hb_buffer_get_glyph_positions(b, &count);
@@ -306,10 +316,6 @@ class LineShaper {
 };
 
 }  // namespace
-
-bool has_lettering() {
-  return true;
-}
 
 Result<ShapedLine> shape_line(const Ornament& ornament, double tolerance) {
   RELIEVO_TRY(FontPointer font, open_font(ornament));

@@ -109,8 +109,6 @@ Result<void> check_text_options(const ReliefOptions& options) {
     return option_error("text", "expected an outline with ground for it, found none");
   if (options.form == Form::lithophane)
     return option_error("text", "expected a form other than lithophane, which has no ground");
-  if (has_text && !has_lettering())
-    return option_error("text", "expected none, as this build has no HarfBuzz to set it");
   return {};
 }
 

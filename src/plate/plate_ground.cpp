@@ -24,11 +24,13 @@ void begin_at_lowest(const Solid& solid, IndexPolygon& polygon) {
   std::ranges::rotate(polygon, std::ranges::min_element(polygon, is_lower));
 }
 
-// Returns whether the angle of `a`, in [0, 2 pi), is smaller than the angle of `b`.
+// Returns whether the angle of `a`, in [0, 2 pi), is smaller than the angle of `b`. Angles that differ only by
+// rounding are equal, because the last digits of cosines depend on the C library.
 bool has_smaller_angle(const Vec2& a, const Vec2& b) {
-  const auto is_lower_half = [](const Vec2& v) { return v.y() < 0 || (v.y() == 0 && v.x() < 0); };
+  constexpr double rounding = 1e-9;
+  const auto is_lower_half = [](const Vec2& v) { return v.y() < (v.x() < 0 ? -rounding * v.x() : 0); };
   if (is_lower_half(a) != is_lower_half(b)) return is_lower_half(b);
-  return cross(a, b) > 0;
+  return cross(a, b) > rounding * a.norm() * b.norm();
 }
 
 // A corner of the rim's cross-section.

@@ -147,7 +147,6 @@ TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
 }
 
 TEST(Options, TextsGetAMarginThatHasRoomForThem) {
-  if (!has_lettering()) GTEST_SKIP() << "this build sets no texts";
   const auto margin = [](const OptionValues& values) {
     return parse_options(values).value().effective_margin_mm();
   };
@@ -158,7 +157,6 @@ TEST(Options, TextsGetAMarginThatHasRoomForThem) {
 }
 
 TEST(Options, TextBecomesTheFirstOrnament) {
-  if (!has_lettering()) GTEST_SKIP() << "this build sets no texts";
   ReliefOptions options =
       parse_options({{"text", "LEX"}, {"text-arc", "top"}, {"text-height", -.3}, {"text-inset", .9}}).value();
   options.ornaments.emplace_back().kind = OrnamentKind::beads;

@@ -4,9 +4,8 @@
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
 //                                  drawsMeanwhile: whether it draws pictures while a piece is made; canRemove: whether
-//                                  documents are stored until the user removes them; takesLetterFiles: whether fonts
-//                                  and drawings are taken by file; slowMs: if frames take longer, they get fewer
-//                                  pixels}. The Engine has the same traits
+//                                  documents are stored until the user removes them; slowMs: if frames take longer,
+//                                  they get fewer pixels}. The Engine has the same traits
 //   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture;
 //                                  `about` has facts about the picture; the request is optional
 //   addressOf(file)             -> the address of one of the page's pictures

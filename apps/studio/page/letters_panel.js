@@ -7,8 +7,8 @@ import {FileField, fileInput, fileNameOf, takeDropsOn} from "./file_field.js";
 import {isUnfinished} from "./inputs.js";
 import {LetterMarks} from "./letter_marks.js";
 import {shortLength, shown, typedNumber} from "./lengths.js";
-import {ARCS, FILES, KINDS, fileOf, hasPlace, isOnArc, keyOfFile, listOf, nameOf, partOf, withoutEmpty}
-  from "./ornaments.js";
+import {fileOf, listOf, withoutEmpty} from "./ornament_list.js";
+import {ARCS, FILES, KINDS, hasPlace, isOnArc, keyOfFile, nameOf, partOf} from "./ornaments.js";
 import {inWords} from "./pieces.js";
 
 const OFFERED = ["text", "beads", "rope", "line"];
@@ -42,11 +42,11 @@ export class LettersPanel {
     Object.assign(this, {engine, doc, stage, say, chosen: -1, rows: [], errors: []});
     this.marks = new LetterMarks({stage, doc, panel: this});
     this.refresh = oneAtATime(() => this.place().catch(() => {})); // a picture of the same state reports its error
-    $("#ornament-kinds").append(...OFFERED.filter((kind) => kind !== "text" || about.has_lettering).map((kind) =>
+    $("#ornament-kinds").append(...OFFERED.map((kind) =>
       make("button", {type: "button", class: "quiet", onclick: () => this.add(kind),
         ...(kind === "beads" && {"data-option": "ornaments"})}, `Add ${kind === "text" ? "a text" : kind === "line" ? "a line"
         : kind === "rope" ? "a rope" : kind}`)));
-    if (engine.takesLetterFiles) this.takeFiles();
+    this.takeFiles();
     stage.element.addEventListener("picture", ({detail}) => this.pictured(detail.about));
   }
 
@@ -86,7 +86,7 @@ export class LettersPanel {
       this.chosen = at;
       this.doc.change({options});
     } catch (error) {
-      this.say(`${file.name} cannot be used: ${error.message.replaceAll(/\S*\/scans\/\w+\//g, "")}`);
+      this.say(`${file.name} cannot be used: ${error.message.replaceAll(/[^\s']*\bscans\/\w+\//g, "")}`);
     }
   }
 
@@ -175,9 +175,9 @@ export class LettersPanel {
   // Returns {row, show} of the fields of an ornament.
   fields(ornament, at) {
     const {kind = "text"} = ornament;
-    const {takesLetterFiles} = this.engine, key = {text: "font", drawing: "file"}[kind];
+    const key = {text: "font", drawing: "file"}[kind];
     return [...(kind === "text" ? [this.textRow(at), this.arcRow(at)] : []),
-      ...(key && takesLetterFiles ? [this.fileRow(key, at)] : []),
+      ...(key ? [this.fileRow(key, at)] : []),
       ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
   }
 

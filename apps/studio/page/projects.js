@@ -5,7 +5,7 @@ import {$, download, fileSize, make} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer, toast} from "./messages.js";
 import {plainName} from "./kinds.js";
-import {namesFiles} from "./ornaments.js";
+import {filesIn} from "./ornament_list.js";
 import {sceneFile} from "./scene_panel.js";
 import {zipOf} from "./zip.js";
 
@@ -101,7 +101,7 @@ export class Projects {
       try {
         const project = projectOf(await promised);
         const text = JSON.stringify(project, null, 1) + "\n";
-        const isPacked = isWithScan || (input.sample && this.engine.takesLetterFiles && namesFiles(project.options));
+        const isPacked = isWithScan || (input.sample && filesIn(project.options).length > 0);
         download(isPacked ? await this.take(this.engine.packProject(project))
           : new Blob([text], {type: "application/json"}), `${name}.relievo`);
         toast(`Saved: ${name}.relievo.`);

@@ -27,7 +27,7 @@ async function send(path, options) {
 }
 
 export class Transport {
-  traits = {takesSeveral: false, drawsMeanwhile: true, canRemove: true, takesLetterFiles: true, slowMs: 55};
+  traits = {takesSeveral: false, drawsMeanwhile: true, canRemove: true, slowMs: 55};
 
   // The body of an upload is the file itself; its name is in the address. The request "leave" is sent even if the page
   // closes.

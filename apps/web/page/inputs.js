@@ -1,4 +1,5 @@
-// Names documents, and finds the files of their inputs.
+// Names documents, and finds the files of their inputs and options.
+import {filesIn} from "../../studio/page/ornament_list.js";
 
 const MASK = (1n << 64n) - 1n;
 
@@ -17,11 +18,15 @@ export const scanOf = ({path = "", hash = ""}) =>
 // Returns the current input in the state of a document; null if the value is not such a state.
 export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 
-export const BASE_IMAGE = "base-image"; // the option with the path of a base's height map
+// Returns the paths of the files that options name: the height map of a base, fonts and drawings.
+export const pathsIn = (options = {}) => [options["base-image"], ...filesIn(options)].filter(Boolean);
+
+// Returns the options of a project, and those of its snapshots.
+export const optionsIn = ({options, studio}) => [options, ...(studio?.snapshots ?? []).map((snapshot) => snapshot.options)];
 
 // Returns the hashes, in digits, of all files that the state of a document needs.
 export const scansOf = (state) => [scanOf(inputOf(state)),
-  ...[...state.steps, ...(state.snapshots ?? [])].map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
+  ...[...state.steps, ...(state.snapshots ?? [])].flatMap(({options}) => pathsIn(options)).map((path) => scanOf({path}))];
 
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // endings of files that accompany a model

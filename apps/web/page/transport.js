@@ -2,7 +2,7 @@
 // apps/studio/page/transport.js; apps/studio/page/engine.js describes transports.
 import {compile} from "../../../npm/src/compile.js";
 import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
-import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
+import {bytesOf, documentOf, inputOf, mainOf, optionsIn, pathsIn, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
 const MOST_UPLOAD = 2 ** 31; // in bytes: half of the largest memory of WebAssembly
@@ -15,14 +15,13 @@ const LIMITS = [
   "It computes with one processor, and takes several times as long as the program relievo with all of them.",
   "It has at most 4 GiB of memory. Of binary PLY, PCD and LAS with more than 3 million points it takes those that the view shows, piece by piece, within a minute or two.",
   "Depth images in TIFF are read plain or packed by LZW, Deflate or PackBits, not by JPEG, WebP, Zstandard, LERC or LZMA.",
-  "It sets no texts, and takes no fonts and drawings by file; the program relievo does.",
   "Scans and work stay in this browser, for the 24 documents used last; save a project to keep or to move one.",
   "The licences of the software inside stand at the end of this file.",
 ];
 
 export class Transport {
   // slowMs: a slower frame misses the aim of 30 frames per second.
-  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, takesLetterFiles: false, slowMs: 31};
+  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // addresses of the page's pictures by name
@@ -107,13 +106,12 @@ export class Transport {
   // Sends a call for a document. Throws if the worker does not have that document open.
   async #ask(call, request) {
     if (!this.#isOpen.has(request.document)) throw closed();
-    return this.#work(call, request, await this.#imageOf(request.options));
+    return this.#work(call, request, await this.#filesIn(request.options));
   }
 
-  // Returns the files that the options name: the height map of a base, or none.
-  async #imageOf(options) {
-    const path = options?.[BASE_IMAGE];
-    return path ? this.#filesOf({path}) : [];
+  // Returns the files that options name.
+  async #filesIn(options) {
+    return (await Promise.all(pathsIn(options).map((path) => this.#filesOf({path})))).flat();
   }
 
   async #filesOf(input) {
@@ -235,9 +233,8 @@ export class Transport {
   async #readProject(name, file) {
     this.#endPreparation();
     const {body: project} = await this.#work("project", {path: "project", name}, [["project", file]]);
-    const {input, options} = project;
-    await this.#keepUnpacked(input.path);
-    await this.#keepUnpacked(options[BASE_IMAGE]);
+    const {input} = project;
+    for (const path of [input.path, ...optionsIn(project).flatMap(pathsIn)]) await this.#keepUnpacked(path);
     return {...project, ...(await this.#find(input))};
   }
 
@@ -249,8 +246,8 @@ export class Transport {
   }
 
   async #packProject(project) {
-    const files = [...(await this.#filesOf(project.input)), ...(await this.#imageOf(project.options))];
-    return (await this.#work("save", {project}, files)).body;
+    const named = await Promise.all(optionsIn(project).map((options) => this.#filesIn(options)));
+    return (await this.#work("save", {project}, [...(await this.#filesOf(project.input)), ...named.flat()])).body;
   }
 
   async #recent() {

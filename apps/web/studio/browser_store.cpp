@@ -22,6 +22,11 @@ struct ScanInMemory final : studio::DroppedScan {
   std::vector<std::byte> bytes;
 };
 
+// Returns the folder of the scan with that hash.
+std::string folder_of(std::string_view hash) {
+  return cat("scans/", hash.substr(hash.find(':') + 1), "/");
+}
+
 }  // namespace
 
 std::unique_ptr<studio::DroppedScan> BrowserStore::begin_scan(const std::string& name) const {
@@ -31,9 +36,16 @@ std::unique_ptr<studio::DroppedScan> BrowserStore::begin_scan(const std::string&
 Result<ScanSource> BrowserStore::keep(studio::DroppedScan& scan) {
   auto& kept = static_cast<ScanInMemory&>(scan);  // begin_scan() made it, so it has this type
   const std::string hash = kept.hash.text();
-  ScanSource source{{}, cat("scans/", hash.substr(hash.find(':') + 1), "/", kept.name), kept.name, hash};
+  ScanSource source{{}, folder_of(hash) + kept.name, kept.name, hash};
   bytes_[source.path] = std::move(kept.bytes);
   return source;
+}
+
+std::optional<ScanSource> BrowserStore::find_scan(const std::string& hash) const {
+  const std::string folder = folder_of(hash);
+  const auto found = bytes_.lower_bound(folder);
+  if (found == bytes_.end() || !found->first.starts_with(folder)) return std::nullopt;
+  return ScanSource{{}, found->first, found->first.substr(folder.size()), hash};
 }
 
 }  // namespace relievo::app::web

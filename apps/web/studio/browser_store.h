@@ -13,6 +13,7 @@ class BrowserStore final : public studio::Store {
  public:
   std::unique_ptr<studio::DroppedScan> begin_scan(const std::string& name) const override;
   Result<ScanSource> keep(studio::DroppedScan& scan) override;
+  std::optional<ScanSource> find_scan(const std::string& hash) const override;
 
   // Returns the bytes of the scan that was kept under that path. A second call returns an empty vector.
   std::vector<std::byte> take_bytes(const std::string& path) { return std::exchange(bytes_[path], {}); }

@@ -201,6 +201,45 @@ test("a base takes an image, which the browser and a project keep", options, asy
   assert.deepEqual([...studio.errors, ...other.errors], []);
 });
 
+// The font inside the program: a text has the same outlines in this file.
+const FONT = new URL("../../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url);
+
+test("a legend has the bytes of the native program, and a font by file stays in browser and project", options, async (t) => {
+  const {studio} = await newStudio(t, "chromium", fileAddress), {page} = studio;
+  const labelled = (label) => page.getByLabel(label, {exact: true});
+  const ownFont = (of) => of.getByRole("button", {name: "Font own.ttf: choose another"});
+  await studio.open(scan("urn.ply"));
+  await studio.untilReady("20,000");
+  await openPanels(page);
+  await enter(labelled("Resolution"), "0.6"); // such a coarse piece is made quickly
+  await enter(labelled("Margin in mm"), "9");
+  await studio.button("Add a text").click();
+  await enter(labelled("Text"), "ΔΗΜΟΣ");
+  await labelled("Line of the text").selectOption("bottom");
+  await studio.untilReady("20,000");
+  const inside = fs.readFileSync(await studio.exported("inside.stl"));
+  fs.copyFileSync(FONT, scan("own.ttf"));
+  await labelled("File of the font").setInputFiles(scan("own.ttf"));
+  await ownFont(page).waitFor();
+  const project = await studio.savedProject("urn.relievo");
+  await page.reload();
+  await studio.untilReady("20,000");
+  const {studio: other} = await newStudio(t, "chromium", fileAddress);
+  await other.open(project);
+  await other.untilReady("20,000");
+  for (const each of [studio, other]) {
+    await openPanels(each.page);
+    await each.button("“ΔΗΜΟΣ”").click();
+    await ownFont(each.page).waitFor();
+    assert.ok(fs.readFileSync(await each.exported("own.stl")).equals(inside), "the same font by file gives other bytes");
+    assert.deepEqual(each.errors, []);
+  }
+  if (!native || !fs.existsSync(native)) return;
+  const made = path.join(studio.downloads, "native.stl");
+  execFileSync(native, ["make", project, "-o", made, "--quiet"], {stdio: "pipe"});
+  assert.ok(fs.readFileSync(made).equals(inside), "the native program gives other bytes");
+});
+
 test("a depth picture is read anew as the page asks, and stays so", options, async (t) => {
   const {studio} = await newStudio(t, "chromium", fileAddress), {page} = studio;
   writeBallBeforeWall(scan("depth.tif"));

@@ -76,9 +76,6 @@ struct OrnamentFacts {
   double thinnest_mm = std::numeric_limits<double>::infinity();
 };
 
-// Returns whether this build can typeset text. The build for WebAssembly cannot.
-bool has_lettering();
-
 // Checks that the text can be typeset in its font. Errors: kind option for a font that cannot be read, for a
 // text without visible characters, for a text that is too long, and for characters missing in the font, which
 // the message names.
