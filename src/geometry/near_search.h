@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -66,13 +68,32 @@ class NearSearch {
     tree_.within(centre, radius, matches_);
     numbers_.clear();
     for (const auto& [i, distance_sq] : matches_) numbers_.push_back(i);
-    std::ranges::sort(numbers_);
+    sort_numbers();
     for (int axis = 0; axis < dimension; ++axis) {
       coordinates_[axis].resize(numbers_.size());
       for (std::size_t k = 0; k < numbers_.size(); ++k) coordinates_[axis][k] = points_[numbers_[k]][axis];
     }
     distances_sq_.resize(numbers_.size());
     near_.resize(numbers_.size());
+  }
+
+  // Sorts the numbers, which all differ. Those of points along a space-filling curve lie close together, so that
+  // marking them in a list of bits is faster than comparing them.
+  void sort_numbers() {
+    constexpr std::size_t most_words = 4;  // per number
+    if (numbers_.empty()) return;
+    const auto [least, most] = std::ranges::minmax(numbers_);
+    const std::size_t words = (most - least) / 64 + 1;
+    if (words > most_words * numbers_.size()) {
+      std::ranges::sort(numbers_);
+      return;
+    }
+    marks_.assign(words, 0);
+    for (const Index i : numbers_) marks_[(i - least) / 64] |= std::uint64_t{1} << (i - least) % 64;
+    std::size_t count = 0;
+    for (std::size_t word = 0; word < words; ++word)
+      for (std::uint64_t rest = marks_[word]; rest != 0; rest &= rest - 1)
+        numbers_[count++] = least + static_cast<Index>(64 * word + std::countr_zero(rest));
   }
 
   // Returns the indices of the collected points in a ball.
@@ -104,6 +125,7 @@ class NearSearch {
   std::span<const Point> points_;
   std::vector<typename KdTree<Point>::Match> matches_;
   std::vector<Index> numbers_, near_;
+  std::vector<std::uint64_t> marks_;
   std::array<std::vector<double>, dimension> coordinates_;
   std::vector<double> distances_sq_;
 };

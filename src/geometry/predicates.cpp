@@ -67,6 +67,16 @@ double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   return lifted * cofactor_error + lifted_error * cofactor;
 }
 
+// Returns whether each of the four points shares x with one of the others and y with another one, as the corners
+// of a square of a grid do.
+bool is_upright_rectangle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto are_sides = [](const Vec2& p, const Vec2& q, const Vec2& r, const Vec2& s) {
+    return p.x() == q.x() && r.x() == s.x() &&
+           ((p.y() == r.y() && q.y() == s.y()) || (p.y() == s.y() && q.y() == r.y()));
+  };
+  return are_sides(a, b, c, d) || are_sides(a, c, b, d) || are_sides(a, d, b, c);
+}
+
 int sign_beyond(double value, double bound) {
   return value > bound ? 1 : -value > bound ? -1 : 0;
 }
@@ -78,6 +88,7 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  if (is_upright_rectangle(a, b, c, d)) return 0;
   // Shewchuk's incircle() in three stages. The first computes exactly with the rounded differences; its sign
   // is final if no difference was rounded. The second adds a first-order correction. The third is fully
   // exact.

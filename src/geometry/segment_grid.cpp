@@ -63,22 +63,22 @@ NearestSegment SegmentGrid::nearest_of(const Vec2& place, double radius, Accept&
   double least_sq = radius * radius, farthest_line = 0;
   const Cells c = cells_of(place - Vec2::Constant(radius), place + Vec2::Constant(radius));
   for (int y = c.y0; y <= c.y1; ++y)
-    for (int x = c.x0; x <= c.x1; ++x)
-      for (const Index i : in_cell_[static_cast<std::size_t>(y) * width_ + x]) {
-        const Segment& s = segments_[i];
-        if (!accepts(s)) continue;
-        const Vec2 step = s.to - s.from, offset = place - s.from;
-        const double length_sq = step.squaredNorm();
-        if (!(length_sq > 0)) continue;
-        const double share = std::clamp(offset.dot(step) / length_sq, 0.0, 1.0);
-        const double distance_sq = (offset - share * step).squaredNorm();
-        const double line = cross(step, offset) / std::sqrt(length_sq);
-        const bool is_tie = best.segment != no_index && std::abs(distance_sq - least_sq) <= 1e-12 * least_sq;
-        if (is_tie ? std::abs(line) <= farthest_line : distance_sq > least_sq) continue;
-        least_sq = std::min(least_sq, distance_sq);
-        farthest_line = std::abs(line);
-        best = {i, std::sqrt(distance_sq), line > 0};
-      }
+    for (const Index i : in_row(y, c)) {
+      const Segment& s = segments_[i];
+      if (!accepts(s)) continue;
+      const Vec2 step = s.to - s.from, offset = place - s.from;
+      const double length_sq = step.squaredNorm();
+      if (!(length_sq > 0)) continue;
+      const double share = std::clamp(offset.dot(step) / length_sq, 0.0, 1.0);
+      const double distance_sq = (offset - share * step).squaredNorm();
+      const bool is_tie = best.segment != no_index && std::abs(distance_sq - least_sq) <= 1e-12 * least_sq;
+      if (!is_tie && distance_sq > least_sq) continue;
+      const double line = cross(step, offset) / std::sqrt(length_sq);
+      if (is_tie && std::abs(line) <= farthest_line) continue;
+      least_sq = std::min(least_sq, distance_sq);
+      farthest_line = std::abs(line);
+      best = {i, std::sqrt(distance_sq), line > 0};
+    }
   return best;
 }
 
@@ -87,14 +87,13 @@ bool SegmentGrid::is_crossed(const Vec2& a, const Vec2& b) const {
   const Vec2 line = b - a;
   const Cells c = cells_of(a.cwiseMin(b), a.cwiseMax(b));
   for (int y = c.y0; y <= c.y1; ++y)
-    for (int x = c.x0; x <= c.x1; ++x)
-      for (const Index i : in_cell_[static_cast<std::size_t>(y) * width_ + x]) {
-        const Segment& s = segments_[i];
-        const Vec2 step = s.to - s.from;
-        if ((cross(line, s.from - a) > 0) != (cross(line, s.to - a) > 0) &&
-            (cross(step, a - s.from) > 0) != (cross(step, b - s.from) > 0))
-          return true;
-      }
+    for (const Index i : in_row(y, c)) {
+      const Segment& s = segments_[i];
+      const Vec2 step = s.to - s.from;
+      if ((cross(line, s.from - a) > 0) != (cross(line, s.to - a) > 0) &&
+          (cross(step, a - s.from) > 0) != (cross(step, b - s.from) > 0))
+        return true;
+    }
   return false;
 }
 
@@ -106,19 +105,18 @@ void LinesFrom::begin(const SegmentGrid& grid, const Vec2& from, double radius) 
   const SegmentGrid::Cells c = grid.cells_of(low, high);
   std::size_t lane = 4;
   for (int y = c.y0; y <= c.y1; ++y)
-    for (int x = c.x0; x <= c.x1; ++x)
-      for (const Index i : grid.in_cell_[static_cast<std::size_t>(y) * grid.width_ + x]) {
-        const Segment& s = grid.segments_[i];
-        if ((s.from.cwiseMin(s.to).array() > high.array()).any()) continue;
-        if ((s.from.cwiseMax(s.to).array() < low.array()).any()) continue;
-        if (lane == 4) fours_.emplace_back(), lane = 0;
-        Four& four = fours_.back();
-        const Vec2 u = s.from - from, v = s.to - from, step = s.to - s.from;
-        four.from_x[lane] = s.from.x(), four.from_y[lane] = s.from.y();
-        four.u_x[lane] = u.x(), four.u_y[lane] = u.y(), four.v_x[lane] = v.x(), four.v_y[lane] = v.y();
-        four.step_x[lane] = step.x(), four.step_y[lane] = step.y();
-        four.place_is_beside[lane++] = cross(step, from - s.from);
-      }
+    for (const Index i : grid.in_row(y, c)) {
+      const Segment& s = grid.segments_[i];
+      if ((s.from.cwiseMin(s.to).array() > high.array()).any()) continue;
+      if ((s.from.cwiseMax(s.to).array() < low.array()).any()) continue;
+      if (lane == 4) fours_.emplace_back(), lane = 0;
+      Four& four = fours_.back();
+      const Vec2 u = s.from - from, v = s.to - from, step = s.to - s.from;
+      four.from_x[lane] = s.from.x(), four.from_y[lane] = s.from.y();
+      four.u_x[lane] = u.x(), four.u_y[lane] = u.y(), four.v_x[lane] = v.x(), four.v_y[lane] = v.y();
+      four.step_x[lane] = step.x(), four.step_y[lane] = step.y();
+      four.place_is_beside[lane++] = cross(step, from - s.from);
+    }
 }
 
 bool LinesFrom::is_crossed(const Vec2& to) const {

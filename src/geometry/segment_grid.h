@@ -49,6 +49,13 @@ class SegmentGrid {
     int x0, y0, x1, y1;
   };
   Cells cells_of(const Vec2& low, const Vec2& high) const;
+  // Returns the segments of the cells in row y. One that lies in several cells comes several times.
+  std::span<const Index> in_row(int y, const Cells& cells) const {
+    if (cells.x0 > cells.x1) return {};
+    const std::size_t row = static_cast<std::size_t>(y) * width_;
+    const std::size_t begin = in_cell_.begin[row + cells.x0], end = in_cell_.begin[row + cells.x1 + 1];
+    return std::span(in_cell_.items).subspan(begin, end - begin);
+  }
   template <typename Accept>
   NearestSegment nearest_of(const Vec2& place, double radius, Accept&& accepts) const;
 

@@ -64,14 +64,13 @@ class ChangeFinder {
 
   // Returns the change across a line through `place`. `near` must include all points within the radius of the
   // fits.
-  Change across(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) const {
-    const Samples samples = samples_of(place, direction, near);
-    if (std::min(samples.left, samples.right) < least_points) return {};
+  Change across(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) {
+    if (!take_samples(place, direction, near)) return {};
     Part left, right;
-    RELIEVO_WIDE(add_samples(samples.fours, left, right));
+    RELIEVO_WIDE(add_samples(samples_, left, right));
     Part whole = left + right;
     for (Part* part : {&left, &right, &whole}) part->fit();
-    RELIEVO_WIDE(add_depths(samples.fours, left, right, whole));
+    RELIEVO_WIDE(add_depths(samples_, left, right, whole));
     const double cosine = left.normal.dot(right.normal);
     return {(left.misfit() + right.misfit()) / std::max(whole.misfit(), 1e-12),
             (left.scatter() + right.scatter()) / std::max(whole.scatter(), 1e-12),
@@ -86,30 +85,26 @@ class ChangeFinder {
     Double4 n_x = {}, n_y = {}, n_z = {}, z = {};
   };
 
-  struct Samples {
-    std::vector<FourSamples> fours;
-    std::size_t left = 0, right = 0;
-  };
-
-  Samples samples_of(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) const {
-    Samples samples;
-    samples.fours.reserve((near.size() + 3) / 4);
+  // Takes the samples around a place. Returns whether there are enough on each side of the line.
+  bool take_samples(const Vec2& place, const Vec2& direction, const std::vector<Index>& near) {
+    samples_.clear();
+    std::size_t on_left = 0, on_right = 0;
     for (const Index i : near) {
       const Vec2 to = (plane_.places[i] - place) / radius_;
       const double rest = 1 - to.squaredNorm();
       if (!(rest > 0)) continue;
       const bool is_left = cross(direction, to) > 0;
-      const std::size_t lane = (samples.left + samples.right) % 4;
-      if (lane == 0) samples.fours.emplace_back();
-      FourSamples& four = samples.fours.back();
+      const std::size_t lane = (on_left + on_right) % 4;
+      if (lane == 0) samples_.emplace_back();
+      FourSamples& four = samples_.back();
       const Vec3f& n = surface_.normals[i];
       four.x[lane] = to.x(), four.y[lane] = to.y(), four.weight[lane] = rest * rest,
       four.is_left[lane] = is_left;
       four.n_x[lane] = n.x(), four.n_y[lane] = n.y(), four.n_z[lane] = n.z(),
       four.z[lane] = surface_.points[i].z();
-      ++(is_left ? samples.left : samples.right);
+      ++(is_left ? on_left : on_right);
     }
-    return samples;
+    return std::min(on_left, on_right) >= least_points;
   }
 
   // The sums of samples, and what a linear fit to their normals finds at the place.
@@ -219,6 +214,7 @@ class ChangeFinder {
   const Surface& surface_;
   const PlanePoints& plane_;
   double radius_;
+  std::vector<FourSamples> samples_;  // around the last place
 };
 
 // The positions of a line, and the sum of the steps across it.
@@ -291,7 +287,7 @@ class LineFinder {
   }
 
   // Returns the direction of the line across which the surface changes most; zero if no line begins here.
-  Vec2 direction_at(const Vec2& place) const {
+  Vec2 direction_at(const Vec2& place) {
     constexpr int directions = 12;
     const std::vector<Index> near = finder_.around(place, 0);
     double least = 1;
@@ -304,7 +300,7 @@ class LineFinder {
     return best;
   }
 
-  Line line_through(const Vec2& place, const Vec2& direction) const {
+  Line line_through(const Vec2& place, const Vec2& direction) {
     Line back{{place}}, line;
     follow(back, -direction, no_index);
     std::ranges::reverse(back.places);
@@ -316,7 +312,7 @@ class LineFinder {
 
   // Adds positions to a line, each at the largest change of the surface, until the change is too small or
   // another line is too near. `own` is the outline to be continued, if any.
-  void follow(Line& line, Vec2 direction, Index own) const {
+  void follow(Line& line, Vec2 direction, Index own) {
     constexpr double turn_deg = 12;
     constexpr double least_gain = .03;  // least improvement of left_over for which the direction changes
     direction.normalize();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/lists.h"
 #include "geometry/hilbert.h"
@@ -86,13 +87,14 @@ class NewSurface {
   }
 
   // Replaces the points by the new ones, in the order of a space-filling curve, and triangulates them.
-  void replace(Surface& surface, PointMeasures& measures) const {
+  void replace(Surface& surface, PointMeasures& measures) {
     const std::vector<Index> order = hilbert_order(in_plane(points_));
-    surface.points = pick(points_, order);
-    surface.normals = pick(normals_, order);
-    surface.colours = pick(colours_, order);
-    surface.own_heights = pick(own_heights_, order);
-    measures = {pick(k_, order), pick(spacing_, order)};
+    const auto ordered = [&](auto& list) { return pick(std::exchange(list, {}), order); };
+    surface.points = ordered(points_);
+    surface.normals = ordered(normals_);
+    surface.colours = ordered(colours_);
+    surface.own_heights = ordered(own_heights_);
+    measures = {ordered(k_), ordered(spacing_)};
     const std::vector<Vec2> plane = in_plane(surface.points);
     surface.triangulation = delaunay(plane);
     set_boundary(surface, plane, pick(places_, order));
@@ -270,28 +272,34 @@ std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
   return is_gap;
 }
 
+// Returns whether there are outlines. If there are none, only boundary.is_inside and crumbs change.
+bool outlines_replace_points(Surface& surface, PointMeasures& measures,
+                             std::span<const OutlineSegment> known_outlines) {
+  const ExactOutlines exact(known_outlines, surface.rho);
+  if (exact.empty())
+    open_notches(surface);
+  else
+    exact.open_gaps(surface);
+  if (!drop_crumbs(surface)) return false;
+  const PlanePoints plane(surface);
+  std::vector<OutlineCurve> outlines = find_outlines(surface, plane, exact);
+  if (outlines.empty() || outlines.front().is_jump) return false;
+  add_inner_lines(surface, plane, outlines);
+  join_jumps(outlines, surface.rho);
+  NewSurface now(surface, plane, measures, outlines);
+  now.gather();
+  now.replace(surface, measures);
+  return true;
+}
+
 }  // namespace
 
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines) {
-  Surface before = surface;
-  const ExactOutlines exact(known_outlines, surface.rho);
-  if (exact.empty())
-    open_notches(before);
-  else
-    exact.open_gaps(before);
-  if (!drop_crumbs(before)) return;
-  surface.crumbs = before.crumbs;
-  const PlanePoints plane(before);
-  std::vector<OutlineCurve> outlines = find_outlines(before, plane, exact);
-  if (outlines.empty() || outlines.front().is_jump) return;
-  add_inner_lines(before, plane, outlines);
-  join_jumps(outlines, before.rho);
-  NewSurface now(before, plane, measures, outlines);
-  now.gather();
-  PointMeasures new_measures;
-  now.replace(surface, new_measures);
-  measures = std::move(new_measures);
+  // Without outlines these triangles stay.
+  std::vector<std::uint8_t> is_inside = surface.boundary.is_inside;
+  if (!outlines_replace_points(surface, measures, known_outlines))
+    surface.boundary.is_inside = std::move(is_inside);
 }
 
 void open_notches(Surface& surface) {

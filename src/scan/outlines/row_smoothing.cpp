@@ -23,9 +23,13 @@ constexpr int passes = 3;
 class RowSmoother {
  public:
   RowSmoother(std::span<const RowPoint> points, std::span<const Value> values, double rho)
-      : points_(points), values_(values), rho_(rho) {}
+      : points_(points), rho_(rho) {
+    before_.reserve(values.size());
+    for (const Value& value : values) before_.push_back({numbers_of(value), value.is_known});
+  }
 
-  Value at(std::size_t point) const {
+  // Smooths the depth, the normal and the curvature of a point.
+  void smooth(std::size_t point, Value& value) const {
     std::vector<Sample> samples = samples_near(point);
     for (int pass = 1; pass < passes; ++pass) {
       const Curve curve = fitted(samples);
@@ -35,7 +39,7 @@ class RowSmoother {
         s.trust = 1 / (1 + depth * depth + lean * lean);
       }
     }
-    return with_numbers(values_[point], fitted(samples).begin);
+    set(value, fitted(samples).begin);
   }
 
  private:
@@ -43,6 +47,12 @@ class RowSmoother {
     double share;  // way along the row from the smoothed point, as a share of the window
     Numbers numbers;
     double share_sq = share * share, trust = 1;
+  };
+
+  // A point before any is smoothed.
+  struct Before {
+    Numbers numbers;
+    bool is_known;
   };
 
   // Numbers at the smoothed point, and how they change with the way and its square.
@@ -57,7 +67,7 @@ class RowSmoother {
   std::vector<Sample> samples_near(std::size_t point) const {
     std::vector<Sample> samples;
     samples.reserve(24);
-    samples.push_back({0, numbers(point)});
+    samples.push_back({0, before_[point].numbers});
     for (const int side : {-1, 1}) {
       double along = 0;
       std::size_t k = point;
@@ -66,7 +76,7 @@ class RowSmoother {
         if (next >= points_.size() || points_[next].row != points_[point].row) break;
         along += (points_[next].at - points_[k].at).norm() / rho_;
         if (along >= window) break;
-        if (values_[next].is_known) samples.push_back({side * along / window, numbers(next)});
+        if (before_[next].is_known) samples.push_back({side * along / window, before_[next].numbers});
         k = next;
       }
     }
@@ -77,8 +87,7 @@ class RowSmoother {
     return samples;
   }
 
-  Numbers numbers(std::size_t point) const {
-    const Value& v = values_[point];
+  Numbers numbers_of(const Value& v) const {
     return Numbers{v.point.z() / rho_, static_cast<double>(v.normal.x()), static_cast<double>(v.normal.y()),
                    v.k};
   }
@@ -101,19 +110,18 @@ class RowSmoother {
     return {row(0), row(1), row(2)};
   }
 
-  Value with_numbers(Value value, const Numbers& numbers) const {
+  void set(Value& value, const Numbers& numbers) const {
     value.point.z() = numbers[0] * rho_;
     Vec2 lean(numbers[1], numbers[2]);
     const double most = std::sqrt(1 - least_nz * least_nz);
     if (lean.norm() > most) lean *= most / lean.norm();
     value.normal = Vec3(lean.x(), lean.y(), std::sqrt(1 - lean.squaredNorm())).cast<float>();
     value.k = numbers[3];
-    return value;
   }
 
   std::span<const RowPoint> points_;
-  std::span<const Value> values_;
   double rho_;
+  std::vector<Before> before_;
 };
 
 }  // namespace
@@ -121,14 +129,13 @@ class RowSmoother {
 std::vector<Value> smoothed_along_rows(std::span<const RowPoint> points, std::vector<Value> values,
                                        double rho) {
   const RowSmoother smoother(points, values, rho);
-  std::vector<Value> smoothed = values;
   parallel_for(
       points.size(),
       [&](std::size_t i) {
-        if (points[i].row != no_row && values[i].is_known) smoothed[i] = smoother.at(i);
+        if (points[i].row != no_row && values[i].is_known) smoother.smooth(i, values[i]);
       },
       64);
-  return smoothed;
+  return values;
 }
 
 }  // namespace relievo
