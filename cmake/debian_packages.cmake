@@ -1,4 +1,4 @@
-# Makes Debian packages with CPack: relievo (the program), librelievo1 (the shared library), librelievo-dev (headers,
+# Makes Debian packages with CPack: relievo (the program), librelievo1.0 (the shared library), librelievo-dev (headers,
 # static library, CMake and pkg-config files) and, if the Python module is built, python3-relievo. The command is `cpack
 # --config build/release/CPackConfig.cmake -B FOLDER`.
 set(CPACK_GENERATOR DEB)

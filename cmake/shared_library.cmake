@@ -1,8 +1,9 @@
 # The shared library exports only the functions of the public headers, which packaging/symbols.txt lists.
 # scripts/update-symbols writes this list, and a test fails if the library exports anything else.
 
-# Only a major version may break linked programs, so it is part of the library's name: librelievo.so.1.
-set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR})
+# A minor version may add fields to structs, for which linked programs must be compiled anew. So the minor version is part
+# of the library's name: librelievo.so.1.0.
+set(RELIEVO_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
 set(RELIEVO_SYMBOLS ${PROJECT_SOURCE_DIR}/packaging/symbols.txt)
 set(RELIEVO_VERSION_SCRIPT ${CMAKE_CURRENT_BINARY_DIR}/relievo.map)
