@@ -90,6 +90,13 @@ export async function undoAll(of = page, isEnough = () => false) {
   while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
 }
 
+// Waits until the page has taken the sizes that its parts have now: it hears of them with the next frame. Pages behind
+// another one may have no frames.
+export const untilLaidOut = (of = page) => of.evaluate(() => new Promise((resolve) => {
+  requestAnimationFrame(() => requestAnimationFrame(resolve));
+  setTimeout(resolve, 1000);
+}));
+
 // Waits until no entry is being tried, and the picture shows the piece as it is exported.
 export async function untilTaken(of = page) {
   await soon.equal(() => of.locator("#trying").textContent(), "");
@@ -98,6 +105,7 @@ export async function untilTaken(of = page) {
 
 export async function choose(name, of = page) {
   await radio(name, of).click();
+  await untilLaidOut(of); // the settings of a tool take room from the picture
   await untilTaken(of);
 }
 

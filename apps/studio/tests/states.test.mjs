@@ -2,7 +2,7 @@
 // of axe.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, soon, startEngine, test,
-  withBrowser} from "./page_suite.mjs";
+  untilLaidOut, withBrowser} from "./page_suite.mjs";
 import {STATES, showScene} from "./states.mjs";
 import {openPanels, untilReady, writeScans} from "./support.mjs";
 
@@ -103,7 +103,7 @@ function wrapped() {
 
 // Returns the faults of the page on a screen, by kind. The page must already have the screen's size.
 async function misfits(screen, part) {
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await untilLaidOut();
   const all = [];
   for (const check of [scrolling, beyond, wrapped, small, cut, unreached])
     all.push({width: screen.width, kind: check.name, found: await page.evaluate(check, part)});
