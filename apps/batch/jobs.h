@@ -31,10 +31,10 @@ struct Catalogue {
 // Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table (see table.h), row
 // by row. In a folder that contains clouds or meshes, pictures count as textures and are left out. A table
 // has the columns `file`, relative to the table; optionally `name`, the name of the outputs; and any options
-// for which is_option() returns true. An empty cell means the common value. A job without a name gets that of
-// its file; the second job with the same name gets the suffix -2. Errors: kind input if the path cannot be
-// read, if there are no scans, if a row has no file, and for a name that is not unique or leads out of the
-// folder; kind option for other columns.
+// for which is_option() returns true. An empty cell means the value that all jobs have. A job without a name
+// gets that of its file, with -2 behind it if another job has that name. Errors: kind input if the path cannot
+// be read, if there are no scans, if a row has no file, and for a name in the table that is not unique or leads
+// out of the folder; kind option for other columns.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 

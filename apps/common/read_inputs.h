@@ -57,7 +57,7 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
                                 bool keeps_doubtful = false);
 
 // Replaces the value of an option that names a file, such as `camera`, by the file's text. A relative path starts at
-// the folder. Other values stay. Errors: kind input if the file cannot be read.
+// the folder. A value that names no file stays as it is. Errors: kind input if the file is there and cannot be read.
 Result<void> take_text_of_file(std::string_view option, const std::string& folder, OptionValues& values);
 
 // Returns the points of a depth image. Errors and remarks call it `name`. Errors: those of depth_cloud().
@@ -104,8 +104,8 @@ using OrnamentFiles = std::map<std::string, std::vector<std::byte>, std::less<>>
 // Returns the ornaments in a JSON text. Error messages call it `name`. Relative paths start at `folder`:
 //   {"ornaments": [{"kind": "text", "text": "LIBERTAS", "arc": "top", "size": 3}, {"kind": "beads"},
 //                  {"kind": "drawing", "file": "crest.svg", "size": 20, "at": [0, 30]}]}
-// The list may also stand alone. docs/lettering.md lists all keys. Errors: kind input for a text that is not JSON, unknown keys, values of
-// another type, and files that cannot be read.
+// The list may also stand alone. docs/lettering.md lists all keys. Errors: kind input for a text that is not JSON,
+// unknown keys, values of another type, and files that cannot be read.
 Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::string& name,
                                               const std::string& folder, const OrnamentFiles& inside = {});
 

@@ -56,7 +56,7 @@ struct PictureRequest {
 struct PictureAnswer {
   Picture picture;
   bool is_finished = false;    // the picture shows the piece as it is exported, or the model itself
-  bool is_plain = false;       // the piece is a relief on a rectangular plate, as is_plain() says
+  bool is_plain = false;       // the piece is a relief on a rectangular plate without ornaments
   bool has_ornaments = false;  // whether the picture shows the ornaments of the options
   std::optional<Error> ornament_error = {};  // that of the request
   double drawing_s = 0;

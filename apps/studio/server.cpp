@@ -133,7 +133,7 @@ struct Server::State {
                                           });
   }
 
-  // ------------------------------------------------------------------------------------------------- guards
+  // ----------------------------------------------------------------------------------- handlers of requests
 
   httplib::Server::HandlerResponse before(const Request& request, Response& response) {
     using enum httplib::Server::HandlerResponse;

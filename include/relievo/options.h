@@ -93,8 +93,9 @@ struct ReliefOptions : NumericOptions {
 
   bool operator==(const ReliefOptions&) const = default;
 
-  // The effective values: given ones, or else the paper's defaults or, for other methods, the defaults that
-  // preserve most of the model. The default width is for a plate without a given size, see with_width().
+  // The functions effective_...() return the given value of an option, or else its default. The defaults of
+  // Method::paper are the paper's, those of other methods preserve most of the model. The default width is for a
+  // plate without a given size, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   // Returns the given method. Without one, returns linear if a vertical scale is given, the paper's method if
   // alpha is given, and layered otherwise.
@@ -129,10 +130,10 @@ struct ReliefOptions : NumericOptions {
   double effective_planes() const;
 };
 
-// Checks that all options are in their ranges and do not contradict each other. Contradictions are: two of
-// height, height of the diagonal and alpha; control points without subspace mode; alpha and a method other
-// than the paper's; saturation or detail for a method without them; a tone curve or steps for the paper's
-// method; a plate size that the outline cannot have. Errors: kind option, naming the option.
+// Checks that all options are in their ranges and do not contradict each other. Contradictions are, among
+// others: two of height, height of the diagonal and alpha; control points in exact mode; alpha and a method
+// other than the paper's; saturation or detail for a method without them; a tone curve, steps or strokes for the
+// paper's method; a plate size that the outline cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

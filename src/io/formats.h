@@ -52,14 +52,14 @@ bool is_text(const Source& source);
 // documents are found beside it.
 // - PCD: ascii (also with commas between the numbers), binary and binary_compressed; x y z, normal_x normal_y
 // normal_z and rgb.
-// - LAS 1.0 to 1.5, with colours. A file with fewer points than promised is read to its end. LAZ, which is
-// LAS compressed by LASzip 2 or later. Points of the classes 7 and 18 (noise) and withheld points are left
+// - LAS 1.0 to 1.5, with colours. A file with fewer points than promised is read to its end. So is LAZ,
+// which is LAS compressed by LASzip 2 or later. Points of the classes 7 and 18 (noise) and withheld points are left
 // out.
 // - E57: all scans with cartesian or spherical coordinates, transformed by their poses; with colours and
 // normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
 // right.
-// - NPY: rows of x y z, of which 3 to 9 numbers are fractions, with the normals and colours that XYZ has;
-// H x W x 3, whose points are those of an organised cloud, also several of them. Other arrays are depth images.
+// - NPY: arrays of N x 3 to N x 9 fractions are points: x y z, then normals and colours as in XYZ. Arrays of
+// H x W x 3 are organised clouds, and V x H x W x 3 several of them. Other arrays are depth images.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
 //   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more

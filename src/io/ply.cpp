@@ -48,7 +48,7 @@ void take_splat(const PlyElement& vertex, VertexColumns& columns) {
   std::ranges::transform(harmonic_names, places.begin(),
                          [&](auto name) { return find_property(vertex, name); });
   const std::span splat = std::span(columns.is_there).subspan(9);
-  // Flat splats have two scales.
+  // Splats have opacity, rotation and three scales; flat ones have no scale_2 (the fourth of these columns).
   const bool is_splat =
       std::ranges::count(splat, false) <= (columns.is_there[12] ? 0 : 1) && !has_lists(vertex) &&
       std::ranges::all_of(places, [&](std::size_t place) { return is_number(vertex, place); });

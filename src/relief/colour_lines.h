@@ -9,11 +9,12 @@
 
 namespace relievo {
 
-// Returns the share of the line depth per point, in [0, 1]. The share is 1 where the scan's colours are at
-// least 12 % of the range of lightness darker than their surroundings, and 0 where they are less than 4 %
-// darker. The lightness of the surroundings is a Gaussian mean along the surface with a standard deviation of
-// 2.5 % of the longer side, so only the edges of wide dark areas count as lines. Near the boundary the share
-// fades like w_b of (7). The result is empty if the surface has no colours. Source: Winnemoeller, Kyprianidis
+// Returns for each point how far a dark line sinks there, as a share of the depth of lines, in [0, 1]. A point
+// is compared with its surroundings: a Gaussian mean of the lightness along the surface, with a standard
+// deviation of 2.5 % of the longer side. So only the edges of wide dark areas count as lines. The share is 1
+// where a point is darker by at least 12 % of the range of lightness, and 0 where by less than 4 %. Near the
+// boundary it fades like the paper's weight w_b of equation (7). The result is empty if the surface has no
+// colours. Source: Winnemoeller, Kyprianidis
 // and Olsen, XDoG, 2012; the second Gaussian is wider here, so that pupils are filled.
 std::vector<float> dark_lines(const Surface& surface);
 

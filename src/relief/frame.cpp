@@ -137,8 +137,9 @@ struct OwnFrames {
     });
   }
 
-  // Searches for u, starting from the u of the last frame, see ReliefModel::make_at_height(). One or two
-  // solves are usually enough.
+  // Makes the frame have a height. Searches for the weight u of equation (6), starting from the u of the last frame,
+  // see ReliefModel::make_at_height(). If no u is enough, searches for the height of steps at depth jumps. One or
+  // two solves are usually enough.
   void raise_to(double height, Shape shape, Frame& frame) {
     const HeightSearch search(height, frame.options.height_tolerance);
     const auto height_at = [&](double log_u) {

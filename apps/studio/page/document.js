@@ -166,8 +166,8 @@ export class Document {
   }
 }
 
-// A lithophane is printed, so these options do not apply to it. The document keeps their values for other kinds of
-// work.
+// These options are for milling, casting and striking. A lithophane is printed, so they do not apply to it. The
+// document keeps their values for other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
 // The options of the relief's shape that have no effect if mm-per-value is set.

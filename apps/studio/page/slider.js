@@ -32,9 +32,9 @@ function decimalsOf(value) {
 }
 
 // A slider with a label and a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
-// spread, help}. The slider spans the range `hand`, the number field allows `min` to `max`, and a double click sets the
-// value `otherwise`. Calls onInput(value, isTyped) while the slider moves, onEnd() when a movement ends, and say(text)
-// if a number is refused.
+// spread, help, extra}. The slider spans the range `hand`, the number field allows `min` to `max`, and a double click
+// sets the value `otherwise`. Calls onInput(value, isTyped) while the slider moves, onEnd() when a movement ends, and
+// say(text) if a number is refused.
 export class Slider {
   constructor(field, onInput, onEnd, say) {
     Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});

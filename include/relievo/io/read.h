@@ -79,11 +79,11 @@ struct PictureChannels {
 //   that GDAL's no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large
 //   values.
 //   GeoTIFF's tags give the size of pixels, also in degrees.
-// - JPEG: grey, or colours that are equal or of which a channel or the luminance is wanted, turned as the tag
-//   Orientation of Exif says. No CMYK.
+// - JPEG: grey, turned as the tag Orientation of Exif says. Pictures in colour are read if their channels are
+//   equal, or if a channel or the luminance is asked for. No CMYK.
 // - NPY: an array of whole numbers or fractions in two dimensions. PFM, PGM, PPM and BMP without compression.
 // - Esri ASCII grid, with its no-data value and the size of its cells.
-// - Text with at least 8 numbers per line, of which neighbours are alike, or at least 32: a line is a row of
+// - Text with at least 32 numbers per line, or at least 8 if neighbouring numbers are alike: a line is a row of
 //   the picture, from the top. Other words are missing values.
 //
 // Errors: kind input for other or broken pictures and palettes, for a missing channel, and for more than 2^27

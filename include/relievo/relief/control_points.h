@@ -1,4 +1,4 @@
-// Control points (stage 7): a few thousand visible points that represent all visible points. They follow
+// Control points: a few thousand visible points that represent all visible points. They follow
 // section 4.2 of the paper, but are denser at the boundary; the source file src/paper/control_points.h has
 // the paper's.
 #pragma once

@@ -1,5 +1,6 @@
-// Normal space compression (stages 8 and 9): the share of each normal in the relief, by equations (5) to (7)
-// of the paper. The source file src/paper/compression.h has those of Method::paper.
+// Normal space compression: the share of each normal in the relief, by equations (5) to (7) of the paper, as
+// the methods other than Method::paper use them. The source file src/paper/compression.h has the weights of
+// Method::paper, which follow the paper to the letter.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace relievo {
 // heights to `height`. All baselines end with this call.
 Relief scaled_relief(std::vector<double> heights, const Surface& surface, double height);
 
-// Returns the depth of every point above the deepest one.
+// Returns the height of each point above the one that is deepest in the view.
 std::vector<double> depths(const Surface& surface);
 
 // Returns the slope of a normal, shortened to 76 degrees, the default of Shape::max_slope. Otherwise a few

@@ -67,10 +67,10 @@ struct LocalSurface {
   }
 };
 
-// 1 / (2 variance) of the Gaussians by which deviating neighbours lose weight.
+// Neighbours that deviate lose weight by Gaussians, exp(-factor * deviation^2). The factors are 1 / (2 variance).
 struct Tolerances {
-  float normals;  // tolerance for the deviation of normals
-  float heights;  // tolerance for the deviation of heights, in units of the radius
+  float normals;  // the factor for the deviation of normals
+  float heights;  // the factor for the deviation of heights, which is in units of the radius
 };
 
 // Returns exp(x) for x <= 0 with seven digits; 0 below -80.

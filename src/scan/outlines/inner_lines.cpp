@@ -179,7 +179,7 @@ class ChangeFinder {
     of_right.put_into(right);
   }
 
-  // Depths of one part, in rho.
+  // Weighted sums of the depths of one part, in rho, and of their squares, by four points at a time.
   struct FourDepths {
     Double4 sum = {}, squares = {};
 
