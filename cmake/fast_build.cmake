@@ -46,5 +46,9 @@ endfunction()
 # Applies relievo_precompile() and relievo_unite() to a target. The other arguments are those of relievo_precompile().
 function(relievo_fast_build target)
   relievo_precompile(${target} ${ARGN})
-  relievo_unite(${target} 16)
+  if(RELIEVO_WEB)
+    relievo_unite(${target} 8)  # another division of the sources into two targets, see small_rooms.cmake
+  else()
+    relievo_unite(${target} 16)
+  endif()
 endfunction()
