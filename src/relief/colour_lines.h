@@ -14,8 +14,8 @@ namespace relievo {
 // deviation of 2.5 % of the longer side. So only the edges of wide dark areas count as lines. The share is 1
 // where a point is darker by at least 12 % of the range of lightness, and 0 where by less than 4 %. Near the
 // boundary it fades like the paper's weight w_b of equation (7). The result is empty if the surface has no
-// colours. Source: Winnemoeller, Kyprianidis
-// and Olsen, XDoG, 2012; the second Gaussian is wider here, so that pupils are filled.
+// colours. Source: Winnemoeller, Kyprianidis and Olsen, XDoG, 2012; the second Gaussian is wider here, so that
+// pupils are filled.
 std::vector<float> dark_lines(const Surface& surface);
 
 // Lowers the heights z by the depth of the lines, but not below the base, 0. If the highest point is on a

@@ -40,7 +40,7 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   const auto product = [&](int i, int j) { return std::abs(v[i] * w[j]) + std::abs(v[j] * w[i]); };
   const double products =
       std::abs(u[0]) * product(1, 2) + std::abs(u[1]) * product(2, 0) + std::abs(u[2]) * product(0, 1);
-  // By Shewchuk (1997) the rounding errors of `value` are below 8e-16 of the sum of the products' magnitudes.
+  // The rounding errors of `value` are below 8e-16 of the sum of the products' magnitudes (Shewchuk, 1997).
   if (std::abs(value) > 1e-15 * products) return value > 0 ? 1 : -1;
   const auto row = [&](const Vec3& p) {
     std::array<BigInteger, 3> exact;

@@ -8,8 +8,8 @@ export const fileOf = ({ornaments}) => (isPath(ornaments) ? ornaments : "");
 
 // Returns the text that a project or the command line gives by options of its own.
 function ownText({text, font, ...options}) {
-  const [arc, size, height] = ["arc", "size", "height"].map((key) => options[`text-${key}`]);
-  return text ? [withoutEmpty({kind: "text", text, arc, size, height, font})] : [];
+  const own = Object.fromEntries(["arc", "size", "height", "inset"].map((key) => [key, options[`text-${key}`]]));
+  return text ? [withoutEmpty({kind: "text", text, ...own, font})] : [];
 }
 
 function parsed(source) {

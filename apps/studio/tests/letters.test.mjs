@@ -148,11 +148,12 @@ test("exports the bytes that make writes of the saved project, which has the let
 });
 
 test("shows the text that a project gives by options of its own, and changes it", async () => {
-  const project = {relievo: 1, input: {path: scan}, options: {text: "LIBERTAS", "text-size": 3, margin: 9}};
+  const project = {relievo: 1, input: {path: scan}, options: {text: "LIBERTAS", "text-size": 3,
+    "text-inset": 2, margin: 9}};
   await page.locator("#file").setInputFiles({name: "own.relievo", mimeType: "application/json",
     buffer: Buffer.from(JSON.stringify(project))});
   await button("“LIBERTAS”").click();
   await enter(text(), "LEX");
-  await hasList({kind: "text", text: "LEX", arc: "straight", size: 3});
+  await hasList({kind: "text", text: "LEX", arc: "straight", size: 3, inset: 2});
   await soon.equal(async () => (await engine.newestStep(scan)).options.text, "");
 });

@@ -8,8 +8,8 @@
 //
 // We had only the paper's summary, so the following is our interpretation. The base is the result of an
 // iterated bilateral filter of normals along the triangulation. The detail is the shortest rotation from the
-// base to the normal. Weights are fractions of angles. The heights solve equation (9)
-// of Nie et al., as for all methods.
+// base to the normal. Weights are fractions of angles. The heights solve equation (9) of Nie et al., as for all
+// methods.
 #pragma once
 
 #include <span>
