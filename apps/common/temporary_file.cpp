@@ -96,13 +96,16 @@ std::string folder_for(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
+// Stands in the names of temporary files, between the name of the file and two numbers.
+constexpr std::string_view before_numbers = ".relievo-";
+
 // Returns the beginning of the names of temporary files for that path; numbers follow it. It is cut to the
 // length that file systems allow.
 std::string stem_for(const std::string& path) {
   constexpr std::size_t most =
-      NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // two numbers of ten digits each follow
+      NAME_MAX - before_numbers.size() - 1 - 2 * 10;  // two numbers of ten digits each follow
   const std::filesystem::path whole = path;
-  return (whole.parent_path() / (whole.filename().string().substr(0, most) + ".relievo-")).string();
+  return (whole.parent_path() / (whole.filename().string().substr(0, most).append(before_numbers))).string();
 }
 
 std::string own_path(const Descriptor& file) {
@@ -126,12 +129,14 @@ void mark_unfinished(const Descriptor& file) {
   ::fsetxattr(file.number(), mark, "", 0, 0);
 }
 
-// Removes the unfinished files in `folder` whose names start with `begin` and which no process has open.
+// Removes the unfinished files in `folder` whose names start with `begin` and which no process has open. A file with
+// its final name stays: if its process was killed just after it had renamed the file, the file still has the mark.
 void remove_abandoned(const std::string& folder, const std::string& begin) {
   std::error_code failed;
   for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
        entry.increment(failed)) {
-    if (!entry->path().filename().string().starts_with(begin)) continue;
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(begin) || !name.contains(before_numbers)) continue;
     const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (file.is_open() && ::fgetxattr(file.number(), mark, nullptr, 0) >= 0 &&
         ::flock(file.number(), LOCK_EX | LOCK_NB) == 0)

@@ -111,15 +111,16 @@ TEST_F(Files, WhatKilledRunsLeftInAFolderIsRemovedWhateverItsPath) {
     write_all(path(name), "unfinished");
     return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
   };
-  if (!mark("a.stl.relievo-1-1") || !mark("b.stl.relievo-1-2") || !mark("open"))
+  if (!mark("a.stl.relievo-1-1") || !mark("b.stl.relievo-1-2") || !mark("open.relievo-1-4") || !mark("kept"))
     GTEST_SKIP() << "no attributes here";
   write_all(path("c.stl.relievo-1-3"), "of others");
-  const app::Descriptor open(::open(path("open").c_str(), O_RDWR));
+  const app::Descriptor open(::open(path("open.relievo-1-4").c_str(), O_RDWR));
   ASSERT_EQ(::flock(open.number(), LOCK_EX), 0);
   app::remove_abandoned_files(folder_);
   EXPECT_FALSE(fs::exists(path("a.stl.relievo-1-1")));
   EXPECT_FALSE(fs::exists(path("b.stl.relievo-1-2")));
-  EXPECT_TRUE(fs::exists(path("open"))) << "a process still writes it";
+  EXPECT_TRUE(fs::exists(path("open.relievo-1-4"))) << "a process still writes it";
+  EXPECT_TRUE(fs::exists(path("kept"))) << "its process was killed after it had renamed the file";
   EXPECT_TRUE(fs::exists(path("c.stl.relievo-1-3")));
   app::remove_abandoned_files(path("no-such-folder"));
 }
