@@ -54,7 +54,7 @@ TEST(InnerLines, FollowAValleyAndARoof) {
     EXPECT_GT(walls.near, .95) << slope;
     EXPECT_LT(walls.farthest, 2) << slope;
     EXPECT_GT(walls.length, .9 * length) << slope;
-    EXPECT_GT(static_cast<double>(walls.count), .9 * 2 * length / .375) << slope;
+    EXPECT_GT(static_cast<double>(walls.count), .9 * 2 * length / .625) << slope;
   }
 }
 

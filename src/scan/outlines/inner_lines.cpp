@@ -16,6 +16,7 @@ namespace {
 
 // Lengths in rho.
 constexpr double change_radius = 3.0, stride = .75, line_window = 3, shortest = 8;
+constexpr double least_step = .3;  // mean step, below which a line is a crease
 // Lines nearer to each other or to outlines would leave too few points between them.
 constexpr double apart = 2;
 constexpr std::size_t least_points = 4;  // on each side of a line
@@ -263,7 +264,7 @@ class LineFinder {
       Line line = line_through(place, direction);
       if (static_cast<double>(line.places.size()) * stride < shortest) continue;
       if (line.steps < 0) std::ranges::reverse(line.places);
-      add(line.places);
+      add(line);
     }
   }
 
@@ -348,10 +349,12 @@ class LineFinder {
     return false;
   }
 
-  void add(const std::vector<Vec2>& places) {
+  void add(const Line& line) {
     std::vector<CurveNode> nodes;
-    for (const Vec2& place : places) nodes.push_back({place, 1}), lines_.add(place, 0);
-    OutlineCurve outline{fair_curve(nodes, false, {stride * rho_, line_window * rho_}), false, true};
+    for (const Vec2& place : line.places) nodes.push_back({place, 1}), lines_.add(place, 0);
+    const bool is_crease = std::abs(line.steps) < least_step * static_cast<double>(line.places.size());
+    const FairCurveOptions options{(is_crease ? crease_spacing : stride) * rho_, line_window * rho_};
+    OutlineCurve outline{fair_curve(nodes, false, options), false, true, is_crease};
     if (!outline.curve.points.empty()) outlines_.push_back(std::move(outline));
   }
 

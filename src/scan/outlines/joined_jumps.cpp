@@ -28,7 +28,7 @@ class JumpJoiner {
       if (next_[from] == no_index && previous_[to] == no_index && last_of(to) != from)
         next_[from] = to, previous_[to] = from;
     for (Index c = 0; c < outlines_.size(); ++c)
-      if (next_[c] != no_index && previous_[c] == no_index) outlines_[c].curve = joined(c);
+      if (next_[c] != no_index && previous_[c] == no_index) outlines_[c] = joined(c);
     std::vector<OutlineCurve> kept;
     for (Index c = 0; c < outlines_.size(); ++c)
       if (previous_[c] == no_index) kept.push_back(std::move(outlines_[c]));
@@ -73,11 +73,14 @@ class JumpJoiner {
   }
 
   // Returns the fair curve through all points of a jump and of those that follow it.
-  FairCurve joined(Index first) const {
+  OutlineCurve joined(Index first) const {
     std::vector<CurveNode> nodes;
-    for (Index c = first; c != no_index; c = next_[c])
+    bool is_crease = true;
+    for (Index c = first; c != no_index; c = next_[c]) {
+      is_crease &= outlines_[c].is_crease;
       for (const Vec2& place : outlines_[c].curve.points) nodes.push_back({place, 1});
-    return fair_curve(nodes, false, jump_curve_options(rho_));
+    }
+    return {fair_curve(nodes, false, jump_curve_options(rho_, is_crease)), false, true, is_crease};
   }
 
   std::vector<OutlineCurve>& outlines_;

@@ -268,8 +268,8 @@ class JumpLines {
 
 }  // namespace
 
-FairCurveOptions jump_curve_options(double rho) {
-  return {point_spacing * rho, jump_window * rho, fair_window * rho};
+FairCurveOptions jump_curve_options(double rho, bool is_crease) {
+  return {(is_crease ? crease_spacing : point_spacing) * rho, jump_window * rho, fair_window * rho};
 }
 
 bool is_occlusion(const Surface& surface, Index a, Index b) {

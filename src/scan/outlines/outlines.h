@@ -56,10 +56,15 @@ struct OutlineCurve {
   FairCurve curve;
   bool is_closed = false;
   bool is_jump = false;
+  bool is_crease = false;  // a jump without a step: the surface only bends there
 };
 
-// Returns how smooth the curves of jumps are.
-FairCurveOptions jump_curve_options(double rho);
+// Returns how smooth the curves of jumps are. Points of creases are as far apart as those of scans, because nothing
+// is torn there.
+FairCurveOptions jump_curve_options(double rho, bool is_crease = false);
+
+// The distance between the points of a crease, in rho.
+inline constexpr double crease_spacing = 1.25;
 
 // The points of a surface in the view plane.
 struct PlanePoints {
