@@ -30,7 +30,7 @@ extern "C" void* malloc(std::size_t bytes) {
 namespace relievo {
 namespace {
 
-std::string message_of(const std::string& bytes) {
+std::string depth_message_of(const std::string& bytes) {
   return relievo::message_of(read_depth_image(bytes_of(bytes), "d"));
 }
 
@@ -53,7 +53,7 @@ TEST(ReadDepthImage, ReadsPngOfAnyDepth) {
   EXPECT_EQ(read_depth_image(write_png(colour), "d")->values.pixels, eight.values.pixels);
   colour.pixels[4] = 200;
   EXPECT_EQ(
-      message_of(as_string(write_png(colour))),
+      depth_message_of(as_string(write_png(colour))),
       "d, column 2, row 1: expected a grey picture of depths, found colours; the option channel takes one "
       "of them, and depth-values luminance their brightness");
 }
@@ -106,15 +106,15 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
        {good.substr(0, 20), with(5, 0), with(12, 'J'), with(16, 0x80), with(19, 0), with(23, 0), with(24, 5),
         with(25, 9), with(26, 1), with(28, 7), with(29, 0), good.substr(0, good.size() - 20),
         good.substr(0, good.size() - 12)}) {
-    const std::string message = message_of(text);
+    const std::string message = depth_message_of(text);
     EXPECT_TRUE(message.starts_with("d, byte ")) << message;
     EXPECT_TRUE(message.contains("expected the data of a PNG picture, found ")) << message;
   }
-  EXPECT_EQ(message_of("GIF89a"),
+  EXPECT_EQ(depth_message_of("GIF89a"),
             "d: expected a picture of depths (PNG, TIFF, JPEG, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
             "heights), found "
             "a GIF picture; save it as PNG");
-  EXPECT_EQ(message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),
+  EXPECT_EQ(depth_message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }
 
@@ -135,12 +135,12 @@ TEST(ReadDepthImage, AllocatesNothingForTextsInPng) {
   for (const char* type : {"tEXt", "zTXt", "iTXt", "sPLT", "sCAL", "pCAL", "iCCP", "quIt"}) {
     const std::string huge = std::string(good).insert(behind_header, png_chunk(type, 7'000'000, "a"));
     largest_allocation = 0;
-    EXPECT_NE(message_of(huge), "no error") << type;
+    EXPECT_NE(depth_message_of(huge), "no error") << type;
     EXPECT_GT(largest_allocation, 0U);
     EXPECT_LT(largest_allocation, 1'000'000U) << type;
     const std::string text =
         std::string(good).insert(behind_header, png_chunk(type, 5, std::string("a\0bcd", 5)));
-    EXPECT_EQ(message_of(text), "no error") << type;
+    EXPECT_EQ(depth_message_of(text), "no error") << type;
   }
 }
 

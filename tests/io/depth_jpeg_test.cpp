@@ -12,16 +12,17 @@
 namespace relievo {
 namespace {
 
-constexpr int columns = 3, rows = 2;
+constexpr int squares_across = 3, squares_down = 2;
 
 // Returns different levels, among them the smallest and the largest.
 int level(int column, int row) {
-  return 51 * (column + columns * row);
+  return 51 * (column + squares_across * row);
 }
 
 JpegSquares grey_squares() {
-  JpegSquares picture{columns, rows, 1, {}};
-  for (int i = 0; i < columns * rows; ++i) picture.squares.push_back({level(i % columns, i / columns) - 128});
+  JpegSquares picture{squares_across, squares_down, 1, {}};
+  for (int i = 0; i < squares_across * squares_down; ++i)
+    picture.squares.push_back({level(i % squares_across, i / squares_across) - 128});
   return picture;
 }
 
@@ -66,8 +67,8 @@ std::string refusal(const std::string& file) {
 }
 
 void expect_levels(const DepthImage& image) {
-  ASSERT_EQ(image.values.width, 8 * columns);
-  ASSERT_EQ(image.values.height, 8 * rows);
+  ASSERT_EQ(image.values.width, 8 * squares_across);
+  ASSERT_EQ(image.values.height, 8 * squares_down);
   for (int y = 0; y < image.values.height; ++y)
     for (int x = 0; x < image.values.width; ++x) ASSERT_EQ(image.values.at(x, y), level(x / 8, y / 8));
 }
@@ -174,12 +175,12 @@ TEST(JpegHeader, IsFoundBehindOtherSegments) {
                      jpeg::segment(0xFE, std::string(70, '\xFF'));
   const std::string file = jpeg_of(picture);
   const io::JpegHeader header = io::find_jpeg_header(file);
-  EXPECT_EQ(header.width, 8U * columns);
-  EXPECT_EQ(header.height, 8U * rows);
+  EXPECT_EQ(header.width, 8U * squares_across);
+  EXPECT_EQ(header.height, 8U * squares_down);
   EXPECT_EQ(header.channels, 3U);
   EXPECT_EQ(header.orientation, 3);
   const ScanSize size = scan_size(bytes_of(file), "a.jpg", file.size());
-  EXPECT_EQ(size.pixels, 64U * columns * rows);
+  EXPECT_EQ(size.pixels, 64U * squares_across * squares_down);
   EXPECT_TRUE(size.is_stated);
   EXPECT_EQ(io::find_jpeg_header(file.substr(0, 40)).width, 0U);
 }

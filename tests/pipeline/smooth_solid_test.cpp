@@ -70,12 +70,12 @@ MadeRelief made_of(const Cloud& cloud, ReliefOptions options = {}) {
 }
 
 // The number of points of a scan, and bounds of the angles between the facets of its solid.
-struct ScanSize {
+struct FacetBounds {
   std::size_t points;
   double most_deg, rare_deg;  // bounds that hold for 99 % and 99.9 % of the angles
 };
 
-class SmoothSolid : public testing::TestWithParam<ScanSize> {};
+class SmoothSolid : public testing::TestWithParam<FacetBounds> {};
 
 // At the small button's edge, the normal turns by 14 degrees from one point to the next if there are 20,000
 // points, and by 3 degrees if there are 250,000. The step at the jump has the requested height. That differs
@@ -103,10 +103,10 @@ TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,
-                         testing::Values(ScanSize{20000, 5, 9}, ScanSize{100000, 2.6, 6},
-                                         ScanSize{250000, 2.8, 11}));
+                         testing::Values(FacetBounds{20000, 5, 9}, FacetBounds{100000, 2.6, 6},
+                                         FacetBounds{250000, 2.8, 11}));
 // This test takes long, so it runs only with --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2.4, 20}));
+INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(FacetBounds{1000000, 2.4, 20}));
 
 }  // namespace
 }  // namespace relievo

@@ -16,8 +16,8 @@
 namespace relievo {
 namespace {
 
-constexpr const char* shapes[] = {"plane",           "fold", "wave:direction=30", "cylinder", "dome",
-                                  "cylinder:hollow", "image"};
+constexpr const char* base_shapes[] = {"plane",           "fold", "wave:direction=30", "cylinder", "dome",
+                                       "cylinder:hollow", "image"};
 
 double bump(double x, double y) {
   const double to_middle = std::hypot(x - 15, y - 10);
@@ -101,7 +101,7 @@ class Heights {
 TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
   for (const HeightFieldMesh& front : {scattered_hill()})
     for (const Outline outline : {Outline::rectangle, Outline::circle})
-      for (const char* shape : shapes) {
+      for (const char* shape : base_shapes) {
         const PlateOptions options = plate_on(shape, outline, 1);
         PlateOptions planar = options;
         planar.base = {};
@@ -125,7 +125,7 @@ TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
 }
 
 TEST(PlateBase, KeepsTheLeastThicknessOnAFlatBack) {
-  for (const char* shape : shapes) {
+  for (const char* shape : base_shapes) {
     const Solid solid = test::plate_of(hill(), plate_on(shape, Outline::circle));
     double lowest = 1e9;
     each_place(solid, [&](const Vec3& p) { lowest = std::min(lowest, p.z()); });
@@ -173,7 +173,7 @@ TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
 TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
   const HeightFieldMesh front = hill(), scattered = scattered_hill();
   for (const auto& [outline_name, outline] : outline_choices)
-    for (const char* shape : shapes)
+    for (const char* shape : base_shapes)
       for (const double rim : {0., 1.5}) {
         if (outline == Outline::none && rim > 0) continue;
         const std::string name = std::string(outline_name) + " " + shape;
@@ -189,7 +189,7 @@ TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
 
 TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
   const HeightFieldMesh front = scattered_hill();
-  for (const char* shape : shapes) {
+  for (const char* shape : base_shapes) {
     if (std::string_view(shape) == "plane") continue;
     for (const double rim : {0., 1.5}) {
       PlateOptions options = plate_on(shape, Outline::circle, rim);

@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-const Tool ball{Tool::Kind::ball, 2};
+const Tool ball_end{Tool::Kind::ball, 2};
 
 // Returns a block of 20 x 10 mm, 3 mm high, with walls as steep as the grid allows, and with a pit at its
 // centre.
@@ -22,7 +22,7 @@ HeightFieldMesh block() {
 }
 
 PlateOptions with_tool(PlateOptions options = {}) {
-  options.tool = ball;
+  options.tool = ball_end;
   return options;
 }
 
@@ -41,7 +41,7 @@ TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
     EXPECT_EQ(check_solid(after), "");
     EXPECT_EQ(test::self_intersections(after), "");
     EXPECT_EQ(highest(after), highest(before));
-    const ToolReach was = measure_reach(before, ball), is = measure_reach(after, ball);
+    const ToolReach was = measure_reach(before, ball_end), is = measure_reach(after, ball_end);
     EXPECT_GT(was.largest_residual_mm, .6);
     EXPECT_GT(is.reached_share, .995);
     EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // a wall of slope 12 rises by this per sample
@@ -80,7 +80,7 @@ TEST(ReachableSurface, KeepsLevelGroundLevel) {
 TEST(ReachableSurface, OfWhatIsReachedIsTheSame) {
   const HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
   const Solid solid = test::plate_of(front, with_tool());
-  EXPECT_EQ(measure_reach(solid, ball).largest_residual_mm, 0);
+  EXPECT_EQ(measure_reach(solid, ball_end).largest_residual_mm, 0);
   EXPECT_NEAR(volume_mm3(solid), volume_mm3(test::plate_of(front, {})), 1e-9);
 }
 
@@ -92,8 +92,8 @@ TEST(ReachableSurface, WithoutGroundIsLifted) {
   EXPECT_EQ(check_solid(after), "");
   ASSERT_EQ(after.points.size(), before.points.size());
   for (std::size_t i = 0; i < before.points.size(); ++i) ASSERT_GE(after.points[i].z(), before.points[i].z());
-  EXPECT_LT(measure_reach(after, ball).largest_residual_mm,
-            .5 * measure_reach(before, ball).largest_residual_mm);
+  EXPECT_LT(measure_reach(after, ball_end).largest_residual_mm,
+            .5 * measure_reach(before, ball_end).largest_residual_mm);
 }
 
 }  // namespace

@@ -31,10 +31,6 @@ std::vector<Vec3> ellipse(double a, double b, double z = 0) {
   return corners;
 }
 
-Vec3 place_of(const Surface& surface, Index i) {
-  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
-}
-
 // Returns for each point of the surface whether it is in the area, and expects that no point is listed twice.
 std::vector<std::uint8_t> members(const Surface& surface, const StrokePoints& area) {
   std::vector<std::uint8_t> is_in(surface.points.size(), 0);
@@ -52,11 +48,11 @@ TEST(Lasso, HasWhatItEnclosesAndMeasuresFromItsEdge) {
   const StrokePoints area = points_of(surface, stroke);
   const std::vector<std::uint8_t> is_in = members(surface, area);
   for (Index i = 0; i < is_in.size(); ++i) {
-    const Vec3 p = place_of(surface, i);
+    const Vec3 p = test::place_of(surface, i);
     EXPECT_EQ(is_in[i] != 0, std::abs(p.x()) < .5 && std::abs(p.y()) < .3) << p.transpose();
   }
   for (std::size_t k = 0; k < area.points.size(); ++k) {
-    const Vec3 p = place_of(surface, area.points[k]);
+    const Vec3 p = test::place_of(surface, area.points[k]);
     const double inside = std::min(.5 - std::abs(p.x()), .3 - std::abs(p.y()));
     EXPECT_NEAR(area.distances[k], std::max(0., .1 - inside), 1e-9);
   }
@@ -74,7 +70,7 @@ TEST(Lasso, BelongsToTheModelInEveryView) {
     std::size_t count = 0;
     for (Index i = 0; i < is_in.size(); ++i) {
       if (surface.boundary.is_boundary[i]) continue;
-      const Vec3 p = place_of(surface, i);
+      const Vec3 p = test::place_of(surface, i);
       const double where = std::hypot(p.x() / .5, p.y() / .3);
       if (std::abs(where - 1) < .02) continue;
       EXPECT_EQ(is_in[i] != 0, where < 1 && p.z() > 0) << p.transpose();
@@ -91,7 +87,7 @@ TEST(Lasso, LeavesOutWhatIsFarBehind) {
   const Stroke stroke = lasso_of({{-.2, -.2, .8}, {.2, -.2, .8}, {.2, .2, .8}, {-.2, .2, .8}}, Vec3::UnitZ());
   const StrokePoints area = points_of(surface, stroke);
   ASSERT_GT(area.points.size(), 300U);
-  for (const Index i : area.points) EXPECT_GT(place_of(surface, i).z(), .5);
+  for (const Index i : area.points) EXPECT_GT(test::place_of(surface, i).z(), .5);
 }
 
 // Two planes meet in a ridge along x = 0.
@@ -110,7 +106,7 @@ TEST(Region, GrowsUpToACreaseAndNoFurther) {
   const std::vector<std::uint8_t> is_in = members(surface, points_of(surface, region_at({-.5, .2, -.3})));
   std::size_t missed = 0, far = 0;
   for (Index i = 0; i < is_in.size(); ++i) {
-    const Vec3 p = place_of(surface, i);
+    const Vec3 p = test::place_of(surface, i);
     EXPECT_TRUE(p.x() < 0 || !is_in[i]) << p.transpose();
     const bool is_far_from_crease = p.x() < -.06 && p.cwiseAbs().head<2>().maxCoeff() < .95;
     far += is_far_from_crease;
@@ -124,7 +120,7 @@ TEST(Region, CrossesACreaseThatIsWithinTheTolerance) {
   const Surface surface = roof(.6);
   const StrokePoints area = points_of(surface, region_at({-.5, .2, -.3}, 180));
   std::size_t right = 0;
-  for (const Index i : area.points) right += place_of(surface, i).x() > .1;
+  for (const Index i : area.points) right += test::place_of(surface, i).x() > .1;
   EXPECT_GT(right, 10000U);
 }
 
@@ -132,9 +128,9 @@ TEST(Region, FadesFromItsEdge) {
   const Surface surface = roof(.6);
   const StrokePoints area = points_of(surface, region_at({-.5, .2, -.3}));
   double edge = -1;  // the largest x of the region
-  for (const Index i : area.points) edge = std::max(edge, place_of(surface, i).x());
+  for (const Index i : area.points) edge = std::max(edge, test::place_of(surface, i).x());
   for (std::size_t k = 0; k < area.points.size(); ++k) {
-    const Vec3 p = place_of(surface, area.points[k]);
+    const Vec3 p = test::place_of(surface, area.points[k]);
     if (std::abs(p.y()) > .7 || p.x() < -.7) continue;
     const double along = (edge - p.x()) * std::hypot(1, .6);
     EXPECT_NEAR(area.distances[k], std::clamp(.1 - along, 0., .1), .05);
@@ -150,7 +146,7 @@ TEST(Region, DoesNotCrossADepthJump) {
       [](double, double) { return Vec2(0, 0); }));
   const StrokePoints area = points_of(surface, region_at({-.5, 0, .25}, 180));
   ASSERT_GT(area.points.size(), 10000U);
-  for (const Index i : area.points) EXPECT_LT(place_of(surface, i).x(), .02);
+  for (const Index i : area.points) EXPECT_LT(test::place_of(surface, i).x(), .02);
 }
 
 TEST(Region, IsEmptyWhereItsPointIsHidden) {

@@ -36,11 +36,6 @@ double profile(double distance, double radius) {
   return x < 1 ? (1 - x * x) * (1 - x * x) : 0;
 }
 
-// Returns the position of a point of the surface in the scan's coordinates.
-Vec3 place_of(const Surface& surface, Index i) {
-  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
-}
-
 TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   Stroke stroke = dab(Brush::raise, {-.4, .1, 0}, .25);
@@ -49,7 +44,7 @@ TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
   std::vector<float> weights(surface.points.size(), 0);
   for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
   for (Index i = 0; i < weights.size(); ++i) {
-    const Vec3 p = place_of(surface, i);
+    const Vec3 p = test::place_of(surface, i);
     const double beyond = std::max(0.0, std::abs(p.x()) - .4);
     EXPECT_NEAR(weights[i], profile(std::hypot(beyond, p.y() - .1), .25), 1e-6) << p.transpose();
   }
@@ -71,7 +66,7 @@ TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
     return least;
   };
   for (Index i = 0; i < weights.size(); i += 37)
-    EXPECT_NEAR(weights[i], profile(nearest(place_of(surface, i)), .07), .003);
+    EXPECT_NEAR(weights[i], profile(nearest(test::place_of(surface, i)), .07), .003);
 }
 
 TEST(StrokeMask, IsFullInsideAHardStroke) {
@@ -80,7 +75,7 @@ TEST(StrokeMask, IsFullInsideAHardStroke) {
   stroke.softness = .25;
   const StrokeMask mask = stroke_mask(surface, stroke);
   for (std::size_t k = 0; k < mask.points.size(); ++k)
-    if (place_of(surface, mask.points[k]).norm() < .29) {
+    if (test::place_of(surface, mask.points[k]).norm() < .29) {
       EXPECT_FLOAT_EQ(mask.weights[k], 1);
     }
   EXPECT_GT(mask.points.size(), 20000 * std::numbers::pi * .16 / 4 * .95);
@@ -99,7 +94,7 @@ TEST(StrokeMask, BelongsToTheModelInEveryView) {
     const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, at));
     ASSERT_GT(mask.points.size(), 400U);
     for (std::size_t k = 0; k < mask.points.size(); ++k)
-      EXPECT_NEAR(mask.weights[k], profile((place_of(surface, mask.points[k]) - at).norm(), .3), .01);
+      EXPECT_NEAR(mask.weights[k], profile((test::place_of(surface, mask.points[k]) - at).norm(), .3), .01);
   }
 }
 
@@ -117,7 +112,7 @@ TEST(StrokeMask, DoesNotReachAcrossADepthJump) {
   const Surface surface = surface_of(cloud);
   const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, {-.1, 0, .25}, .5));
   ASSERT_GT(mask.points.size(), 1000U);
-  for (const Index i : mask.points) EXPECT_LT(place_of(surface, i).x(), .02);
+  for (const Index i : mask.points) EXPECT_LT(test::place_of(surface, i).x(), .02);
 }
 
 TEST(StrokeFields, RaiseAndSinkByAShareOfTheHeight) {
@@ -126,7 +121,7 @@ TEST(StrokeFields, RaiseAndSinkByAShareOfTheHeight) {
   const auto changed = applied(
       surface, {dab(Brush::raise, {.3, .3, 0}, .2, .1), dab(Brush::sink, {-.4, -.4, 0}, .3, .05)}, z, 2);
   for (Index i = 0; i < z.size(); ++i) {
-    const Vec3 p = place_of(surface, i);
+    const Vec3 p = test::place_of(surface, i);
     EXPECT_NEAR(changed[i],
                 .5 + .2 * profile((p - Vec3(.3, .3, 0)).norm(), .2) -
                     .1 * profile((p - Vec3(-.4, -.4, 0)).norm(), .3),
@@ -147,7 +142,7 @@ TEST(StrokeFields, KeepEveryHeightOutside) {
     fields.apply(.2, uncorrected, changed);
     double most = 0;
     for (Index i = 0; i < z.size(); ++i) {
-      const bool is_inside = (place_of(surface, i) - at).norm() < .3;
+      const bool is_inside = (test::place_of(surface, i) - at).norm() < .3;
       EXPECT_TRUE(is_inside || changed[i] == z[i]) << word;
       most = std::max(most, std::abs(changed[i] - z[i]));
     }
@@ -163,7 +158,7 @@ TEST(StrokeFields, LevelToTheMean) {
   stroke.softness = .05;
   const auto changed = applied(surface, {stroke}, z);
   for (Index i = 0; i < z.size(); ++i) {
-    const double distance = (place_of(surface, i) - Vec3(.2, 0, 0)).norm();
+    const double distance = (test::place_of(surface, i) - Vec3(.2, 0, 0)).norm();
     if (distance < .37) {
       EXPECT_NEAR(changed[i], 1.06, .002);
     }

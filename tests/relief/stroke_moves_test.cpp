@@ -20,11 +20,6 @@ Stroke dab(const Vec3& at, double radius, double amount = 1) {
   return {.name = {}, .brush = Brush::protect, .amount = amount, .radius = radius, .points = {at}};
 }
 
-// Returns the position of a point of the surface in the scan's coordinates.
-Vec3 place_of(const Surface& surface, Index i) {
-  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
-}
-
 // Returns heights with waves in which each brush changes something.
 std::vector<double> waves(const Surface& surface) {
   std::vector<double> z;
@@ -64,7 +59,7 @@ TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
   const std::vector<double> z = protect(surface, stroke, heights, 9);
   std::vector<Index> inside;
   for (Index i = 0; i < z.size(); ++i)
-    if ((place_of(surface, i) - Vec3(.1, .2, 0)).norm() < .29) inside.push_back(i);
+    if ((test::place_of(surface, i) - Vec3(.1, .2, 0)).norm() < .29) inside.push_back(i);
   Eigen::MatrixXd terms(inside.size(), 3);
   Eigen::VectorXd moved(inside.size());
   for (std::size_t k = 0; k < inside.size(); ++k) {

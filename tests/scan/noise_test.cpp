@@ -42,22 +42,22 @@ double mean_error_deg(const Cloud& cloud, const std::vector<Vec3f>& truth) {
   return to_degrees(sum / static_cast<double>(truth.size()));
 }
 
-double measured(const Cloud& cloud) {
+double noise_of(const Cloud& cloud) {
   return measure_noise(cloud, measure_spacing(cloud));
 }
 
 Cloud without_noise(const NoisyCloud& noisy) {
   Cloud cloud = noisy.cloud;
-  remove_noise(cloud, measure_spacing(cloud), measured(cloud));
+  remove_noise(cloud, measure_spacing(cloud), noise_of(cloud));
   return cloud;
 }
 
 TEST(MeasureNoise, IsZeroOnCleanShapes) {
   for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)}) {
-    EXPECT_EQ(measured(clean), 0);
+    EXPECT_EQ(noise_of(clean), 0);
     Cloud estimated = clean;
     estimate_normals(estimated);
-    EXPECT_EQ(measured(estimated), 0);
+    EXPECT_EQ(noise_of(estimated), 0);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(MeasureNoise, FindsTheDeviationThatWasAdded) {
     for (const double noise : {.15, .3, .5}) {
       const NoisyCloud noisy = with_noise(clean, noise);
       const double added = noise * measure_spacing(clean).rho / measure_spacing(noisy.cloud).rho;
-      EXPECT_NEAR(measured(noisy.cloud), added, .2 * added) << noise;
+      EXPECT_NEAR(noise_of(noisy.cloud), added, .2 * added) << noise;
     }
 }
 
@@ -76,13 +76,13 @@ TEST(MeasureNoise, DoesNotDependOnScaleAndPlace) {
   const Cloud noisy = with_noise(test::sphere(5000, 1), .3).cloud;
   Cloud moved = noisy;
   for (Vec3& p : moved.points) p = 1000 * p + Vec3(1e4, -2e4, 500);
-  EXPECT_NEAR(measured(moved), measured(noisy), 1e-6);
+  EXPECT_NEAR(noise_of(moved), noise_of(noisy), 1e-6);
 }
 
 TEST(MeasureNoise, IsZeroForFewPointsAndWithoutNormals) {
-  EXPECT_EQ(measured({}), 0);
-  EXPECT_EQ(measured(with_noise(test::sphere(80, 1), .5).cloud), 0);
-  EXPECT_EQ(measured(test::without_normals(with_noise(test::sphere(2000, 1), .5).cloud)), 0);
+  EXPECT_EQ(noise_of({}), 0);
+  EXPECT_EQ(noise_of(with_noise(test::sphere(80, 1), .5).cloud), 0);
+  EXPECT_EQ(noise_of(test::without_normals(with_noise(test::sphere(2000, 1), .5).cloud)), 0);
 }
 
 TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {

@@ -153,7 +153,7 @@ TEST(Outlines, OfASliverHaveNoGap) {
 }
 
 // Returns the width of the bounding box of the triangles inside the boundary.
-double width(const Surface& surface) {
+double width_of(const Surface& surface) {
   Box box;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
     if (surface.boundary.is_inside[t])
@@ -168,11 +168,11 @@ TEST(Outlines, LeaveOutAllButTheLargestPieces) {
                                    test::moved(test::sphere(3000, .3), {1.6, 0, 0}));
   const double rho = surface_of(button).rho;
   View view;
-  EXPECT_NEAR(width(surface_of(cloud)), 2.2 + 1.9, 2 * rho);
+  EXPECT_NEAR(width_of(surface_of(cloud)), 2.2 + 1.9, 2 * rho);
   for (const auto& [most, expected] : {std::pair(1, 2.3), {2, 2.2 + 1.15}, {3, 2.2 + 1.9}, {9, 2.2 + 1.9}}) {
     view.most_pieces = most;
     const Surface surface = surface_of(cloud, view);
-    EXPECT_NEAR(width(surface), expected, 2 * rho) << most;
+    EXPECT_NEAR(width_of(surface), expected, 2 * rho) << most;
     EXPECT_EQ(surface.crumbs, most < 3 ? 3U - static_cast<unsigned>(most) : 0U);
   }
 }
@@ -187,8 +187,8 @@ TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
   const Surface without = surface_of(cloud), with = surface_of(cloud, view);
   EXPECT_EQ(without.crumbs, 1U);
   EXPECT_EQ(with.crumbs, 0U);
-  EXPECT_NEAR(width(without), 2.3, rho);
-  EXPECT_NEAR(width(with), 1.15 + 1.63, rho);
+  EXPECT_NEAR(width_of(without), 2.3, rho);
+  EXPECT_NEAR(width_of(with), 1.15 + 1.63, rho);
 }
 
 TEST(Outlines, OfACroppedScanAreItsCut) {

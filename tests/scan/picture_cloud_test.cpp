@@ -9,11 +9,11 @@
 namespace relievo {
 namespace {
 
-constexpr int width = 12, height = 8;
+constexpr int columns = 12, rows = 8;
 
 DepthImage ramp() {
-  DepthImage image{filled_image(width, height, 0.F), 1, "test"};
-  for (int i = 0; i < width * height; ++i)
+  DepthImage image{filled_image(columns, rows, 0.F), 1, "test"};
+  for (int i = 0; i < columns * rows; ++i)
     image.values[static_cast<std::size_t>(i)] = static_cast<float>(100 + i);
   return image;
 }
@@ -21,14 +21,14 @@ DepthImage ramp() {
 TEST(PictureCloud, HasAFlatPointPerPixelAndAFrame) {
   const DepthCloud made = value_of(picture_cloud(ramp(), {}));
   const Cloud& cloud = made.cloud;
-  ASSERT_EQ(cloud.size(), std::size_t{width * height + 2 * (width + height) + 4});
+  ASSERT_EQ(cloud.size(), std::size_t{columns * rows + 2 * (columns + rows) + 4});
   EXPECT_TRUE(cloud.is_height_field);
   const Box box = bounds(cloud);
-  EXPECT_EQ(box.size(), Vec3(width, height, 0));
-  for (std::size_t i = 0; i < std::size_t{width * height}; ++i) {
-    const int c = static_cast<int>(i) % width, r = static_cast<int>(i) / width;
-    EXPECT_EQ(cloud.points[i], Vec3(c + .5 - width / 2., height / 2. - r - .5, 0));
-    EXPECT_EQ(cloud.colours[i][1], std::lround(255 * static_cast<double>(i) / (width * height - 1)));
+  EXPECT_EQ(box.size(), Vec3(columns, rows, 0));
+  for (std::size_t i = 0; i < std::size_t{columns * rows}; ++i) {
+    const int c = static_cast<int>(i) % columns, r = static_cast<int>(i) / columns;
+    EXPECT_EQ(cloud.points[i], Vec3(c + .5 - columns / 2., rows / 2. - r - .5, 0));
+    EXPECT_EQ(cloud.colours[i][1], std::lround(255 * static_cast<double>(i) / (columns * rows - 1)));
     EXPECT_EQ(cloud.normals[i], Vec3f(0, 0, 1));
   }
 }
@@ -45,7 +45,7 @@ TEST(PictureCloud, MissingPixelsAreWhite) {
 TEST(PictureCloud, IsStretchedByTheSizeOfPixels) {
   DepthImage image = ramp();
   image.pixel_size = Vec2(1, 2);
-  EXPECT_EQ(bounds(value_of(picture_cloud(image, {})).cloud).size(), Vec3(width / 2., height, 0));
+  EXPECT_EQ(bounds(value_of(picture_cloud(image, {})).cloud).size(), Vec3(columns / 2., rows, 0));
 }
 
 TEST(PictureCloud, IsReducedToMeans) {

@@ -9,7 +9,7 @@
 namespace relievo::solver {
 namespace {
 
-constexpr std::size_t width = 23, height = 17, nodes = width * height;
+constexpr std::size_t columns = 23, rows = 17, nodes = columns * rows;
 
 std::vector<float> random_field(unsigned seed, float scale) {
   std::mt19937 random(seed);
@@ -23,7 +23,7 @@ std::vector<float> random_field(unsigned seed, float scale) {
 std::vector<float> depths() {
   std::vector<float> depth = random_field(1, .3F);
   for (std::size_t n = 0; n < nodes; ++n)
-    if (n % width > width / 2) depth[n] += 2;
+    if (n % columns > columns / 2) depth[n] += 2;
   return depth;
 }
 
@@ -31,7 +31,7 @@ std::vector<float> depths() {
 std::vector<float> shares() {
   std::vector<float> share(nodes);
   for (std::size_t n = 0; n < nodes; ++n)
-    share[n] = n % width < 3 && n / width < 4 ? 0 : .3F + .03F * static_cast<float>(n % width);
+    share[n] = n % columns < 3 && n / columns < 4 ? 0 : .3F + .03F * static_cast<float>(n % columns);
   return share;
 }
 
@@ -48,10 +48,10 @@ double energy(const std::vector<float>& depth, const std::vector<float>& heights
     for (const auto& [x, y] :
          {std::pair(1., 0.), {0., 1.}, {std::sqrt(.5), std::sqrt(.5)}, {std::sqrt(.5), -std::sqrt(.5)}})
       for (int i = 0; i < static_cast<int>(nodes); ++i) {
-        const int at_x = i % int{width} + static_cast<int>(std::lround(distance * x)),
-                  at_y = i / int{width} + static_cast<int>(std::lround(distance * y));
-        if (at_x < 0 || at_y < 0 || at_x >= int{width} || at_y >= int{height}) continue;
-        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(at_x + at_y * int{width});
+        const int at_x = i % int{columns} + static_cast<int>(std::lround(distance * x)),
+                  at_y = i / int{columns} + static_cast<int>(std::lround(distance * y));
+        if (at_x < 0 || at_y < 0 || at_x >= int{columns} || at_y >= int{rows}) continue;
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(at_x + at_y * int{columns});
         const double nearer = static_cast<double>(depth[a]) - static_cast<double>(depth[b]),
                      share = static_cast<double>(share_of[a] * share_of[b]);
         if (share == 0) continue;
@@ -87,7 +87,7 @@ class OrderPullOfAField : public testing::TestWithParam<unsigned> {
  protected:
   const std::vector<float> depth = depths(), share = shares(), b = random_field(GetParam(), .2F),
                            z = random_field(9, .3F);
-  const OrderPull pull{width, {depth, share, saturation, {distances.begin(), distances.end()}}};
+  const OrderPull pull{columns, {depth, share, saturation, {distances.begin(), distances.end()}}};
   Bound bound;
 
   void SetUp() override { pull.write_bound(b, z, limits, {bound.load, bound.hold, bound.lack}); }
@@ -118,8 +118,8 @@ INSTANTIATE_TEST_SUITE_P(Fields, OrderPullOfAField, testing::Values(2U, 3U, 4U))
 // The pull does not change pairs that have the right order and are far enough apart.
 TEST(OrderPull, LeavesRightOrderAlone) {
   std::vector<float> depth(nodes), z(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) depth[n] = static_cast<float>(n % width), z[n] = 10 * depth[n];
-  const OrderPull pull(width, {depth, std::vector<float>(nodes, 1), saturation, {2, 4}});
+  for (std::size_t n = 0; n < nodes; ++n) depth[n] = static_cast<float>(n % columns), z[n] = 10 * depth[n];
+  const OrderPull pull(columns, {depth, std::vector<float>(nodes, 1), saturation, {2, 4}});
   Bound bound;
   pull.write_bound(std::vector<float>(nodes), z, limits, {bound.load, bound.hold, bound.lack});
   EXPECT_EQ(bound.load, std::vector<float>(nodes));
@@ -131,23 +131,23 @@ TEST(OrderPull, LeavesRightOrderAlone) {
 
 TEST(OrderPull, HasNoPairsThatReachBeyondTheLattice) {
   const std::vector<float> depth = depths(), share = shares();
-  const OrderPull pull(width, {depth, share, saturation, {2, 21, 400}});
+  const OrderPull pull(columns, {depth, share, saturation, {2, 21, 400}});
   Bound bound;
   const std::vector<float> b = random_field(2, .2F), z = random_field(9, .3F);
   pull.write_bound(b, z, limits, {bound.load, bound.hold, bound.lack});
   Bound near;
-  OrderPull(width, {depth, share, saturation, {2}})
+  OrderPull(columns, {depth, share, saturation, {2}})
       .write_bound(b, z, limits, {near.load, near.hold, near.lack});
   for (std::size_t n = 0; n < nodes; ++n)
-    if (n % width == width / 2) {
+    if (n % columns == columns / 2) {
       EXPECT_EQ(bound.load[n], near.load[n]) << n;
     }
 }
 
 TEST(OrderPull, HasNoPairsWithinACell) {
   const std::vector<float> depth = depths(), share = shares();
-  EXPECT_TRUE(OrderPull(width, {depth, share, saturation, {.3F}}).empty());
-  EXPECT_FALSE(OrderPull(width, {depth, share, saturation, {.8F}}).empty());
+  EXPECT_TRUE(OrderPull(columns, {depth, share, saturation, {.3F}}).empty());
+  EXPECT_FALSE(OrderPull(columns, {depth, share, saturation, {.8F}}).empty());
   EXPECT_TRUE(OrderPull().empty());
 }
 

@@ -16,6 +16,11 @@ inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
   return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, {mode}));
 }
 
+// Returns the position of a point of the surface in the scan's coordinates.
+inline Vec3 place_of(const Surface& surface, Index i) {
+  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
+}
+
 // Returns bumps behind a ring that hides parts of them. There are curvature of both signs, a depth jump, and
 // an inner hole. Bumps and ring have `n` points each.
 inline Cloud bumps_behind_a_ring(std::size_t n = 30000) {
