@@ -76,7 +76,6 @@ std::string options_text(const Options& options) {
   return text;
 }
 
-// Returns the options that have the same value in all jobs.
 Options common_options(const std::vector<Job>& jobs) {
   Options common = jobs.empty() ? Options() : jobs.front().options;
   for (const Job& job : jobs)

@@ -35,7 +35,6 @@ bool is_scan_name(const std::string& path) {
   return std::ranges::find(endings, ending) != endings.end() || ending == ".relievo";
 }
 
-// Makes the names of jobs unique.
 class Names {
  public:
   std::string unused(const std::string& name) {
@@ -108,7 +107,6 @@ bool is_inside(const std::string& name) {
   return path.is_relative() && !path.empty() && path.has_filename() && *path.begin() != "..";
 }
 
-// Makes the jobs of a table, row by row.
 class TableJobs {
  public:
   TableJobs(const Table& table, const Catalogue& catalogue)

@@ -25,9 +25,20 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr std::string_view journal_folder = ".journal";
+constexpr const char* no_lock = "expected a lock that can be written";
 
 fs::path journals_in(const std::string& outputs) {
   return fs::path(outputs) / journal_folder;
+}
+
+// Opens a file beside the journals. Makes the file and its folder if they are missing.
+Result<Descriptor> open_beside_journals(const std::string& outputs, const std::string& name,
+                                        const char* expected) {
+  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
+  const std::string path = (journals_in(outputs) / name).string();
+  Descriptor file(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+  if (!file.is_open()) return system_error(ErrorKind::output, path, expected);
+  return file;
 }
 
 bool ends_in_a_line(const Descriptor& file) {
@@ -105,11 +116,9 @@ Records read_journals(const std::string& outputs) {
 }
 
 Result<Journal> Journal::open(const std::string& outputs) {
-  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
-  const std::string path = (journals_in(outputs) / cat(host_name(), ".jsonl")).string();
-  Descriptor file(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
-  if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a journal that can be written");
-  return Journal(path, std::move(file));
+  const std::string name = cat(host_name(), ".jsonl");
+  RELIEVO_TRY(Descriptor file, open_beside_journals(outputs, name, "expected a journal that can be written"));
+  return Journal((journals_in(outputs) / name).string(), std::move(file));
 }
 
 Result<void> Journal::append(const Record& record) const {
@@ -122,10 +131,7 @@ Result<void> Journal::append(const Record& record) const {
 }
 
 Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard) {
-  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
-  const std::string path = (journals_in(outputs) / cat("lock", shard)).string();
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
+  RELIEVO_TRY(Descriptor file, open_beside_journals(outputs, cat("lock", shard), no_lock));
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return std::unexpected(
         Error{ErrorKind::output, outputs, {}, "expected a folder that no other run is at work in"});
@@ -133,10 +139,7 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
 }
 
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name) {
-  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
-  const std::string path = (journals_in(outputs) / "jobs.lock").string();
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
+  RELIEVO_TRY(Descriptor file, open_beside_journals(outputs, "jobs.lock", no_lock));
   // One file contains the locks of all jobs: a job locks the byte at the position that is the hash of its
   // name. Network file systems support locks of single bytes, too.
   struct flock byte {};

@@ -52,7 +52,6 @@ class TableReader {
     return {};
   }
 
-  // Reads the cells of one line, and skips the line break.
   Result<TableRow> read_row() {
     TableRow row{line_, {}};
     for (;;) {

@@ -55,7 +55,6 @@ const std::set<std::string>& shared_options() {
   return names;
 }
 
-// Returns the shared options that the user gave, with their values as typed.
 batch::Options given_options(const CLI::App& command) {
   batch::Options options;
   for (const std::string& name : shared_options()) {

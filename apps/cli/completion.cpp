@@ -10,7 +10,6 @@ namespace {
 
 using Commands = std::vector<CommandInfo>;
 
-// Returns the text with a backslash before each of the characters.
 std::string escaped(std::string_view text, std::string_view characters) {
   std::string out;
   for (const char c : text) {

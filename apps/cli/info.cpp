@@ -70,7 +70,6 @@ Box box_of(const CloudFile& file, const PlacedModel& place) {
   return box;
 }
 
-// Returns the numbers of used and of unused points as text.
 std::string points_text(const CloudFile& file) {
   const bool is_mesh = !file.mesh.empty();
   std::string text = cat(is_mesh ? file.mesh.points.size() - file.dropped_points : file.cloud.size(),

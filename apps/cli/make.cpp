@@ -27,7 +27,6 @@ struct MakeArguments : MakeOptions {
 
 constexpr std::array<std::string_view, 3> map_endings{".png", ".tif", ".tiff"};
 
-// Returns the endings that the flag --output accepts.
 std::vector<std::string_view> output_endings() {
   std::vector<std::string_view> endings = solid_endings();
   endings.insert(endings.end(), map_endings.begin(), map_endings.end());
@@ -48,7 +47,6 @@ Result<void> take_output(MakeArguments& arguments) {
   return {};
 }
 
-// Sets the unit of the files, and returns the checked order.
 Result<CheckedOrder> order_of(MakeArguments& arguments) {
   MakeOrder& order = arguments.order;
   RELIEVO_TRY(arguments.files.unit, parse_unit(arguments.units));
@@ -60,7 +58,6 @@ Result<CheckedOrder> order_of(MakeArguments& arguments) {
   return known;
 }
 
-// Returns one line about the outputs, in the requested unit.
 std::string outcome(const ReliefFiles& outputs, const MadeRelief& made) {
   const auto in_units = [&](double mm) { return std::round(mm / mm_per(outputs.unit) * 1e4) / 1e4; };
   const ReliefReport& report = made.report;

@@ -48,7 +48,6 @@ std::string first_unknown(const CLI::App& app) {
   return words.empty() ? std::string() : option != words.end() ? *option : words.front();
 }
 
-// Returns the message for an error of CLI11, in the style of the program's other messages.
 std::string words_of(const CLI::Error& error, const CLI::App& app) {
   const std::string text = error.what();
   const auto between = [&](std::string_view before, std::string_view after) {

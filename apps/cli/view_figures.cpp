@@ -17,7 +17,6 @@ namespace {
 
 constexpr double step_deg = 4;  // angle between successive views
 
-// Returns the duration of `work` in milliseconds. Errors: those of `work`.
 template <typename F>
 Result<double> milliseconds(F&& work) {
   const auto start = std::chrono::steady_clock::now();

@@ -27,7 +27,6 @@ Json number_by_method(const OptionRow& option) {
   return is_same ? by_method.front() : by_method;
 }
 
-// Returns the default; null for an option without a default.
 Json default_of(const OptionRow& option) {
   if (option.access.number) return number_by_method(option);
   return std::visit([](const auto& value) { return Json(value); }, option.initial);

@@ -33,6 +33,32 @@ std::string text_or_nothing(const Json& json, const char* key) {
 
 constexpr const char* base_image_name = "base-image";
 
+// Returns the options in the JSON object except for the height map of a base, which is not in the table of
+// options.
+Result<OptionValues> values_without_image(Json json, std::string_view name) {
+  if (!base_image_path_in(json).empty()) json.erase(base_image_name);
+  return values_from_json(json, name);
+}
+
+// Caches the last height map that was read, since successive pictures need the same one.
+struct LastImage {
+  std::string path;
+  std::int64_t changed_ns;
+  std::shared_ptr<const Image<float>> image;
+};
+
+Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& path) {
+  if (path.empty()) return nullptr;
+  static Guarded<LastImage> guarded;
+  return guarded.with([&](LastImage& last) -> Result<std::shared_ptr<const Image<float>>> {
+    const std::int64_t changed_ns = time_of_change_ns(path);
+    if (last.image && last.path == path && last.changed_ns == changed_ns) return last.image;
+    RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(path));
+    last = {path, changed_ns, image};
+    return image;
+  });
+}
+
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
@@ -80,36 +106,6 @@ Result<OptionValues> values_from_json(const Json& given, std::string_view name) 
 std::string base_image_path_in(const Json& options) {
   return options.is_object() ? text_or_nothing(options, base_image_name) : std::string();
 }
-
-namespace {
-
-// Returns the options in the JSON object except for the height map of a base, which is not in the table of
-// options.
-Result<OptionValues> values_without_image(Json json, std::string_view name) {
-  if (!base_image_path_in(json).empty()) json.erase(base_image_name);
-  return values_from_json(json, name);
-}
-
-// Caches the last height map that was read, since successive pictures need the same one.
-struct LastImage {
-  std::string path;
-  std::int64_t changed_ns;
-  std::shared_ptr<const Image<float>> image;
-};
-
-Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& path) {
-  if (path.empty()) return nullptr;
-  static Guarded<LastImage> guarded;
-  return guarded.with([&](LastImage& last) -> Result<std::shared_ptr<const Image<float>>> {
-    const std::int64_t changed_ns = time_of_change_ns(path);
-    if (last.image && last.path == path && last.changed_ns == changed_ns) return last.image;
-    RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(path));
-    last = {path, changed_ns, image};
-    return image;
-  });
-}
-
-}  // namespace
 
 Result<ReliefOptions> options_without_ornament_files(const Json& json, std::string_view name) {
   RELIEVO_TRY(const OptionValues values, values_without_image(json, name));

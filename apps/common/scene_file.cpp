@@ -13,7 +13,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Reads one scene file. Errors name the key whose value is wrong.
 class SceneReader {
  public:
   explicit SceneReader(const std::string& name) : name_(name) {}

@@ -1,8 +1,8 @@
 #include "common/stage_names.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "common/export_file.h"
 #include "relievo/core/version.h"
@@ -12,46 +12,44 @@
 namespace relievo::app {
 namespace {
 
-struct StageName {
-  std::string_view stage, text;
-};
+using StageName = std::pair<std::string_view, std::string_view>;  // of the library, and for users
 
-constexpr std::array stage_names{
-    StageName{"waiting", "Getting ready"},
-    StageName{"upload", "Taking in the file"},
-    StageName{"read", "Reading the scan"},
-    StageName{"first look", "Reading the scan: a first look"},
-    StageName{"extent", "Reading the scan: its extent"},
-    StageName{"front", "Reading the scan: the side that is seen"},
-    StageName{"means", "Reading the scan: averaging its points"},
-    StageName{"depths", "Turning depths into points"},
-    StageName{"smooth depths", "Smoothing depths"},
-    StageName{"models", "Placing the models"},
-    StageName{"mesh", "Looking at the mesh"},
-    StageName{"mesh samples", "Sampling the mesh"},
-    StageName{"view", "Turning the model"},
-    StageName{"spacing", "Measuring the spacing"},
-    StageName{"normals", "Looking at normals"},
-    StageName{"visible points", "Finding what is seen"},
-    StageName{"curvature", "Measuring curvature"},
-    StageName{"triangulation", "Connecting the points"},
-    StageName{"boundary", "Finding the outline"},
-    StageName{"layers", "Splitting the normals in layers"},
-    StageName{"factorisation", "Preparing live work"},
-    StageName{"reference heights", "Computing reference reliefs"},
-    StageName{"control points", "Placing control points"},
-    StageName{"relief", "Computing the relief"},
-    StageName{"solid", "Building the solid"},
-    StageName{"simplify", "Simplifying the mesh"},
-    StageName{"files", "Writing files"},
-    StageName{"comparison", "Comparing methods"},
+constexpr StageName stage_names[] = {
+    {"waiting", "Getting ready"},
+    {"upload", "Taking in the file"},
+    {"read", "Reading the scan"},
+    {"first look", "Reading the scan: a first look"},
+    {"extent", "Reading the scan: its extent"},
+    {"front", "Reading the scan: the side that is seen"},
+    {"means", "Reading the scan: averaging its points"},
+    {"depths", "Turning depths into points"},
+    {"smooth depths", "Smoothing depths"},
+    {"models", "Placing the models"},
+    {"mesh", "Looking at the mesh"},
+    {"mesh samples", "Sampling the mesh"},
+    {"view", "Turning the model"},
+    {"spacing", "Measuring the spacing"},
+    {"normals", "Looking at normals"},
+    {"visible points", "Finding what is seen"},
+    {"curvature", "Measuring curvature"},
+    {"triangulation", "Connecting the points"},
+    {"boundary", "Finding the outline"},
+    {"layers", "Splitting the normals in layers"},
+    {"factorisation", "Preparing live work"},
+    {"reference heights", "Computing reference reliefs"},
+    {"control points", "Placing control points"},
+    {"relief", "Computing the relief"},
+    {"solid", "Building the solid"},
+    {"simplify", "Simplifying the mesh"},
+    {"files", "Writing files"},
+    {"comparison", "Comparing methods"},
 };
 
 }  // namespace
 
 std::string_view name_of_stage(std::string_view stage) {
-  const auto found = std::ranges::find(stage_names, stage, &StageName::stage);
-  return found != stage_names.end() ? found->text : stage;
+  const auto found = std::ranges::find(stage_names, stage, &StageName::first);
+  return found != std::end(stage_names) ? found->second : stage;
 }
 
 nlohmann::json program_facts() {

@@ -148,7 +148,6 @@ void remove_abandoned_for(const std::string& stem) {
   remove_abandoned(folder_for(stem), std::filesystem::path(stem).filename().string());
 }
 
-// Makes a file under an unused name.
 Descriptor make_named(TemporaryName& name, const std::string& stem, unsigned mode) {
   remove_abandoned_for(stem);
   while (name.renew(stem)) {

@@ -84,6 +84,24 @@ std::string line_of(const Remark& remark) {
   return cat(remark.text, "; --", remark.option, " ", remark.value, " ", remark.effect);
 }
 
+// Adds remarks on texts, borders and drawings, such as lines that are too thin to be printed.
+void add_ornament_remarks(const ReliefReport& report, std::vector<std::string>& lines) {
+  const auto& [highest_mm, thinnest_mm] = report.ornaments;
+  constexpr double usual_nozzle_mm = .4;
+  const double least_mm = !report.tool                         ? usual_nozzle_mm
+                          : report.tool->kind == Tool::Kind::v ? report.tool->tip_mm
+                                                               : report.tool->diameter_mm;
+  const auto in_mm = [](double mm) { return cat(std::round(1e3 * mm) / 1e3, " mm"); };
+  if (thinnest_mm < least_mm)
+    lines.push_back(cat("the thinnest stroke of the ornaments is ", in_mm(thinnest_mm), " wide, less than ",
+                        report.tool ? "the tool of " : "a usual nozzle of ", in_mm(least_mm),
+                        ": larger letters, a bolder font, or a ",
+                        report.tool ? "thinner tool" : "printer for resin", " can make it"));
+  if (report.rim_height_mm && highest_mm > *report.rim_height_mm)
+    lines.push_back(cat("the ornaments reach ", in_mm(highest_mm), ", and the rim only ",
+                        in_mm(*report.rim_height_mm), ": rim-height or text-height change that"));
+}
+
 }  // namespace
 
 std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
@@ -108,28 +126,6 @@ std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
          "denoise", "0", "keeps it"});
   return all;
 }
-
-namespace {
-
-// Adds remarks on texts, borders and drawings, such as lines that are too thin to be printed.
-void add_ornament_remarks(const ReliefReport& report, std::vector<std::string>& lines) {
-  const auto& [highest_mm, thinnest_mm] = report.ornaments;
-  constexpr double usual_nozzle_mm = .4;
-  const double least_mm = !report.tool                         ? usual_nozzle_mm
-                          : report.tool->kind == Tool::Kind::v ? report.tool->tip_mm
-                                                               : report.tool->diameter_mm;
-  const auto in_mm = [](double mm) { return cat(std::round(1e3 * mm) / 1e3, " mm"); };
-  if (thinnest_mm < least_mm)
-    lines.push_back(cat("the thinnest stroke of the ornaments is ", in_mm(thinnest_mm), " wide, less than ",
-                        report.tool ? "the tool of " : "a usual nozzle of ", in_mm(least_mm),
-                        ": larger letters, a bolder font, or a ",
-                        report.tool ? "thinner tool" : "printer for resin", " can make it"));
-  if (report.rim_height_mm && highest_mm > *report.rim_height_mm)
-    lines.push_back(cat("the ornaments reach ", in_mm(highest_mm), ", and the rim only ",
-                        in_mm(*report.rim_height_mm), ": rim-height or text-height change that"));
-}
-
-}  // namespace
 
 std::vector<std::string> remarks_on(const ReliefReport& report) {
   std::vector<std::string> lines;

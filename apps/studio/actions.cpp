@@ -21,7 +21,6 @@ double time_of(const Json& state) {
   return time.is_number() ? time.get<double>() : 0;
 }
 
-// Returns whether the scan is a sample, or its file exists.
 bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
@@ -39,13 +38,11 @@ Answer not_open() {
   return answer_of(Json{{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
 }
 
-// Returns the text of an option; null if it has none.
 std::string* text_of(Json& options, const char* option) {
   const auto found = options.find(option);
   return found == options.end() ? nullptr : found->get_ptr<std::string*>();
 }
 
-// Returns the options of a project, followed by those of its snapshots.
 std::vector<Json*> option_lists(Json& project) {
   std::vector<Json*> lists{&project["options"]};
   if (Json& studio = project["studio"]; studio.is_object() && studio.contains("snapshots"))
@@ -282,7 +279,6 @@ Answer Actions::take_project(const std::string& name, const BodyReader& read) {
   return project ? answer_of(*project) : answer_of(project.error());
 }
 
-// Stores a file that was packed in a project.
 Result<ScanSource> Actions::kept(const PackedFile& file) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.name);
   RELIEVO_CHECK(scan->append(text_in(file.bytes)));

@@ -58,7 +58,6 @@ Connection ending(int socket) {
 
 enum class Arrival { partial, whole, over };
 
-// Receives the bytes that have arrived on a readable connection.
 Arrival receive(Connection& connection) {
   std::array<char, 1U << 14> bytes;
   const ssize_t got = ::recv(connection.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);

@@ -15,7 +15,6 @@ class DirectQueue : public httplib::TaskQueue {
   void shutdown() override {}
 };
 
-// Returns the size of the body that the head of a request states; nothing if it states none.
 std::optional<std::uint64_t> announced_body(const Request& request) {
   if (request.has_header("Transfer-Encoding")) return std::nullopt;
   if (!request.has_header("Content-Length")) return 0;

@@ -11,7 +11,6 @@ namespace {
 // Places that are further from every point, in sampling distances, are beside the model.
 constexpr double most_distance = 3;
 
-// Returns the point of the surface that is nearest to a place in the view plane.
 Vec3 nearest_point(const Surface& surface, const Vec2& place) {
   double least = std::numeric_limits<double>::infinity();
   Index nearest = 0;

@@ -124,7 +124,6 @@ Result<Answer> ornaments(Engine& engine, const Json& json) {
   return answer_of(Json{{"ornaments", std::move(all)}});
 }
 
-// Returns the height of the front, including the rim.
 double front_mm(const Solid& solid) {
   Box box;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
@@ -132,7 +131,6 @@ double front_mm(const Solid& solid) {
   return box.size().z();
 }
 
-// Makes the piece as it is exported, and answers with its size.
 Result<Answer> piece(Engine& engine, const Json& json) {
   RELIEVO_TRY(const ReliefOptions options, options_in(json));
   RELIEVO_TRY(const auto made, engine.piece(options));

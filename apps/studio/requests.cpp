@@ -44,7 +44,6 @@ bool flag(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
-// Returns an array of n finite numbers; nothing for any other value.
 template <int n>
 std::optional<Eigen::Matrix<double, n, 1>> numbers(const Json& json, const char* key) {
   const auto found = json.find(key);

@@ -26,7 +26,6 @@ constexpr int most_waiting = 32, most_pages = 8;
 constexpr int most_files =
     24;  // uploads at the same time: a quarter of the threads, so that others can answer
 
-// Increases a counter by one as long as this object exists.
 class ScopedCount {
  public:
   explicit ScopedCount(std::atomic<int>& count) : count_(count), number_(++count) {}
@@ -42,7 +41,6 @@ class ScopedCount {
   int number_;
 };
 
-// One stream of events: the statuses that have changed.
 class StatusStream {
  public:
   StatusStream(std::atomic<int>& pages, Actions& actions, const std::string& run_name)

@@ -65,7 +65,6 @@ function optionValue(option, text, units) {
   return Number(text);
 }
 
-// Returns the number of a flag that is not in the table of options.
 function numberOf(values, flag, otherwise) {
   const value = Number(values[flag] ?? otherwise);
   if (!Number.isFinite(value)) misuse(`--${flag}: expected a number, found '${values[flag]}'`);

@@ -54,7 +54,6 @@ async function engineWith(source, options = {}) {
   return { engine, request };
 }
 
-// A finished relief.
 export class Relief {
   #engine;
   #number;
@@ -84,7 +83,6 @@ export class Relief {
     return this.#file("preview", "preview.png", { preview_px: size });
   }
 
-  // Returns a picture of the areas that the tool can reach, as the bytes of a PNG.
   toolPicture() {
     return this.#file("tool_picture", "tool.png", {});
   }
@@ -111,7 +109,6 @@ export class Relief {
   }
 }
 
-// Makes a relief of a scan.
 export async function make(source, options = {}) {
   const { engine, request } = await engineWith(source, options);
   return new Relief(engine, watchedCall(engine, "make", request, options).json);

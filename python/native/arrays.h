@@ -61,6 +61,14 @@ py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, std::sh
   return array;
 }
 
+// Returns such an array of rows: of points, colours, normals or triangles.
+template <typename Row>
+py::array view_of(const std::vector<Row>& rows, std::shared_ptr<const void> owner) {
+  using Number = typename Row::value_type;
+  constexpr py::ssize_t columns = sizeof(Row) / sizeof(Number);
+  return view_of(reinterpret_cast<const Number*>(rows.data()), {std::ssize(rows), columns}, std::move(owner));
+}
+
 // Returns an array that takes over the numbers of a vector, without a copy.
 template <typename Number>
 py::array array_of(std::vector<Number> numbers, std::vector<py::ssize_t> shape) {

@@ -28,7 +28,6 @@ struct Event {
   double fraction = 0;
 };
 
-// Passes messages from the working thread to the waiting thread.
 class Messages {
  public:
   void post(Event event) {
@@ -59,7 +58,6 @@ class Messages {
   bool has_ended_ = false;
 };
 
-// Handles pending signals, and calls the callback for each event.
 void report(const py::object& callback, const std::vector<Event>& events) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   if (callback.is_none()) return;

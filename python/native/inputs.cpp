@@ -98,26 +98,16 @@ struct SourceReader {
   }
 };
 
-py::object array_or_none(bool is_there, auto&& make) {
-  return is_there ? py::object(make()) : py::none();
-}
-
-// Returns the points, normals and colours of a generated scan.
 py::tuple sample(const std::string& name, std::size_t points, double noise) {
   Cloud cloud = value_or_raise(make_sample(name, {points, noise}));
   const auto owner = std::make_shared<const Cloud>(std::move(cloud));
-  const auto n = static_cast<py::ssize_t>(owner->size());
-  return py::make_tuple(view_of(owner->points.data()->data(), {n, 3}, owner),
-                        array_or_none(owner->has_normals(),
-                                      [&] {
-                                        return view_of(owner->normals.data()->data(), {n, 3}, owner);
-                                      }),
-                        array_or_none(owner->has_colours(), [&] {
-                          return view_of(owner->colours.data()->data(), {n, 3}, owner);
-                        }));
+  const auto array_or_none = [&](const auto& rows) {
+    return rows.empty() ? py::object(py::none()) : view_of(rows, owner);
+  };
+  return py::make_tuple(view_of(owner->points, owner), array_or_none(owner->normals),
+                        array_or_none(owner->colours));
 }
 
-// Writes a cloud of points as a PLY file.
 void write_cloud(const ArrayModel& model, const py::str& to, const std::string& comment) {
   const std::string path = path_of(to);
   value_or_raise(app::check_output(path, {".ply"}));

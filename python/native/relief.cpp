@@ -34,7 +34,6 @@ SharedRelief make(const py::list& sources, const py::dict& keywords, const py::o
   return watched_value(callback, [&](Progress& progress) { return app::make(order, progress); });
 }
 
-// Raises unless a picture may have that many pixels on its longer side.
 void check_size(const char* keyword, int px, int most_px) {
   constexpr int least_px = 16;
   if (px < least_px || px > most_px)
@@ -113,20 +112,9 @@ py::bytes png(const py::array& picture) {
   return bytes_of(app::text_in(bytes));
 }
 
-py::array vertices(const SharedRelief& relief) {
-  const Solid& solid = relief->made.solid;
-  return view_of(solid.points.data()->data(), {std::ssize(solid.points), 3}, relief);
-}
-
-py::array faces(const SharedRelief& relief) {
-  const Solid& solid = relief->made.solid;
-  return view_of(solid.triangles.data()->data(), {std::ssize(solid.triangles), 3}, relief);
-}
-
 py::object colours(const SharedRelief& relief) {
-  const Solid& solid = relief->made.solid;
-  if (solid.colours.empty()) return py::none();
-  return view_of(solid.colours.data()->data(), {std::ssize(solid.colours), 3}, relief);
+  const std::vector<Colour>& colours = relief->made.solid.colours;
+  return colours.empty() ? py::object(py::none()) : view_of(colours, relief);
 }
 
 // Returns the path that the caller gives for the scan of a project; an empty path if there is none.
@@ -165,8 +153,8 @@ void add_relief(py::module_& module) {
       .def("to_bytes", &to_bytes)
       .def("preview", &preview)
       .def("heights", &heights)
-      .def("vertices", &vertices)
-      .def("faces", &faces)
+      .def("vertices", [](const SharedRelief& relief) { return view_of(relief->made.solid.points, relief); })
+      .def("faces", [](const SharedRelief& relief) { return view_of(relief->made.solid.triangles, relief); })
       .def("colours", &colours)
       .def("report", [](const SharedRelief& relief) { return from_json(relief->report()); })
       .def("left_out", [](const SharedRelief& relief) { return relief->inputs.left_out; })

@@ -39,16 +39,6 @@ py::array picture(const SharedModel& prepared, const SharedFrame& shown, int wid
       value_or_raise(unlocked([&] { return prepared->picture(*shown, options, material); })).image);
 }
 
-py::array surface_points(const SharedModel& prepared) {
-  const auto& points = prepared->model().surface().points;
-  return view_of(points.data()->data(), {std::ssize(points), 3}, prepared);
-}
-
-py::array surface_triangles(const SharedModel& prepared) {
-  const auto& triangles = prepared->model().surface().triangulation.triangles;
-  return view_of(triangles.data()->data(), {std::ssize(triangles), 3}, prepared);
-}
-
 py::array inside(const SharedModel& prepared) {
   const auto& is_inside = prepared->model().surface().boundary.is_inside;
   return view_of(reinterpret_cast<const bool*>(is_inside.data()), {std::ssize(is_inside)}, prepared);
@@ -59,11 +49,6 @@ py::array heights(const SharedFrame& shown) {
   return view_of(numbers.data(), {std::ssize(numbers)}, shown);
 }
 
-py::array normals(const SharedFrame& shown) {
-  const auto& numbers = shown->frame.normals;
-  return view_of(numbers.data()->data(), {std::ssize(numbers), 3}, shown);
-}
-
 }  // namespace
 
 void add_session(py::module_& module) {
@@ -71,12 +56,13 @@ void add_session(py::module_& module) {
       .def("make", &make)
       .def("frame", &frame)
       .def("picture", &picture)
-      .def("points", &surface_points)
-      .def("triangles", &surface_triangles)
+      .def("points", [](const SharedModel& m) { return view_of(m->model().surface().points, m); })
+      .def("triangles",
+           [](const SharedModel& m) { return view_of(m->model().surface().triangulation.triangles, m); })
       .def("is_inside", &inside);
   py::class_<FrameInMm, SharedFrame>(module, "Frame")
       .def("heights", &heights)
-      .def("normals", &normals)
+      .def("normals", [](const SharedFrame& shown) { return view_of(shown->frame.normals, shown); })
       .def("height_mm", [](const FrameInMm& f) { return f.frame.height * f.mm_per_unit; })
       .def("is_height_met", [](const FrameInMm& f) { return f.frame.is_height_met; })
       .def("u", [](const FrameInMm& f) { return f.frame.options.shape.compression.u; })

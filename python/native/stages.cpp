@@ -42,7 +42,7 @@ py::array index_array(const std::vector<Index>& numbers) {
 
 py::array triangle_array(std::vector<Triangle> triangles) {
   const auto owner = std::make_shared<const std::vector<Triangle>>(std::move(triangles));
-  return view_of(reinterpret_cast<const Index*>(owner->data()), {std::ssize(*owner), 3}, owner);
+  return view_of(*owner, owner);
 }
 
 py::array find_visible_points(const py::array& points, const OptionalArray& normals, const std::string& view,
@@ -84,7 +84,7 @@ py::array find_normals(const py::array& points, std::size_t neighbours) {
     raise({ErrorKind::option, "neighbours", {}, cat("expected 3 to 64, found ", neighbours)});
   unlocked([&] { estimate_normals(cloud, neighbours); });
   const auto owner = std::make_shared<const std::vector<Vec3f>>(std::move(cloud.normals));
-  return view_of(owner->data()->data(), {std::ssize(*owner), 3}, owner);
+  return view_of(*owner, owner);
 }
 
 Result<Triangulation> triangulated(std::span<const Vec2> points) {
@@ -158,11 +158,6 @@ py::array boundary_flags(const SharedSystem& system) {
   return view_of(reinterpret_cast<const bool*>(flags.data()), {std::ssize(flags)}, system);
 }
 
-py::array system_triangles(const SharedSystem& system) {
-  const auto& triangles = system->triangulation.triangles;
-  return view_of(reinterpret_cast<const Index*>(triangles.data()), {std::ssize(triangles), 3}, system);
-}
-
 }  // namespace
 
 void add_stages(py::module_& module) {
@@ -173,7 +168,7 @@ void add_stages(py::module_& module) {
   py::class_<PlaneSystem, SharedSystem>(module, "HeightSystem")
       .def("solve", &solve)
       .def("is_boundary", &boundary_flags)
-      .def("triangles", &system_triangles);
+      .def("triangles", [](const SharedSystem& s) { return view_of(s->triangulation.triangles, s); });
   module.def("height_system", &height_system);
   py::dict docs;
   for (const HeaderDoc& doc : header_docs) docs[doc.name] = doc.text;

@@ -1,7 +1,6 @@
 """Unusable inputs raise an exception that names the fault and its place, and never end the program."""
 
 import pickle
-import unittest
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -144,7 +143,3 @@ class Refusals(InFolder):
         self.refused("option", relief.save, tool_picture="a.png")
         with self.assertRaises(TypeError):
             relief.height_map("large")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -50,7 +50,3 @@ class Examples(InFolder):
             nbclient.NotebookClient(notebook, kernel_name="this", timeout=600, startup_timeout=600).execute()
         shown = [output for cell in notebook.cells for output in cell.get("outputs", []) if "image/png" in output.get("data", {})]
         self.assertGreaterEqual(len(shown), 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

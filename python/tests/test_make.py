@@ -7,7 +7,6 @@ import os
 import pickle
 import re
 import subprocess
-import unittest
 import zipfile
 from pathlib import Path
 from types import SimpleNamespace
@@ -275,7 +274,3 @@ class Results(InFolder):
         with self.assertRaisesRegex(ValueError, "found other files in"):
             relievo.batch.run(".", "many", program=os.environ["RELIEVO"], match="scan.ply")
         self.assertEqual([path.read_text() for path in Path("many").iterdir()], ["of somebody else"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -51,7 +51,3 @@ class Package(unittest.TestCase):
             for output in re.findall(r'"([\w-]+\.(?:ply|stl|png|json|tif))"', code):
                 self.assertGreater((empty / output).stat().st_size, 0, output)
             print(f"wheel: {wheel.name}, {wheel.stat().st_size / 1e6:.2f} MB")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -109,7 +109,3 @@ class Paper(unittest.TestCase):
             self.skipTest("SKIPPED: the shared scans are not there")
         for scan in scans:
             self.agrees(*read_scan(scan, 40000), (4, 0.01, 0.02), (1, 1, 0.05))
-
-
-if __name__ == "__main__":
-    unittest.main()

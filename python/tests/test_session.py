@@ -121,7 +121,3 @@ class Finished(InFolder):
             self.assertEqual(one.to_bytes("ply"), other.to_bytes("ply"))
             self.assertEqual(one.report["models"], other.report["models"])
             self.assertEqual(one.remarks, other.remarks)
-
-
-if __name__ == "__main__":
-    unittest.main()

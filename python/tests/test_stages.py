@@ -98,7 +98,3 @@ class Stages(unittest.TestCase):
             with self.subTest(i), self.assertRaises(relievo.Error):
                 call()
         self.assertEqual(len(relievo.HeightSystem([[0, 0], [1, 0], [0, 1]]).solve(np.ones((3, 2)))), 3)
-
-
-if __name__ == "__main__":
-    unittest.main()

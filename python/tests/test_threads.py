@@ -121,7 +121,3 @@ class Calls(unittest.TestCase):
             with multiprocessing.get_context(method).Pool(2) as pool:
                 self.assertEqual(pool.map(heights_of_a_frame, [2, 3, 4]), [2, 3, 4])
         self.assertEqual(heights_of_a_frame(3), 3)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -59,7 +59,3 @@ class Docstrings(unittest.TestCase):
         self.assertIn("rim_height_mm", keywords)
         for keyword in keywords[5:]:
             self.assertIn(f"    {keyword}: ", relievo.make.__doc__)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -53,7 +53,6 @@ class BatchRun : public CliFolder {
     bool operator==(const Counts&) const = default;
   };
 
-  // Runs all jobs, and returns how many were made, failed or kept.
   Counts run_jobs(RunLimits limits = {2, 0}) {
     const Records records = read_journals(workshop_.outputs);
     std::vector<Work> works;
@@ -181,7 +180,6 @@ class BatchProgram : public CliFolder {
     return lines_of(list.out);
   }
 
-  // Returns the command that does these jobs one after the other.
   static std::string command_for(const std::vector<std::string>& jobs) {
     std::string command = "batch -o out";
     for (const std::string& job : jobs) command += cat(" --job '", job, "'");

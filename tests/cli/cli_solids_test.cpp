@@ -21,7 +21,6 @@ using namespace test;
 
 using CliSolids = CliFolder;
 
-// Returns the triangles of a 3MF model.
 ReadSolid solid_in_3mf(const std::string& file) {
   const auto archive = app::Archive::open(std::as_bytes(std::span(file)), "t.3mf");
   const std::vector<std::byte> model = *archive->content("3D/3dmodel.model");

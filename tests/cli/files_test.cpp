@@ -23,6 +23,12 @@ using namespace test;
 class Files : public CliFolder {
  protected:
   std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  // Writes a file as a killed process leaves it. Returns false if the file system has no attributes.
+  bool leave(const char* name) const {
+    write_all(path(name), "unfinished");
+    return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
+  }
 };
 
 TEST_F(Files, ReadsFilesOnly) {
@@ -94,10 +100,6 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
 // finished new one.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
-  const auto leave = [&](const char* name) {
-    write_all(path(name), "whole, but not in its place");
-    return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
-  };
   if (!leave("a.stl.relievo-1-1") || !leave("b.stl.relievo-1-1")) GTEST_SKIP() << "no attributes here";
   app::TemporaryFile file(path("a.stl"));
   EXPECT_TRUE(file.append({}) && file.finish() && file.keep(path("a.stl")));
@@ -107,11 +109,8 @@ TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
 }
 
 TEST_F(Files, WhatKilledRunsLeftInAFolderIsRemovedWhateverItsPath) {
-  const auto mark = [&](const char* name) {
-    write_all(path(name), "unfinished");
-    return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
-  };
-  if (!mark("a.stl.relievo-1-1") || !mark("b.stl.relievo-1-2") || !mark("open.relievo-1-4") || !mark("kept"))
+  if (!leave("a.stl.relievo-1-1") || !leave("b.stl.relievo-1-2") || !leave("open.relievo-1-4") ||
+      !leave("kept"))
     GTEST_SKIP() << "no attributes here";
   write_all(path("c.stl.relievo-1-3"), "of others");
   const app::Descriptor open(::open(path("open.relievo-1-4").c_str(), O_RDWR));

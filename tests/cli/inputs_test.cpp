@@ -69,11 +69,14 @@ TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
             std::string::npos);
 }
 
+// Returns the file of a cloud with a face added to it.
+std::string with_face(std::string cloud) {
+  cloud.insert(cloud.find("end_header\n"), "element face 1\nproperty list uchar int vertex_indices\n");
+  return cloud + "\3" + raw(0) + raw(1) + raw(2);
+}
+
 TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
-  std::string text = read_all(folder_ / "torus.ply");
-  const std::string end = "end_header\n";
-  text.insert(text.find(end), "element face 1\nproperty list uchar int vertex_indices\n");
-  write_all(folder_ / "faces.ply", text + "\3" + raw(0) + raw(1) + raw(2));
+  write_all(folder_ / "faces.ply", with_face(read_all(folder_ / "torus.ply")));
   const Outcome made = run("make faces.ply -o t.stl --stream-above 0.1");
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_NE(made.err.find("faces.ply: left out the 1 faces of the mesh"), std::string::npos) << made.err;
@@ -94,10 +97,7 @@ TEST_F(CliInputs, ReadsCloudsOfTooManyPointsPieceByPiece) {
   EXPECT_NE(remarks(torus, points - 1).find(cat("points for the ", points, " of the file")),
             std::string::npos);
   EXPECT_EQ(remarks(torus, points), "");
-  std::string text = read_all(torus);
-  const std::string end = "end_header\n";
-  text.insert(text.find(end), "element face 1\nproperty list uchar int vertex_indices\n");
-  write_all(folder_ / "mesh.ply", text + "\3" + raw(0) + raw(1) + raw(2));
+  write_all(folder_ / "mesh.ply", with_face(read_all(torus)));
   EXPECT_EQ(remarks((folder_ / "mesh.ply").string(), 10).find("points for the"), std::string::npos);
 }
 

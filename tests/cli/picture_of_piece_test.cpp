@@ -43,7 +43,6 @@ Solid solid_with_front(const test::ReadSolid& file, double ground_mm) {
   return solid;
 }
 
-// Returns a height map of a hill beside a hollow.
 std::shared_ptr<const Image<float>> hill_and_hollow() {
   Image<float> image = filled_image(64, 48, 0.F);
   for (int y = 0; y < image.height; ++y)

@@ -24,7 +24,6 @@ MadeRelief made_of(const char* wrap, Form form = Form::relief, double radius = 1
   return make_relief(std::move(cloud), options).value();
 }
 
-// Returns the pixels of the left or the right view in the preview.
 std::vector<std::uint8_t> half_of(const Image8& preview, bool is_right) {
   std::vector<std::uint8_t> half;
   const int width = preview.width / 2;
@@ -35,7 +34,6 @@ std::vector<std::uint8_t> half_of(const Image8& preview, bool is_right) {
   return half;
 }
 
-// Returns the share of values that differ clearly.
 double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
   std::size_t differ = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) differ += std::abs(a[i] - b[i]) > 12;

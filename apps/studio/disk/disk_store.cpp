@@ -36,7 +36,6 @@ std::unexpected<Error> not_kept(int reason) {
               : cat("expected a folder of the studio that can be written to: ", std::strerror(reason))});
 }
 
-// A dropped scan that is stored in a temporary file.
 struct ScanFile final : DroppedScan {
   ScanFile(const std::string& folder, const std::string& scan)
       : name(plain_name(scan)), file((fs::path(folder) / "upload").string(), private_file) {}

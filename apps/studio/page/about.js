@@ -30,6 +30,5 @@ export function defaultOf(name, by) {
   return option.default_with?.[by] ?? value?.[by] ?? value; // `value` is an object if methods have different defaults
 }
 
-// Returns the names of the options of these stages.
 export const namesOf = (...stages) =>
   about.options.filter(({stage}) => stages.includes(stage)).map(({name}) => name);

@@ -52,7 +52,6 @@ export class BaseImage {
     return true;
   }
 
-  // Shows the name of the document's height map.
   show() {
     const path = this.doc.now.options[NAME];
     this.field.show(path, {isGone: isGone(path)});

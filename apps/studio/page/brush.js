@@ -70,7 +70,6 @@ export class Brush {
     this.stage?.drawOverlay();
   }
 
-  // Makes the brush smaller or larger.
   resize(by) {
     const {min, max} = SLIDERS.size;
     this.set({size: clamp(this.settings.size * RESIZE ** by, min, max)});
@@ -135,7 +134,6 @@ export class Brush {
     this.stage?.drawOverlay();
   }
 
-  // Returns the highlighted stroke as SVG elements.
   strokeMarks(stage) {
     const {highlighted: stroke} = this, {yaw, pitch} = stage.camera;
     if (!stroke || yaw !== 0 || pitch !== 0) return [];

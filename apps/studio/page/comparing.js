@@ -46,7 +46,6 @@ export class Comparing {
     return isShown && Math.abs(x - this.split * this.stage.size.width) < NEAR;
   }
 
-  // Moves the divider to that x coordinate.
   drag = (x) => this.setSplit(clamp(x / this.stage.size.width, 0, 1));
 
   marks({width, height}) {
@@ -60,7 +59,6 @@ export class Comparing {
     return this.isHolding ? null : this.rival ?? null;
   }
 
-  // Returns the request for the picture of a snapshot.
   rivalRequest(isFine, isLast) {
     const {stage} = this, {light} = stage.doc.now;
     return stage.request({...stage.pixels(isFine), fine: isFine, finished: isLast, light},

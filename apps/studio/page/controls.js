@@ -15,7 +15,6 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
-// Returns a row that has a label and its control.
 export const pair = (label, control, attributes = {}) =>
   make("label", {class: "pair", ...attributes}, make("span", {}, label), control);
 

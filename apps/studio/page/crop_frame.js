@@ -89,7 +89,6 @@ export class CropFrame {
     this.draw();
   }
 
-  // Returns the sides of the frame in pixels.
   get frame() {
     const [x0, y0, x1, y1] = this.numbers, {left, top, width, height} = this.box;
     return {left: left + x0 * width, right: left + x1 * width, top: top + (1 - y1) * height,
@@ -131,7 +130,6 @@ export class CropFrame {
     new ResizeObserver(() => this.refresh()).observe(element);
   }
 
-  // Returns the sides of the frame that are near a pixel.
   sidesAt(x, y) {
     const {left, right, top, bottom} = this.frame, isBeside = (at, low, high) => at > low - NEAR && at < high + NEAR;
     const across = [[0, left], [2, right]].filter(([, at]) => Math.abs(x - at) < NEAR && isBeside(y, top, bottom));
@@ -201,6 +199,5 @@ export class CropFrame {
     return ran;
   }
 
-  // Moves the frame by arrow keys.
   step = (x, y) => this.choose(movedBy(this.numbers, x * KEY_STEP, y * KEY_STEP));
 }

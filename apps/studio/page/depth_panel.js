@@ -66,7 +66,6 @@ export class DepthPanel {
     this.rows.ground.hidden = !isScaled || !hasScale(this.doc.now);
   }
 
-  // Returns the list item of one use of pixels, with a button that keeps these pixels.
   entry({use, colour, pixels}, all) {
     const dot = make("span", {class: "dot", "aria-hidden": "true"});
     dot.style.background = colour;

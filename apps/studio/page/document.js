@@ -151,7 +151,6 @@ export class Document {
     this.onChange(before);
   }
 
-  // Returns the document as plain data.
   keep = () => ({version: 1, changed: this.changedAt, at: this.at, ...packedSteps(this.steps)});
 
   // Takes over a stored state. Returns whether the state is valid.
@@ -180,7 +179,6 @@ const NOT_OF_PAPER = SHAPE.filter((name) => /^(tone|steps|planes|light|attention
 export const ON_GROUND = namesOf("plate").filter((name) => /^(text|font|ornaments)/.test(name));
 export const hasGround = ({options}) => options.outline !== "none" && options.form !== "lithophane";
 
-// Returns whether the option mm-per-value determines the height.
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
 // Returns the options for the engine and for `relievo make`. Leaves out options that have the value of a new document,
@@ -218,7 +216,6 @@ export function shownOptions(step) {
   return options;
 }
 
-// Returns the content of a project file.
 export function projectOf(step) {
   const {input, isHeightLocked, u, isDieOfPiece, material, light, snapshots} = step;
   const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece}),

@@ -75,7 +75,6 @@ export class Engine {
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
 
-  // Returns facts about the shown model.
   facts = () => this.#ask("facts");
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
@@ -94,7 +93,6 @@ export class Engine {
   placeOrnaments = async (options) => (await this.#ask("ornaments", {options})).ornaments;
   // Returns the largest height, in mm, that the options allow.
   reach = async (options) => (await this.#ask("reach", {options})).height_mm;
-  // Throws if the options are invalid.
   check = (options) => this.#ask("check", {options});
 
   // Returns {triangles, points, size_mm, height_mm, front_mm} of the finished piece. After that the engine has the

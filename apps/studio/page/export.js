@@ -103,7 +103,6 @@ export class ExportDialog {
     $("#export-size").replaceChildren(...facts.flatMap((text) => [" ", unbroken(text)]).slice(1));
   }
 
-  // Shows the progress of the piece that the engine is making.
   progress({making}) {
     if (!this.isBusy || !making?.stage) return;
     $("#export-progress").value = making.fraction;

@@ -39,7 +39,6 @@ export class FileField {
       make("span", {}, this.button, this.remove), this.input);
   }
 
-  // Opens the browser's dialog.
   choose = () => this.input.click();
 
   // Shows the file of a path. A file that is needed can be replaced and not removed.

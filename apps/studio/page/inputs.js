@@ -9,7 +9,6 @@ export function keepPanels(panels, storage) {
   }
 }
 
-// Makes the arrow keys move within a radio group.
 export function takeArrowKeys(group) {
   group.onkeydown = (event) => {
     const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];

@@ -75,7 +75,6 @@ function partOf(kind, {diameter, plate, outline}, last) {
   return {material: own, isHeightLocked, u, isDieOfPiece, options: {...FIRST.options, ...options, ...same}};
 }
 
-// Returns the size of a piece as text.
 function measuresOf({diameter, plate, width, height}) {
   const text = (mm) => `${shortLength(mm)} ${shown.unit}`, length = width ?? (plate ? null : defaultOf("width"));
   return [diameter ? `${text(diameter)} across` : length && `${text(length)} long`, `${text(height)} high`]

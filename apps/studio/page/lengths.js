@@ -46,7 +46,6 @@ export function lengthText(mm, decimals = 2) {
 
 export const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
-// Returns the size of a piece as text.
 export const sizeText = (size) => `${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`;
 
 // Returns a length as the text of a field, without trailing zeros.

@@ -29,7 +29,6 @@ const TIPS = {size: "Height of capitals, diameter of beads, width of borders", t
   height: "Above the ground; a negative height sinks it", inset: "Distance from the rim",
   angle: "Where the middle is, counter-clockwise from the right", count: "Number of beads or strands"};
 
-// Returns the names of the numbers that an ornament has.
 function numbersOf(ornament) {
   const {kind = "text"} = ornament, own = ["size", "height", ...(hasPlace(ornament) ? [] : ["inset"])];
   if (kind === "text") own.push("tracking", ...(isOnArc(ornament) ? ["angle"] : []));
@@ -98,7 +97,6 @@ export class LettersPanel {
     return {size: Math.max(1, rounded(SHARE_OF_GROUND * (high - low))), at: [0, rounded((low + high) / 2)]};
   }
 
-  // Returns the document's ornaments.
   get list() {
     return listOf(this.doc.now.options);
   }
@@ -157,7 +155,6 @@ export class LettersPanel {
     $("#ornaments").replaceChildren(...this.rows.map(({element}) => element), ...(ofFile ? [ofFile] : []));
   }
 
-  // Returns {element, show} of an ornament.
   row(ornament, at) {
     const isChosen = at === this.chosen;
     const name = make("button", {type: "button", class: "name quiet", "aria-expanded": String(isChosen),
@@ -172,7 +169,6 @@ export class LettersPanel {
     }};
   }
 
-  // Returns {row, show} of the fields of an ornament.
   fields(ornament, at) {
     const {kind = "text"} = ornament;
     const key = {text: "font", drawing: "file"}[kind];

@@ -92,7 +92,6 @@ export class LightPanel {
     if (stroke) this.show(); // other controls follow when the drag rests
   }
 
-  // Takes the facts about the model, or null.
   tell(facts) {
     this.facts = facts;
     this.show();
@@ -107,7 +106,6 @@ export class LightPanel {
     return this.facts && !this.facts.can_be_lit ? "Precision has to be exact for this" : "";
   }
 
-  // Shows the document's values.
   show() {
     const {light, form} = this.doc.now.options, {refusal} = this, isLit = light !== "" && !refusal;
     this.input.checked = light !== "";

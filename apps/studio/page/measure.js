@@ -32,7 +32,6 @@ function beside([x1, y1], [x2, y2], text) {
   return [(x1 + x2) / 2 + side * gap, (y1 + y2) / 2 - up * gap];
 }
 
-// Returns the difference between two heights as text.
 function rise(from, to) {
   const text = withUnit(Math.abs(to - from));
   return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
@@ -63,7 +62,6 @@ function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
   return hasRoom ? [x, middle[1]] : [x, Math.max(y1, y2) - ROW * scale / 2];
 }
 
-// Returns a dimension line with its label and end strokes.
 function dimension(from, to, text, picture, at) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]], size = Math.hypot(dx, dy) || 1;
   const [ax, ay] = [-dy / size * STROKE, dx / size * STROKE];
@@ -134,7 +132,6 @@ export class Measure {
 
   // --------------------------------------------------------------------------------------------------- dimensions
 
-  // Returns the dimensions of plate and relief as SVG elements.
   dimensionMarks() {
     const {about, size: picture} = this.stage;
     if (!about) return [];

@@ -75,7 +75,6 @@ export class Modes {
 
   toggleComparing = () => this.setComparing(!isPressed("#compare"));
 
-  // Ends the light table and the comparison.
   leave() {
     this.setTable(false);
     this.setComparing(false);

@@ -84,7 +84,6 @@ export class Painting {
     this.look();
   }
 
-  // Returns the strokes of the document with this one.
   strokes() {
     const {kind, strength, softness, area} = this.settings;
     const lines = this.lines.filter((line) => line.length >= (this.isLasso ? 3 : 1));

@@ -117,7 +117,6 @@ export class ScanPanel {
     $("#denoise-value").textContent = noise.toFixed(2);
   }
 
-  // Shows the document's values.
   show() {
     const {crop, crumbs, plane, doubtful, denoise} = this.doc.now.options;
     const key = [crop, crumbs, plane, doubtful, denoise, this.facts?.noise].join();
@@ -134,7 +133,6 @@ export class ScanPanel {
       this.showCut(cut, 100 * (WHOLE[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
   }
 
-  // Shows the notes on the scan in `facts`; none for null.
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];

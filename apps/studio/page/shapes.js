@@ -66,7 +66,6 @@ export class ShapeRow {
     this.element = make("div", {class: "shape", title}, pair(label, this.input));
   }
 
-  // Shows the text of the option.
   show(text) {
     const before = this.shown, {name, values} = parseShape(this.option, text);
     this.shown = {text, unit: shown.unit, name, values};

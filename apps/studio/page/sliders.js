@@ -49,7 +49,6 @@ export class Sliders {
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
-  // Shows the height that follows from the option mm-per-value.
   showScaled() {
     if (hasScale(this.doc.now) && this.frame()) this.all.height.show(this.frame().height_mm);
   }
@@ -94,7 +93,6 @@ export class Sliders {
     for (const slider of Object.values(this.all)) slider.showUnit();
   }
 
-  // Shows the document's values.
   show() {
     const {options, isHeightLocked} = this.doc.now, isShaped = options.form !== "lithophane";
     for (const [name, slider] of Object.entries(this.all)) {

@@ -41,7 +41,6 @@ export class SnapshotPanel {
     this.modes.setComparing(!isCompared, isCompared ? null : snapshot);
   }
 
-  // Returns the settings of a snapshot as a step.
   stepOf = (snapshot) => ({...this.doc.now, ...partOfSnapshot(snapshot)});
 
   show() {

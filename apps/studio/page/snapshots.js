@@ -6,7 +6,6 @@ import {packed, unpacked} from "./strokes.js";
 
 export const MOST_SNAPSHOTS = 50;
 
-// Returns a snapshot of a step.
 export function snapshotOf({input: _input, snapshots: _snapshots, options: all, ...rest}, name) {
   const options = Object.fromEntries(Object.entries(all).filter(([key, value]) =>
     JSON.stringify(value) !== JSON.stringify(FIRST.options[key])));

@@ -46,7 +46,6 @@ export class Stage {
     return {width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight)};
   }
 
-  // Returns the request for a picture of a step.
   request(extra = {}, step = this.doc.now) {
     const {material, light} = step;
     const request = {options: shownOptions(step), material, light, camera: this.camera, ...extra};

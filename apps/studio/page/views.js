@@ -38,7 +38,6 @@ export class ViewDialog {
     picture.hidden = false;
   }
 
-  // Draws the picture of each side.
   async drawSides() {
     for (const button of $("#sides").children) {
       const {image} = await this.engine.scan({...SIDES[button.dataset.side], ...SIDE});

@@ -36,7 +36,6 @@ const names = (of = page) => of.locator("#stroke-list input[maxlength]").evaluat
   all.map(({value}) => value));
 const steps = async () => (await engine.kept({path: scan})).at;
 
-// Returns the pixel at a place of the picture, in shares of its width and height.
 async function pixel(u, v, of = page) {
   const {x, y, width, height} = await of.locator("#stage").boundingBox();
   return [x + u * width, y + v * height];
@@ -51,7 +50,6 @@ async function draw(brush, ...places) {
   await page.mouse.up();
 }
 
-// Draws, and waits until the list has that many strokes.
 async function drawUntil(count, ...drawing) {
   await draw(...drawing);
   await untilStrokes(count);

@@ -44,7 +44,6 @@ const isGrey = ([r, g, b]) => r === g && g === b;
 const colourOf = (name) => use(name).locator(".dot").evaluate((dot) =>
   getComputedStyle(dot).backgroundColor.match(/\d+/g).map(Number));
 
-// Saves the project without its scan. Returns the path of the project file.
 async function savedProject() {
   await button("Save project").click();
   await page.getByText("Settings alone").click();

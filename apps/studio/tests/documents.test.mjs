@@ -123,7 +123,6 @@ class MapStorage extends Map {
   }
 }
 
-// Kills the engine `times` times while the page sends changes.
 async function killAtRandom(place, times) {
   const document = "00000000000000aa", storage = new MapStorage(), page = new ScriptedPage(document, storage);
   const file = path.join(place, "documents", `${document}.json`);

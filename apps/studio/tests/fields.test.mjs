@@ -9,7 +9,6 @@ import {enter, eventually, ignoreTimers, savedFiles, type, untilReady, untilTime
 
 withPage("still_life", 8000);
 
-// Waits until the status line states that size of the piece.
 const untilPiece = (size) => untilTold(`piece ${size}`);
 const reach = () => page.locator("#reach");
 

@@ -23,7 +23,6 @@ const kind = radio;
 const offered = (name) => page.getByRole("group", {name: "Found on the scan"}).getByRole("button", {name});
 const note = (text) => page.locator("#notes").getByText(text);
 
-// Opens a scan in a page, and waits until its relief is shown.
 async function openScan(file, points, of = page) {
   await of.locator("#file").setInputFiles(file);
   await of.getByText(`of ${points} points`).waitFor();
@@ -472,7 +471,6 @@ test("keeps the view that was asked for last when the one before it arrives late
   await other.close();
 });
 
-// Returns the normal at a random point of a sphere.
 function anyNormal(random) {
   const z = 2 * random() - 1, angle = 2 * Math.PI * random(), r = Math.sqrt(1 - z * z);
   return [r * Math.cos(angle), r * Math.sin(angle), z];

@@ -18,7 +18,6 @@ async function set(values) {
   await untilTaken();
 }
 
-// Returns the options of the document that the engine has stored.
 const kept = async () => (await engine.newestStep(scan)).options;
 
 // Exports the shown piece. Returns the name and the size of the file, and the size that the dialog states.

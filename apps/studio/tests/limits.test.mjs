@@ -12,7 +12,6 @@ const MIB = 2 ** 20;
 
 withEngine("shell", 20000);
 
-// Returns the peak memory of the engine in MiB.
 function mostMemory() {
   const [, kib] = readFileSync(`/proc/${engine.child.pid}/status`, "utf8").match(/VmHWM:\s+(\d+)/);
   return kib / 1024;

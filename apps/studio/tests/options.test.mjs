@@ -73,7 +73,6 @@ async function setShape(option, text) {
   for (const [parameter, value] of values) await enter(row.getByLabel(labels[parameter]), value);
 }
 
-// Sets an option with its control, as a user does.
 async function set(name, value) {
   const it = control(name);
   if (["base", "wrap", "tool"].includes(name)) return setShape(name, value);
@@ -90,7 +89,6 @@ async function set(name, value) {
   await (kind === "range" ? it.fill(String(value)) : enter(it, String(value)));
 }
 
-// Returns the newest request for a picture.
 const sent = () => page.evaluate(() => window.frame);
 
 const reaches = (check) => eventually(async () => {
@@ -208,7 +206,6 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await untilReady(page);
 });
 
-// Makes height maps with these file names.
 const makeMaps = (...files) => files.forEach((file) =>
   run("make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", file, "--heightmap-size", 64));
 

@@ -69,7 +69,6 @@ const untilHeight = (wanted, tolerance) => eventually(async () => {
   assert.ok(Math.abs(shown - wanted) <= tolerance, `the height stays at ${shown} instead of ${wanted}`);
 });
 
-// Shows the relief in the view with that name.
 async function show(side) {
   await chooseView(side);
   await untilReady(page);
@@ -90,7 +89,6 @@ test("opens a sample and shows its progress, and a coarse relief until the exact
   assert.equal((await areExact)[0], false);
 });
 
-// Opens a scan, and waits until its relief is shown.
 async function showFile(file, of) {
   await openFile(file, of);
   await of.getByText(path.basename(file), {exact: true}).waitFor();
@@ -253,7 +251,6 @@ test("names what it reads and offers each outline, form and format of the engine
   await added.close();
 });
 
-// Returns the values of the curve as the page draws it, from 0 to 1.
 const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAttribute("d")).split(/[ML]/).slice(1)
   .map((place) => 1 - Number(place.split(" ")[1]) / 150);
 

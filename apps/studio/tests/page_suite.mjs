@@ -53,7 +53,6 @@ export function withPage(sample, points, begin = () => {}) {
   });
 }
 
-// Starts another engine after the first one was stopped.
 export async function startEngine(...args) {
   engine = await new EngineProcess(state, ...args).ready();
   return engine;
@@ -164,11 +163,9 @@ export async function touchScreen(viewport, isMobile = false) {
 export const numbers = (of = page) => of.locator("#numbers");
 export const untilTold = (pattern, of = page) => of.locator("footer").getByText(pattern).waitFor();
 
-// Returns the number of visible points of the scan.
 export const visiblePoints = async (of = page) =>
   Number((await numbers(of).innerText()).match(/^[\d,]+/)[0].replaceAll(",", ""));
 
-// Returns the width and height of the piece in mm.
 export const pieceSize = async () =>
   (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
 

@@ -131,12 +131,10 @@ export class EngineProcess {
     return {status: answer.status, ...JSON.parse(answer.body)};
   }
 
-  // Returns the stored document of an input.
   async kept(input) {
     return (await this.json("document", {input})).kept;
   }
 
-  // Returns the newest step of the stored document of a scan.
   async newestStep(scan) {
     const {steps, at} = await this.kept({path: scan});
     return steps[at];
@@ -148,13 +146,11 @@ export class EngineProcess {
   }
 }
 
-// Runs the program and asserts that it succeeds.
 export function run(...args) {
   const made = spawnSync(PROGRAM, args.map(String));
   assert.equal(made.status, 0, String(made.stderr));
 }
 
-// Writes a sample with that many points into a file.
 export const writeSample = (sample, points, file) => run("sample", sample, "-o", file, "--points", points);
 
 // Writes two scans into a folder, with names other than those of samples. Returns their paths.

@@ -4,7 +4,6 @@
 
 namespace {
 
-// The content of a jmp_buf.
 struct State {
   void* call;           // identifies the call of the function that contains the setjmp()
   std::uint32_t place;  // number of that setjmp() within the function, from 1

@@ -109,7 +109,6 @@ export class Transport {
     return this.#work(call, request, await this.#filesIn(request.options));
   }
 
-  // Returns the files that options name.
   async #filesIn(options) {
     return (await Promise.all(pathsIn(options).map((path) => this.#filesOf({path})))).flat();
   }

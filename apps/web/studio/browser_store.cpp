@@ -22,7 +22,6 @@ struct ScanInMemory final : studio::DroppedScan {
   std::vector<std::byte> bytes;
 };
 
-// Returns the folder of the scan with that hash.
 std::string folder_of(std::string_view hash) {
   return cat("scans/", hash.substr(hash.find(':') + 1), "/");
 }

@@ -16,7 +16,6 @@ const native = process.env.RELIEVO;
 const browsers = {chromium: await findBrowser("chromium"), firefox: await findBrowser("firefox")};
 let scans; // a folder of scans
 
-// Returns a scan as a grid of `rows` x `rows` points.
 function waves(rows) {
   const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${rows * rows}\n` +
     "property float x\nproperty float y\nproperty float z\nend_header\n";

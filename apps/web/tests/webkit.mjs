@@ -14,7 +14,6 @@ export function missingWebKit() {
   return lacks ? `SKIPPED: ${lacks} is not there: run scripts/prepare --web` : false;
 }
 
-// A page in WebKit.
 export class WebKitPage {
   // Opens the address in a new browser. Its downloads are stored in `folder`.
   static async open(t, address, folder) {
