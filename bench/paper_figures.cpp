@@ -155,7 +155,7 @@ Heights solved(const PaperModel& model, double u) {
   return heights;
 }
 
-// Returns the known heights of all visible points: 1, those of the scan, or those of (9) with w_k = 1.
+// Returns one known height per visible point: 1, the scan's depth, or that of (9) with w_k = 1.
 Heights known_heights(const Scan& scan, Mapping::Known known) {
   if (known == Mapping::Known::none) return Heights(scan.visible.size(), 1);
   if (known == Mapping::Known::uncompressed)

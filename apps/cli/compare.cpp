@@ -103,7 +103,7 @@ struct Comparer {
     return TunedRelief{std::move(relief), ""};
   }
 
-  // Appends one relief per method, each of the height `share`. Appends none if a method fails.
+  // Appends a relief per method, `share` times the width high. Appends none if one fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;

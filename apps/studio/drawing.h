@@ -116,7 +116,7 @@ class Drawing {
 
   const ModelFacts& facts() const { return facts_; }
 
-  // While frozen, every picture shows the last frame instead of the requested one. A new model ends this.
+  // While frozen, the last frame, if there is one, is shown instead of the requested frame.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
   // Draws the model itself if the request asks for it, otherwise the relief or its piece.

@@ -1,4 +1,4 @@
-// Makes the front, the plate and the body for the options of a relief.
+// Makes the front and the body of a relief, as its options ask.
 #pragma once
 
 #include "relievo/core/progress.h"

@@ -77,7 +77,7 @@ Result<void> check_rim(const ReliefOptions& options) {
   return {};
 }
 
-// Only a plate with a plane base can be cut by a tool, be a lithophane, or be bent around a body.
+// Only on a plane base can the finish be `reachable`, a lithophane be made, or a plate be bent.
 Result<void> check_base(const ReliefOptions& options) {
   if (options.base.kind == BaseKind::plane) return {};
   if (options.form == Form::lithophane)

@@ -205,9 +205,8 @@ class ReliefModel::Maker {
     input_.attention = attention_;
   }
 
-  // Returns the relief of that shape without the last step of its style; Relief::height is already final.
-  // Steps at depth jumps get their share of `height`. If no height is given, they get their share of the
-  // height that slopes and steps reach together.
+  // Returns the relief of that shape before finish(). The steps at depth jumps take the share Shape::steps of
+  // `height`, or, if none is given, of the height of slopes and steps together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, asked};
     relief.heights = model_.state_->solve(relief.shape, input_);

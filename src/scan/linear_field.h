@@ -8,7 +8,7 @@
 
 namespace relievo {
 
-// Fits linear functions for `Values` numbers around a position. The weight of a point falls from 1 at the
+// Fits `Values` linear functions to samples around a position. The weight of a point falls from 1 at the
 // position to 0 at the radius.
 template <int Values>
 class LinearField {

@@ -121,8 +121,8 @@ class Visibility {
     });
   }
 
-  // Compares depths at the centre of the point's pixel, for which the buffer's depth was computed: on a slope
-  // the depth there differs from the point's own.
+  // Compares depths at the centre of the point's pixel, where the buffer's depth was computed. The point's own
+  // depth is continued there along its plane.
   bool is_in_front(Index i, const DepthBuffer& buffer) const {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();

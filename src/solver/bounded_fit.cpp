@@ -18,7 +18,7 @@ Vector laplacian(const BoundedFit& fit, const Vector& x) {
   return fit.A.selfadjointView<Eigen::Lower>() * x;
 }
 
-// Returns H x, where H is the Hessian of the energy. `misfit` is A x.
+// Returns H x for `misfit` = A x, and the gradient for A x - load. H is the Hessian of the energy.
 Vector hessian(const BoundedFit& fit, const Vector& misfit) {
   return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
 }

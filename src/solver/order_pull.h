@@ -46,7 +46,7 @@ class OrderPull {
  private:
   struct Direction {
     std::size_t offset;  // > 0; from the first node of a pair to the second
-    // Per first node: the wanted difference as a signed share of the height; 0 if the node is in no pair.
+    // How far the first node should be above the second, as a share of OrderLimits::height; 0: no pair.
     std::vector<float> wanted;
   };
   std::vector<Direction> directions_;

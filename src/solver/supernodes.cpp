@@ -226,8 +226,8 @@ std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, 
   return moved;
 }
 
-// Merges each group into one supernode. Its rows are the rows of the topmost member, which include the rows
-// below all other members.
+// Merges each group into one supernode. Its rows are those of the topmost member, which include the others'
+// rows outside the group.
 Supernodes merged(const Supernodes& nodes, std::span<const Index> group) {
   const Groups groups = number_groups(nodes, group);
   Supernodes result;

@@ -154,8 +154,8 @@ TEST(Meshopt, DecodesRandomTrianglesAsAModelDoes) {
   }
 }
 
-TEST(Meshopt, DecodesIndicesAgainstTwoBaselines) {
-  // The stream has differences of 5 and -3 to the first baseline, and of 1000 and 1 to the second.
+TEST(Meshopt, DecodesIndicesOfTwoSeries) {
+  // Differences to the last index of the same series: 5 and -3 in the first, 1000 and 1 in the second.
   const std::string stream =
       "\xD1" + bytes_of({5 << 2, 1000 * 4 % 128 + 1 + 128, 1000 * 4 / 128, 2 << 2 | 2, 1 << 2 | 1}) +
       std::string(4, '\0');

@@ -166,8 +166,7 @@ class StudioMemory : public testing::TestWithParam<int> {
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 
-  // Returns the answer to a request while an allocation fails. It may also be an allocation that the test
-  // itself makes.
+  // Returns a request's answer while `fault` fails allocations; out_of_memory if one of the test's own fails.
   template <typename Request>
   static Told with_fault(const test::AllocationFault& fault, const Request& request) {
     const FailingAllocation failing(fault);

@@ -54,7 +54,7 @@ export class LetterMarks {
     return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
-  // Returns the movement of an ornament since it was placed: an SVG transform, and the place of its handle, in mm.
+  // Returns how an ornament moved since the engine placed it, as an SVG transform; and its handle's place, in mm.
   movement(ornament, {ornament: was, at, middle, radius}) {
     const sign = this.isMirrored ? -1 : 1;
     if (isOnArc(ornament) && isOnArc(was)) {

@@ -117,6 +117,6 @@ function showValue({about, input}, text) {
   else if (!isUnfinished(input)) input.value = text === undefined ? "" : valueText(about, text);
 }
 
-// Converts a value in the text of an option to the text of its field. Lengths are converted to the page's unit.
+// Returns the text that a parameter's field shows for its value. Lengths are converted to the page's unit.
 const valueText = ({unit}, text) =>
   (unit === "mm" ? shortLength(parseLength(text)) : String(parseLength(text, false)));

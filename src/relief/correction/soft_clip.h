@@ -37,7 +37,7 @@ class SoftClip {
     return z < lower_ ? lower_ - bent(lower_ - z, lower_ - lowest_) : z;
   }
 
-  // Returns the span of the clipped heights and the base, 0.
+  // Returns the span of the clipped heights, 0 included.
   Real span() const { return (*this)(highest_) - (*this)(lowest_); }
 
  private:

@@ -142,7 +142,7 @@ class ChangeFinder {
       constexpr double share = .1;  // factor of the squared scatter of depths relative to that of normals
       return share * std::max(0.0, squared_depths - depths * depth());
     }
-    // Sums of squared deviations of normals and depths: from the fit, and from the mean.
+    // Squared deviations of depths, plus those of normals: from the fit, or from their mean.
     double misfit() const { return of_normals + of_depths(); }
     double scatter() const { return around_mean + of_depths(); }
   };
