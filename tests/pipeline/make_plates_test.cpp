@@ -19,10 +19,6 @@ MadeRelief made(const ReliefOptions& options) {
   return relief;
 }
 
-Box box_of(const Solid& solid) {
-  return Box::of(solid.points);
-}
-
 ReliefOptions coin_options() {
   ReliefOptions options;
   options.width_mm = 20;
@@ -36,7 +32,7 @@ ReliefOptions coin_options() {
 // Returns the height of the highest corner of the plate's edge above the ground.
 double rim_height(const MadeRelief& relief) {
   const Solid& solid = relief.solid;
-  const Box box = box_of(solid);
+  const Box box = Box::of(solid.points);
   double highest = 0;
   for (const Vec3& p : solid.points)
     if (p.x() < 1e-9 || p.x() > box.max.x() - 1e-9) highest = std::max(highest, p.z());
@@ -61,9 +57,9 @@ TEST(MakePlates, ARimIsAsHighAsTheReliefIfItsBevelFits) {
 
 TEST(MakePlates, ADieIsTheCoinTurnedOver) {
   ReliefOptions options = coin_options();
-  const Box coin = box_of(made(options).solid);
+  const Box coin = Box::of(made(options).solid.points);
   options.form = Form::die;
-  const Box die = box_of(made(options).solid);
+  const Box die = Box::of(made(options).solid.points);
   EXPECT_NEAR(die.size().z(), coin.size().z(), 1e-9);
   EXPECT_NEAR(die.size().x(), coin.size().x() + 2 * (2 + .3 * .8), 1e-3);
 }
@@ -76,7 +72,7 @@ TEST(MakePlates, AWrapKeepsTheFlatPlateForHeightMaps) {
   options.wrap = *parse_wrap("cylinder:diameter=30");
   const MadeRelief shell = made(options);
   ASSERT_TRUE(shell.report.wrap);
-  const double width = box_of(shell.flat).size().x(), pi = std::numbers::pi;
+  const double width = Box::of(shell.flat.points).size().x(), pi = std::numbers::pi;
   EXPECT_EQ(shell.report.wrap->diameter_mm, 30);
   EXPECT_NEAR(shell.report.wrap->turn_deg, width / (30 * pi) * 360, 1e-9);
   EXPECT_NEAR(shell.report.wrap->mm_per_degree, 30 * pi / 360, 1e-12);
@@ -94,7 +90,7 @@ TEST(MakePlates, ABaseLeavesTheReliefsHeightAndADieFitsIt) {
   options.form = Form::die;
   const MadeRelief die = made(options);
   EXPECT_NEAR(die.report.height_mm, .8, 1e-3);
-  EXPECT_GT(box_of(die.solid).size().z(), 3 + 1.5);
+  EXPECT_GT(Box::of(die.solid.points).size().z(), 3 + 1.5);
   options.form = Form::lithophane;
   EXPECT_TRUE(check(options).error().message().starts_with("base: expected a plane for a lithophane"));
 }

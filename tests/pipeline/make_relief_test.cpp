@@ -25,10 +25,6 @@ Cloud small_figure() {
   return test::joined(test::torus(8000, 1.5, .4), test::sphere(4000, .8));
 }
 
-Box box_of(const Solid& solid) {
-  return Box::of(solid.points);
-}
-
 TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   ReliefOptions options;
   options.width_mm = 60;
@@ -37,7 +33,7 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   options.thickness_mm = 1.5;
   const auto made = value_of(make_relief(figure(), options));
   EXPECT_EQ(check_solid(made.solid), "");
-  const Box box = box_of(made.solid);
+  const Box box = Box::of(made.solid.points);
   EXPECT_NEAR(std::max(box.size().x(), box.size().y()), 60 + 2 * 4, 1e-9);
   EXPECT_NEAR(box.size().z(), 1.5 + 2.5, 2.5e-3);
   EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
@@ -86,7 +82,7 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
   const auto made = value_of(make_relief(model, options));
   EXPECT_EQ(check_solid(made.solid), "");
   const std::string_view name = name_in(outline_choices, options.outline);
-  EXPECT_LT((box_of(made.solid).size().head<2>() - size).cwiseAbs().maxCoeff(), 1e-9) << name;
+  EXPECT_LT((Box::of(made.solid.points).size().head<2>() - size).cwiseAbs().maxCoeff(), 1e-9) << name;
   const double width = with_width(model.surface(), options)->effective_width_mm();
   ReliefOptions larger = options;
   larger.width_mm = width * 1.001;
@@ -97,7 +93,7 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
   free.width_mm = width;
   free.diameter_mm.reset();
   free.plate_mm.reset();
-  const Vec2 share = box_of(make_relief(model, free)->solid).size().head<2>().cwiseQuotient(size);
+  const Vec2 share = Box::of(make_relief(model, free)->solid.points).size().head<2>().cwiseQuotient(size);
   if (options.outline == Outline::ellipse) return;  // the smaller ellipse has another ratio of axes
   EXPECT_NEAR(share.maxCoeff(), 1, 1e-3) << name;
 }
@@ -120,10 +116,10 @@ TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   expect_fitted(*model, options, Vec2(80, 80));
   options.width_mm = 20;  // a smaller relief keeps the plate's size
   const auto made = make_relief(*model, options);
-  EXPECT_NEAR(box_of(made->solid).size().x(), 80, 1e-9);
+  EXPECT_NEAR(Box::of(made->solid.points).size().x(), 80, 1e-9);
   EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
   options.form = Form::die;  // around the rim's groove is a border, as wide as the rim and its bevel together
-  const Vec3 die = box_of(make_relief(*model, options)->solid).size();
+  const Vec3 die = Box::of(make_relief(*model, options)->solid.points).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);
 }
 
@@ -172,7 +168,7 @@ TEST(MakeRelief, IsNowhereThinnerThanAsked) {
       options.form = form;
       options.outline = outline;
       const auto made = value_of(make_relief(*model, options));
-      const Vec3 size = box_of(made.solid).size();
+      const Vec3 size = Box::of(made.solid.points).size();
       int lines = 0;
       for (int trial = 0; trial < 100; ++trial) {
         const auto at = crossings(made.solid, {random.uniform(0, size.x()), random.uniform(0, size.y())});
@@ -295,7 +291,8 @@ TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const Vec2 middle = place(options);
   options.shift_mm = Vec2(12, -7);
   EXPECT_LT((place(options) - middle - options.shift_mm).norm(), 1e-9);
-  EXPECT_LT((box_of(make_relief(*model, options)->solid).size().head<2>() - *options.plate_mm).norm(), 1e-9);
+  EXPECT_LT((Box::of(make_relief(*model, options)->solid.points).size().head<2>() - *options.plate_mm).norm(),
+            1e-9);
   options.form = Form::mirror;  // the mirrored relief moves to the left
   const Vec2 mirrored = place(options);
   EXPECT_LT((mirrored - Vec2(120 - middle.x() - 12, middle.y() - 7)).norm(), 1e-6);

@@ -11,6 +11,7 @@
 namespace relievo {
 namespace {
 
+using test::place_of;
 using test::surface_of;
 
 Stroke lasso_of(std::vector<Vec3> corners, const Vec3& direction, double radius = .1) {
@@ -29,10 +30,6 @@ std::vector<Vec3> ellipse(double a, double b, double z = 0) {
     corners.emplace_back(a * std::cos(turn), b * std::sin(turn), z);
   }
   return corners;
-}
-
-Vec3 place_of(const Surface& surface, Index i) {
-  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
 }
 
 // Returns for each point of the surface whether it is in the area, and expects that no point is listed twice.
