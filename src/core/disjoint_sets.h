@@ -1,5 +1,4 @@
-// Disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving. Tested by
-// tests/core/disjoint_sets_test.cpp.
+// Disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving.
 #pragma once
 
 #include <numeric>

@@ -1,8 +1,9 @@
-// Removes elements of lists, or picks elements by their indices. Tested by tests/io/io_test.cpp and
-// tests/scan/surface_test.cpp.
+// Removes elements of lists, or finds and picks elements by their indices. Tested by tests/io/io_test.cpp
+// and tests/scan/surface_test.cpp.
 #pragma once
 
 #include <cstddef>
+#include <numeric>
 #include <ranges>
 #include <span>
 #include <vector>
@@ -20,6 +21,35 @@ void keep_where(std::vector<T>& values, IsKept&& is_kept) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (is_kept(i)) values[kept++] = values[i];
   values.resize(kept);
+}
+
+// Returns the numbers i in [0, n) for which is_wanted(i) is true, ascending.
+template <typename IsWanted>
+std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
+  std::vector<Index> found;
+  for (Index i = 0; i < n; ++i)
+    if (is_wanted(i)) found.push_back(i);
+  return found;
+}
+
+// Returns the numbers from 0 to n - 1.
+inline std::vector<Index> all_indices(std::size_t n) {
+  std::vector<Index> all(n);
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+// Returns, for each number in [0, n), its position in `listed`, or no_index.
+inline std::vector<Index> places_in(std::span<const Index> listed, std::size_t n) {
+  std::vector<Index> place(n, no_index);
+  for (Index i = 0; i < listed.size(); ++i) place[listed[i]] = i;
+  return place;
+}
+
+// Appends the elements of another list.
+template <typename T, typename List>
+void append(std::vector<T>& to, const List& from) {
+  to.insert(to.end(), from.begin(), from.end());
 }
 
 // Returns the elements of `from` with the indices in `order`, in that order; an empty list if `from` is

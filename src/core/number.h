@@ -1,4 +1,4 @@
-// Parses numbers independently of the locale. Tested by tests/core/number_test.cpp.
+// Parses numbers independently of the locale.
 #pragma once
 
 #include <charconv>

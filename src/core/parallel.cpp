@@ -1,10 +1,8 @@
 #include "relievo/core/parallel.h"
 
-#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <limits>
-#include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>

@@ -3,8 +3,6 @@
 // HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 
-#include <cstring>
-
 // GCC warns that passing such a vector to a function depends on the instruction set. All our functions with
 // vectors are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"

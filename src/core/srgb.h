@@ -1,7 +1,9 @@
-// The brightness of sRGB colours. Tested by tests/core/srgb_test.cpp.
+// The brightness and the means of sRGB colours.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "relievo/core/types.h"
 
@@ -20,6 +22,17 @@ inline double luminance(const Colour& colour) {
 inline double lightness(const Colour& colour) {
   const double y = luminance(colour);
   return y > 216.0 / 24389 ? 1.16 * std::cbrt(y) - .16 : y * 24389 / 2700;
+}
+
+// Returns the mean of the colours of a triangle's corners with these weights, whose sum is 1.
+inline Colour weighted_mean(std::span<const Colour> colours, const Triangle& corners, const Vec3f& weights) {
+  Colour mean;
+  for (std::size_t c = 0; c < 3; ++c) {
+    float sum = .5F;
+    for (std::size_t i = 0; i < 3; ++i) sum += weights[i] * static_cast<float>(colours[corners[i]][c]);
+    mean[c] = static_cast<std::uint8_t>(std::clamp(sum, 0.F, 255.F));
+  }
+  return mean;
 }
 
 }  // namespace relievo

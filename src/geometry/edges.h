@@ -1,5 +1,4 @@
-// The edges of triangles; each edge comes with the triangle sides on it. Tested by
-// tests/geometry/edges_test.cpp.
+// The edges of triangles; each edge comes with the triangle sides on it.
 #pragma once
 
 #include <algorithm>

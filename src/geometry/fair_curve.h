@@ -1,5 +1,4 @@
-// Fits a smooth curve to measured points that scatter around it. Tested by
-// tests/geometry/fair_curve_test.cpp.
+// Fits a smooth curve to measured points that scatter around it.
 #pragma once
 
 #include <span>

@@ -1,5 +1,4 @@
-// Constrained triangulations, which have given edges, such as the walls of letters. Tested by
-// tests/geometry/held_edges_test.cpp.
+// Constrained triangulations, which have given edges, such as the walls of letters.
 #pragma once
 
 #include <array>

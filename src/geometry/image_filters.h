@@ -1,7 +1,6 @@
 // Filters on images: dilation by a shape and blurring.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "relievo/core/image.h"

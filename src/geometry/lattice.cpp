@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.h"
 #include "core/memory.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
@@ -16,9 +17,8 @@ constexpr Index most_counted =
 
 // Returns whether p is in the triangle or on its border. The corners are counter-clockwise.
 bool is_in(const Vec2& p, const std::array<Vec2, 3>& corners) {
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k)
     if (cross(corners[(k + 1) % 3] - corners[k], p - corners[k]) < 0) return false;
-  }
   return true;
 }
 
@@ -55,8 +55,7 @@ void Lattice::set_places(std::span<const Vec3> points, double cell) {
 void Lattice::set_first_nodes() {
   std::vector<std::uint8_t> is_first(nodes());
   for (const SplinePlace& p : places_) is_first[p.node] = 1;
-  for (Index n = 0; n < is_first.size(); ++n)
-    if (is_first[n]) first_nodes_.push_back(n);
+  first_nodes_ = indices_where(is_first.size(), [&](Index n) { return is_first[n] != 0; });
 }
 
 void Lattice::count(std::span<const Index> counted) {

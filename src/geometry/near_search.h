@@ -1,5 +1,4 @@
-// Finds the points near each of many positions with few queries of a k-d tree. Tested by
-// tests/geometry/near_search_test.cpp.
+// Finds the points near each of many positions with few queries of a k-d tree.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,6 @@
-// The boundary of the union of closed outlines, such as those of glyphs and drawings. Tested by
-// tests/geometry/outline_union_test.cpp.
+// The boundary of the union of closed outlines, such as those of glyphs and drawings.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "geometry/segment_grid.h"

@@ -1,5 +1,4 @@
-// A set of points in the plane with a least distance from each other. Tested by
-// tests/geometry/point_set_test.cpp.
+// A set of points in the plane with a least distance from each other.
 #pragma once
 
 #include <cmath>

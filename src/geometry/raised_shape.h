@@ -1,8 +1,6 @@
 // Shapes that rise above a plane, or sink below it. Their height depends on the distance from their outline.
-// Tested by tests/geometry/raised_shape_test.cpp.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "relievo/core/parallel.h"
-
 namespace relievo {
 namespace {
 

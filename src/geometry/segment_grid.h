@@ -1,5 +1,4 @@
-// Finds segments of plane curves that are near a point or crossed by a line. Tested by
-// tests/geometry/segment_grid_test.cpp.
+// Finds segments of plane curves that are near a point or crossed by a line.
 #pragma once
 
 #include <span>

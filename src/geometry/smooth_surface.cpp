@@ -1,7 +1,6 @@
 #include "geometry/smooth_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// A smooth surface through heights over a triangulation. Tested by tests/geometry/smooth_surface_test.cpp.
+// A smooth surface through heights over a triangulation.
 #pragma once
 
 #include <array>

@@ -77,9 +77,8 @@ Index DelaunayBuilder::locate(const Vec2& p) const {
 
 // Returns the corner of e's triangle that lies at p, or no_index.
 Index DelaunayBuilder::vertex_at(const Vec2& p, Index e) const {
-  for (const Index corner : {edges_[e].origin, edges_[next(e)].origin, edges_[previous(e)].origin}) {
+  for (const Index corner : {edges_[e].origin, edges_[next(e)].origin, edges_[previous(e)].origin})
     if (corner != infinity && points_[corner] == p) return corner;
-  }
   return no_index;
 }
 
@@ -87,9 +86,8 @@ Index DelaunayBuilder::vertex_at(const Vec2& p, Index e) const {
 // open half-plane or in the interior of the edge.
 bool DelaunayBuilder::circle_contains(Index e, const Vec2& p) const {
   const Index a = edges_[e].origin, b = edges_[next(e)].origin, c = edges_[previous(e)].origin;
-  if (a != infinity && b != infinity && c != infinity) {
+  if (a != infinity && b != infinity && c != infinity)
     return incircle(points_[a], points_[b], points_[c], p) > 0;
-  }
   const Vec2& from = points_[a == infinity ? b : b == infinity ? c : a];
   const Vec2& to = points_[a == infinity ? c : b == infinity ? a : b];
   const int side = orient2d(from, to, p);
@@ -191,9 +189,8 @@ Triangulation DelaunayBuilder::result() const {
   const std::size_t count = numbers.size() - triangulation.hull.size();
   triangulation.triangles.reserve(count);
   triangulation.neighbours.reserve(count);
-  for (Index t = 0; t < numbers.size(); ++t) {
+  for (Index t = 0; t < numbers.size(); ++t)
     if (numbers[t] != no_index) append_triangle(t, numbers, triangulation);
-  }
   return triangulation;
 }
 
@@ -211,11 +208,9 @@ Triangulation delaunay(std::span<const Vec2> points) {
   // lie on few lines.
   std::size_t step = 1, coarser = points.size();
   while (step * 4 < points.size()) step *= 4;
-  for (; step > 0; coarser = step, step /= 4) {
-    for (std::size_t i = 0; i < points.size(); i += step) {
+  for (; step > 0; coarser = step, step /= 4)
+    for (std::size_t i = 0; i < points.size(); i += step)
       if (coarser == points.size() || i % coarser != 0) builder.insert(static_cast<Index>(i));
-    }
-  }
   return builder.result();
 }
 

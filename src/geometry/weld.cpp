@@ -1,6 +1,5 @@
 #include "geometry/weld.h"
 
-#include <bit>
 #include <utility>
 
 namespace relievo {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/lists.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -84,11 +85,7 @@ struct UsedPoints {
   // result.
   template <typename T>
   std::vector<T> pick(const std::vector<T>& old) const {
-    std::vector<T> picked;
-    if (old.empty()) return picked;
-    picked.reserve(points.size());
-    for (const Index i : points) picked.push_back(old[i]);
-    return picked;
+    return relievo::pick(old, points);
   }
 };
 

@@ -36,16 +36,14 @@ std::string remark_on_left_out(std::uint64_t points, std::string_view which) {
 }
 
 std::string foreign_format(const Source& source) {
-  for (const ForeignFormat& format : foreign_names) {
+  for (const ForeignFormat& format : foreign_names)
     if (has_ending(source.name, format.mark)) return std::string(format.what);
-  }
   for (const ForeignFormat& format : foreign_contents) {
     const std::string_view bytes = source.bytes.substr(std::min(format.at, source.bytes.size()));
     if (bytes.starts_with(format.mark)) return std::string(format.what);
   }
-  for (const ForeignFormat& format : foreign_endings) {
+  for (const ForeignFormat& format : foreign_endings)
     if (has_ending(source.name, format.mark)) return std::string(format.what);
-  }
   return has_control_bytes(source.bytes) ? "binary data" : "";
 }
 

@@ -1,5 +1,4 @@
-// The arrays that NumPy saves (NPY, versions 1 to 3), which are depth images or points. Tested by
-// tests/io/npy_test.cpp.
+// The arrays that NumPy saves (NPY, versions 1 to 3), which are depth images or points.
 #pragma once
 
 #include <cstddef>

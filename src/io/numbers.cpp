@@ -1,7 +1,6 @@
 #include "io/numbers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -72,11 +72,10 @@ Result<VertexColumns> find_columns(const Source& source, const PlyElement& verte
       return source.error_in_line(vertex.line,
                                   "expected splats that are not packed, found those of a compressed PLY; "
                                   "SuperSplat opens it and exports a PLY that is not compressed");
-    if (c < 3 && !columns.is_there[c]) {
+    if (c < 3 && !columns.is_there[c])
       return source.error_in_line(vertex.line, "expected element vertex to have a numeric property " +
                                                    std::string(column_names[c]) + ", found " +
                                                    names_of(vertex));
-    }
   }
   for (std::size_t first = 3; first < 9; first += 3) {
     auto& there = columns.is_there;

@@ -82,9 +82,8 @@ class PlyHeaderReader {
     if (word == "list") {
       word = words.next();
       count_type = type_named(word);
-      if (!count_type || *count_type >= NumberType::float32) {
+      if (!count_type || *count_type >= NumberType::float32)
         return lines_.fail("expected an integer type for the length of the list, found " + in_quotes(word));
-      }
       word = words.next();
     }
     const auto type = type_named(word);

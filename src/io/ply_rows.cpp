@@ -119,9 +119,8 @@ class AsciiRows {
   Result<void> read_list(const PlyElement& element, const PlyProperty& list, std::string_view word,
                          UseItem&& use_item) {
     const auto length = parse_integer(word);
-    if (!length || *length < 0) {
+    if (!length || *length < 0)
       return fail("expected the length of the list " + printable(list.name) + ", found " + in_quotes(word));
-    }
     for (std::int64_t i = 0; i < *length; ++i) {
       const std::string_view item = next_word();
       if (item.empty()) return fail_at_end(element);
@@ -280,11 +279,10 @@ class BinaryRows {
     decoder(*list.count_type, is_big_endian())(source_.bytes.data() + at_, 0, 1, &length);
     const std::size_t begin = at_ + size_in_bytes(*list.count_type);
     const double most = static_cast<double>((source_.bytes.size() - begin) / size_in_bytes(list.type));
-    if (length < 0 || length > most) {
+    if (length < 0 || length > most)
       return source_.error_at_byte(at_, cat("expected the length of the list ", printable(list.name),
                                             ", found ", static_cast<std::int64_t>(length),
                                             ", and there is room for ", static_cast<std::int64_t>(most)));
-    }
     return static_cast<std::size_t>(length);
   }
 

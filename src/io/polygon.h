@@ -1,4 +1,4 @@
-// Triangulates polygons that need not be convex. Tested by tests/io/polygon_test.cpp.
+// Triangulates polygons that need not be convex.
 #pragma once
 
 #include <array>

@@ -11,7 +11,6 @@
 #include "io/text.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/scan/scan_file.h"
 #include "scan/depth/organised_cloud.h"
 
 namespace relievo {
@@ -167,12 +166,11 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
                  .mesh = std::move(raw.mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
-  if (file.cloud.points.empty()) {
+  if (file.cloud.points.empty())
     return source.error({}, points == 0 ? "expected points, found none"
                             : file.left_out_points > 0
                                 ? cat("expected points that count, found none: ", file.remarks[0])
                                 : cat("expected points, found none with finite coordinates among ", points));
-  }
   return file;
 }
 

@@ -1,5 +1,4 @@
 // Finds the normals of Gaussian splats from their scales and rotations, for all formats.
-// Tested by tests/io/splat_test.cpp.
 #pragma once
 
 #include <array>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/quantile.h"
 #include "io/formats.h"
@@ -104,10 +103,7 @@ Scout scout(const Cloud& sample) {
     it.middle[axis] = median(values);
   }
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = (sample.points[i] - it.middle).norm();
-  const auto ninth =
-      values.begin() + static_cast<std::ptrdiff_t>(.9 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), ninth, values.end());
-  it.outlier_radius = 20 * *ninth;
+  it.outlier_radius = 20 * quantile(values, .9);
   it.sign = normals_point_inward(sample) ? -1.F : 1.F;
   return it;
 }

@@ -58,9 +58,8 @@ std::optional<double> parse_number(std::string_view word) {
   const char* last = word.data() + word.size();
   auto [value, end, code] = parse_double(word);
   if (code == std::errc::invalid_argument) return std::nullopt;
-  if (code == std::errc::result_out_of_range) {
+  if (code == std::errc::result_out_of_range)
     value = is_tiny(word) ? 0 : std::numeric_limits<double>::infinity();
-  }
   if (end == last) return value;
   if (*end == 'D' || *end == 'd') {  // Fortran writes 1.0D+02
     std::string with_e(word);

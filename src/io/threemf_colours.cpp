@@ -9,11 +9,6 @@
 namespace relievo::io {
 namespace {
 
-// Returns the name without its namespace prefix, which documents choose: "color" for "m:color".
-std::string_view local_name(const XmlElement& element) {
-  return element.name.substr(element.name.find(':') + 1);
-}
-
 // Reads "#RRGGBB" or "#RRGGBBAA"; the opacity AA is ignored.
 std::optional<Colour> parse_colour(std::string_view text) {
   if (!text.starts_with('#') || (text.size() != 7 && text.size() != 9)) return std::nullopt;
@@ -29,12 +24,12 @@ std::optional<Colour> parse_colour(std::string_view text) {
 }  // namespace
 
 void ThreeMfColours::take(const XmlElements& elements, std::size_t resource) {
-  const std::string_view kind = local_name(elements[resource]);
+  const std::string_view kind = local_name(elements[resource].name);
   const bool are_materials = kind == "basematerials";
   if (!are_materials && kind != "colorgroup") return;
   std::vector<Colour>& group = groups_[elements[resource].attribute("id")];
   for (std::size_t i = resource + 1; i < elements[resource].end; i = elements[i].end)
-    if (local_name(elements[i]) == (are_materials ? "base" : "color"))
+    if (local_name(elements[i].name) == (are_materials ? "base" : "color"))
       group.push_back(parse_colour(elements[i].attribute(are_materials ? "displaycolor" : "color"))
                           .value_or(Colour{255, 255, 255}));
 }

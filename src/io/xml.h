@@ -27,6 +27,11 @@ using XmlElements = std::vector<XmlElement>;
 // Reads a whole document. Errors name `source` and the line of the XML.
 Result<XmlElements> parse_xml(std::string_view text, const Source& source);
 
+// Returns the name without its namespace prefix, which documents choose: "color" for "m:color".
+inline std::string_view local_name(std::string_view name) {
+  return name.substr(name.find(':') + 1);
+}
+
 // Returns the index of the child with that name. Returns 0 if there is none; the root, element 0, is never a
 // child.
 std::size_t find_child(const XmlElements& elements, std::size_t parent, std::string_view name);

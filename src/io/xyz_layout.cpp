@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "io/xyz.h"
 #include "relievo/core/text.h"
@@ -96,9 +95,8 @@ std::string without_quoted(std::string_view line) {
 bool has_decimal_commas(std::string_view line) {
   std::size_t commas = 0, spaced_commas = 0;
   Fields fields(line, ',');
-  while (const auto field = fields.next()) {
+  while (const auto field = fields.next())
     if (std::any_of(field->begin(), field->end(), is_blank) && are_numbers(*field)) return true;
-  }
   const std::string plain = without_quoted(line);
   for (std::size_t i = plain.find(','); i < plain.size(); i = plain.find(',', i + 1)) {
     ++commas;
@@ -170,9 +168,8 @@ class Preamble {
   // A line of names must have as many names as there are columns. Only then does a comment count as a line of
   // names.
   Result<void> name_columns() {
-    if (names_.empty() && commented_names_.size() == layout_.columns && has_coordinates(commented_names_)) {
+    if (names_.empty() && commented_names_.size() == layout_.columns && has_coordinates(commented_names_))
       names_ = commented_names_;
-    }
     if (!names_.empty() && names_.size() != layout_.columns)
       return lines_.fail(cat("expected ", names_.size(), " columns as named in line ", names_line_,
                              ", found ", layout_.columns));
@@ -269,9 +266,8 @@ Result<XyzLayout> find_layout(const Source& source) {
   RELIEVO_TRY(const auto line, preamble.read());
   layout.first_line = preamble.line();
   RELIEVO_CHECK(take_separators(source, line, layout));
-  if (layout.columns < 3) {
+  if (layout.columns < 3)
     return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(line));
-  }
   RELIEVO_CHECK(preamble.name_columns());
   layout.has_names = !preamble.names().empty();
   if (!layout.has_names)

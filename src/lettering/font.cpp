@@ -5,9 +5,7 @@
 #include <hb.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numeric>
 #include <span>
 
 #include "core/number.h"

@@ -1,8 +1,6 @@
-// Shapes texts and outlines their glyphs with HarfBuzz, in the order that FriBidi determines. Tested by
-// tests/lettering/font_test.cpp.
+// Shapes texts and outlines their glyphs with HarfBuzz, in the order that FriBidi determines.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "geometry/outline_union.h"

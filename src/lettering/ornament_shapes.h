@@ -1,4 +1,4 @@
-// Places ornaments on a plate. Tested by tests/lettering/ornament_shapes_test.cpp.
+// Places ornaments on a plate.
 #pragma once
 
 #include <optional>

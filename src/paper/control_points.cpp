@@ -1,16 +1,15 @@
 #include "paper/control_points.h"
 
 #include <cmath>
-#include <numeric>
 
+#include "core/lists.h"
 #include "geometry/neighbours.h"
 
 namespace relievo::paper {
 
 std::vector<Index> control_points(std::span<const Vec2> points, std::span<const std::uint8_t> is_boundary,
                                   double rho, std::size_t count) {
-  std::vector<Index> order(points.size());
-  std::iota(order.begin(), order.end(), Index{0});
+  std::vector<Index> order = all_indices(points.size());
   if (count >= points.size()) return order;
   std::stable_partition(order.begin(), order.end(), [&](Index i) { return is_boundary[i] != 0; });
   const double radius = std::sqrt(static_cast<double>(points.size()) / static_cast<double>(count)) * rho;

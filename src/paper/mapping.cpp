@@ -1,6 +1,5 @@
 #include "paper/mapping.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/memory.h"

@@ -1,7 +1,6 @@
 #include "paper/paper_model.h"
 
 #include <limits>
-#include <numeric>
 
 #include "core/height_span.h"
 #include "core/lists.h"

@@ -1,6 +1,5 @@
 #include "paper/visible_points.h"
 
-#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 

@@ -1,7 +1,6 @@
 // The visible points of a cloud (section 3.2 of the paper).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "relievo/scan/cloud.h"

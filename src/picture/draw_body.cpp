@@ -6,7 +6,6 @@
 #include "geometry/image_filters.h"
 #include "picture/reach_tint.h"
 #include "picture/shading.h"
-#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/types.h"
 #include "relievo/picture/render.h"

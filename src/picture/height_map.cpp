@@ -3,11 +3,9 @@
 #include <vector>
 
 #include "plate/height_field.h"
-#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/types.h"
 #include "relievo/picture/height_map.h"
-#include "relievo/plate/tool.h"
 
 namespace relievo {
 namespace {

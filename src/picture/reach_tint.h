@@ -1,5 +1,4 @@
-// Colours the material that a milling tool leaves, in pictures of a body. Tested by
-// tests/picture/reach_tint_test.cpp.
+// Colours the material that a milling tool leaves, in pictures of a body.
 #pragma once
 
 #include <memory>

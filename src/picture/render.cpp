@@ -1,6 +1,5 @@
 #include "relievo/picture/render.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "picture/draw_body.h"

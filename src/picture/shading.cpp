@@ -1,6 +1,5 @@
 #include "picture/shading.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace relievo {

@@ -70,11 +70,6 @@ std::vector<Vec2> unit_hull(const Surface& surface) {
   return hull;
 }
 
-Vec2 middle_of(const std::vector<Vec2>& polygon) {
-  const Box box = Box::of(polygon);
-  return ((box.min + box.max) / 2).head<2>();
-}
-
 // Returns the largest width of a relief that leaves space for margin and rim on all sides of the plate. The
 // centres of the relief's hull and of the plate's outline coincide, so each side of the outline limits the
 // scale independently.
@@ -83,7 +78,7 @@ double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const std::vector<Vec2> hull = unit_hull(surface);
   const std::vector<Vec2> outline =
       outline_around(hull, {options.outline, options.corner_mm, edge_mm, plate_size_of(options)});
-  const Vec2 middle = middle_of(outline);
+  const Vec2 middle = Box::of(outline).centre().head<2>();
   double width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 along = outline[(i + 1) % outline.size()] - outline[i];

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/number.h"
 #include "pipeline/option_targets.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
@@ -13,25 +12,8 @@ namespace {
 
 using enum OptionStage;
 
-// Wrappers with only the text as argument.
-Result<Method> method_of(std::string_view text) {
-  return parse_method(text);
-}
-Result<Tool> tool_of(std::string_view text) {
-  return parse_tool(text);
-}
-Result<Vec2> plate_of(std::string_view text) {
-  return parse_plate_size(text);
-}
-Result<Vec2> shift_of(std::string_view text) {
-  return parse_shift(text);
-}
 Result<std::string> same(std::string_view text) {
   return std::string(text);
-}
-
-Result<std::optional<DepthCamera>> camera_of(std::string_view text) {
-  return parse_camera(text);
 }
 
 Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
@@ -47,11 +29,11 @@ constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", tr
 Result<void> read_crumbs(const OptionValue& value, OptionTargets& to) {
   const std::string& text = std::get<std::string>(value);
   constexpr double most_pieces = 1e6;
-  const auto [number, end, failed] = parse_double(text);
-  const bool is_number = failed == std::errc{} && end == text.data() + text.size();
+  const std::vector<double> numbers = parse_numbers(text).value_or(std::vector<double>());
+  const double number = numbers.size() == 1 ? numbers[0] : 0;
   View& view = to.relief.view;
   view.most_pieces = text == "largest" ? 1 : 0;
-  if (is_number && number >= 1 && number <= most_pieces && number == std::floor(number))
+  if (number >= 1 && number <= most_pieces && number == std::floor(number))
     view.most_pieces = static_cast<int>(number);
   if (view.most_pieces > 0) return {};
   const Result<bool> has_crumbs = parse_choice({}, text, keep_choices);
@@ -101,7 +83,8 @@ std::vector<OptionRow> shape_rows() {
        .access = number<&ReliefOptions::detail, &ReliefOptions::effective_detail>},
       {.name = "method", .unit = "NAME", .stage = model, .choices = names_of(methods),
        .help = "method that compresses the depths", .otherwise = "paper with an alpha, else layered",
-       .in_studio = "layered", .is_stated = true, .access = text<&ReliefOptions::method, method_of>},
+       .in_studio = "layered", .is_stated = true,
+       .access = text<&ReliefOptions::method, [](auto t) { return parse_method(t); }>},
   };
 }
 
@@ -205,10 +188,12 @@ std::vector<OptionRow> plate_rows() {
       {.name = "plate", .unit = "WxH", .stage = plate,
        .help = "width and height of the plate with margin and rim, in which the relief is as large as fits, or as "
                "width says: 200x150 or 8inx6in, with outline rectangle, round or ellipse",
-       .otherwise = "what the relief needs", .access = text<&ReliefOptions::plate_mm, plate_of>},
+       .otherwise = "what the relief needs",
+       .access = text<&ReliefOptions::plate_mm, [](auto t) { return parse_plate_size(t); }>},
       {.name = "shift", .unit = "X,Y", .stage = plate,
        .help = "how far the relief lies to the right of the middle of a plate whose size is given, and above it",
-       .otherwise = "0,0", .access = text<&ReliefOptions::shift_mm, shift_of>},
+       .otherwise = "0,0",
+       .access = text<&ReliefOptions::shift_mm, [](auto t) { return parse_shift(t); }>},
       {.name = "margin", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
        .help = "least flat ground around the relief", .otherwise = "5; 1 with a diameter and no ornaments", .is_stated = true,
        .access = number<&ReliefOptions::margin_mm, &ReliefOptions::effective_margin_mm>},
@@ -283,7 +268,8 @@ std::vector<OptionRow> body_rows() {
       {.name = "tool", .unit = "TOOL", .stage = triangles,
        .help = "report which areas a milling tool can reach: ball:DIAMETER, flat:DIAMETER, v:ANGLE or, with a round "
                "tip, v:ANGLE:DIAMETER",
-       .otherwise = "none", .access = text<&ReliefOptions::tool, tool_of>},
+       .otherwise = "none",
+       .access = text<&ReliefOptions::tool, [](auto t) { return parse_tool(t); }>},
       {.name = "finish", .unit = "KIND", .stage = triangles, .choices = names_of(finish_choices),
        .help = "reachable is the surface that the tool leaves, on a plane base",
        .initial = "full", .access = word<&ReliefOptions::finish, finish_choices>},
@@ -326,7 +312,8 @@ std::vector<OptionRow> input_rows() {
       {.name = "camera", .unit = "FX,FY,CX,CY", .stage = input,
        .help = "of a depth image: focal lengths and centre, in pixels, or the nine numbers of the matrix, or a file with "
                "either",
-       .otherwise = "none", .access = text<&DepthOptions::camera, camera_of>},
+       .otherwise = "none",
+       .access = text<&DepthOptions::camera, [](auto t) { return parse_camera(t); }>},
       {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
        .help = "of a depth image without camera: nearest to farthest, in picture widths",
        .initial = DepthOptions{}.range, .access = {read_number<&DepthOptions::range>}},

@@ -1,6 +1,5 @@
 #include "relievo/options.h"
 
-#include <string>
 #include <utility>
 
 #include "pipeline/option_targets.h"

@@ -1,11 +1,9 @@
 #include "relievo/scene.h"
 #include "core/angle.h"
-#include "relievo/scan/scan_file.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"

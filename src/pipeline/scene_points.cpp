@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/scan_file.h"
@@ -32,43 +33,29 @@ struct Parts {
   std::vector<SampleNote> notes;
 };
 
-template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+// Appends colours or own heights of points. If only one of the two groups has some, the points of the other
+// group get white or 0. `T` has the points of the groups and one of these per point.
+template <typename T, typename Value>
+void append_member(T& to, const T& from, std::vector<Value> T::*member, const Value& usual) {
+  if ((to.*member).empty() && (from.*member).empty()) return;
+  (to.*member).resize(to.points.size(), usual);
+  append(to.*member, from.*member);
+  (to.*member).resize(to.points.size() + from.points.size(), usual);
 }
 
-// Appends the colours of `added` points to those of `size` points. If only one of the two groups has colours,
-// the points of the other group become white.
-void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector<Colour>& from,
-                    std::size_t added) {
-  if (to.empty() && from.empty()) return;
-  to.resize(size, white);
-  if (from.empty())
-    to.resize(size + added, white);
-  else
-    append(to, from);
-}
-
-// Appends the own heights of points, in the same way as append_colours(). Points without own height get 0.
-void append_own_heights(std::vector<float>& to, std::size_t size, const std::vector<float>& from,
-                        std::size_t added) {
-  if (to.empty() && from.empty()) return;
-  to.resize(size, 0);
-  append(to, from);
-  to.resize(size + added, 0);
-}
+using relievo::append;
 
 void append(Cloud& to, const Cloud& from) {
-  append_own_heights(to.own_heights, to.size(), from.own_heights, from.size());
-  append_colours(to.colours, to.size(), from.colours, from.size());
+  append_member(to, from, &Cloud::own_heights, 0.F);
+  append_member(to, from, &Cloud::colours, white);
   append(to.points, from.points);
   append(to.normals, from.normals);
   append(to.outlines, from.outlines);
 }
 
 void append(Mesh& to, const Mesh& from) {
-  append_own_heights(to.own_heights, to.points.size(), from.own_heights, from.points.size());
-  append_colours(to.colours, to.points.size(), from.colours, from.points.size());
+  append_member(to, from, &Mesh::own_heights, 0.F);
+  append_member(to, from, &Mesh::colours, white);
   const auto first = static_cast<Index>(to.points.size());
   for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({a + first, b + first, c + first});
   append(to.points, from.points);

@@ -7,7 +7,6 @@
 #include "relievo/core/within_memory.h"
 #include "relievo/relief/layers.h"
 #include "relievo/relief/relief.h"
-#include "relievo/turning.h"
 #include "scan/measured_cloud.h"
 #include "scan/turning/turned_surface.h"
 

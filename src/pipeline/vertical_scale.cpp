@@ -5,6 +5,7 @@
 
 #include "plate/front/silhouette.h"
 #include "relievo/core/text.h"
+#include "scan/inside.h"
 
 namespace relievo {
 namespace {
@@ -58,8 +59,7 @@ std::vector<Side> sides_of(const Surface& surface) {
 // Returns the edges between the relief and its surroundings. The relief is on their left.
 std::vector<BoundaryEdge> relief_edges(const Surface& surface) {
   std::vector<Triangle> inside;
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-    if (surface.boundary.is_inside[t]) inside.push_back(surface.triangulation.triangles[t]);
+  std::ranges::copy(triangles_inside(surface), std::back_inserter(inside));
   return boundary_edges(inside);
 }
 

@@ -1,5 +1,4 @@
-// Reliefs with a given vertical scale, such as tiles of a map, which must match at their edges. Tested by
-// tests/pipeline/vertical_scale_test.cpp.
+// Reliefs with a given vertical scale, such as tiles of a map, which must match at their edges.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 #include "relievo/plate/base.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

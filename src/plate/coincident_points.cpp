@@ -17,6 +17,13 @@ struct Stored {
 
 }  // namespace
 
+std::vector<Vec3f> stored_points(const Solid& solid) {
+  std::vector<Vec3f> stored;
+  stored.reserve(solid.points.size());
+  for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
+  return stored;
+}
+
 std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid) {
   const std::vector<std::uint8_t> is_used = used_points(solid.points.size(), solid.triangles);
   std::vector<Stored> stored;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/lists.h"
 #include "plate/plate_ground.h"
 #include "relievo/core/parallel.h"
 
@@ -48,9 +49,7 @@ class Refiner {
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
       : flat_(flat), outline_(outline), deformation_(deformation), tolerance_(tolerance_mm) {
     deform_points();
-    origin_.resize(flat.triangles.size());
-    for (Index t = 0; t < origin_.size(); ++t) origin_[t] = t;
-    active_ = origin_;
+    active_ = origin_ = all_indices(flat.triangles.size());
   }
 
   double run() {
@@ -262,8 +261,7 @@ class Refiner {
 
   // Sorts the triangles by their original triangles, so that the front's triangles come first again.
   void restore_order() {
-    std::vector<Index> order(origin_.size());
-    for (Index t = 0; t < order.size(); ++t) order[t] = t;
+    std::vector<Index> order = all_indices(origin_.size());
     std::ranges::stable_sort(order, {}, [&](Index t) { return origin_[t]; });
     const auto front = static_cast<std::size_t>(
         std::ranges::count_if(origin_, [&](Index t) { return t < flat_.front_triangles; }));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/slope_limit.h"
+#include "plate/coincident_points.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
@@ -20,11 +21,7 @@ struct StoredFront {
 
   explicit StoredFront(const Solid& solid)
       : is_fixed(solid.points.size(), 1), triangles(std::span(solid.triangles).first(solid.front_triangles)) {
-    // The floats are stored first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
-    std::vector<Vec3f> stored;
-    stored.reserve(solid.points.size());
-    for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
-    for (const Vec3f& p : stored) {
+    for (const Vec3f& p : stored_points(solid)) {
       plane.push_back(p.head<2>().cast<double>());
       heights.push_back(static_cast<double>(p.z()));
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/lists.h"
 #include "geometry/convex_polygon.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
@@ -85,28 +86,16 @@ class StaggeredLattice {
   Image8 is_free_;
 };
 
-std::vector<Triangle> relief_of(const Solid& front) {
-  std::vector<Triangle> relief;
-  for (std::size_t t = 0; t < front.triangles.size(); ++t)
-    if (front.regions[t] == Region::relief) relief.push_back(front.triangles[t]);
-  return relief;
-}
-
 // Returns the Delaunay triangulation of the front's used points and the ground's points. Its indices count
 // all points of the front first, including unused ones, and then the points of the ground.
 std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vector<Vec2>& ground) {
   const std::vector<std::uint8_t> is_used = used_points(front.points.size(), front.triangles);
+  std::vector<Index> indices = indices_where(is_used.size(), [&](Index i) { return is_used[i] != 0; });
   std::vector<Vec2> points;
-  std::vector<Index> indices;
-  for (Index i = 0; i < is_used.size(); ++i) {
-    if (!is_used[i]) continue;
-    points.emplace_back(front.points[i].head<2>());
-    indices.push_back(i);
-  }
-  for (std::size_t i = 0; i < ground.size(); ++i) {
-    points.push_back(ground[i]);
+  for (const Index i : indices) points.emplace_back(front.points[i].head<2>());
+  append(points, ground);
+  for (std::size_t i = 0; i < ground.size(); ++i)
     indices.push_back(static_cast<Index>(front.points.size() + i));
-  }
   std::vector<Triangle> triangles = delaunay(points).triangles;
   for (Triangle& t : triangles)
     for (Index& i : t) i = indices[i];
@@ -136,7 +125,7 @@ bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& t
 Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) {
   Cover cover{std::move(relief), 0};
   cover.relief = cover.triangles.size();
-  cover.triangles.insert(cover.triangles.end(), ground.begin(), ground.end());
+  append(cover.triangles, ground);
   return cover;
 }
 
@@ -194,7 +183,7 @@ void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing) {
   const auto first = static_cast<Index>(solid.points.size());
   const double z = solid.points[polygon[0]].z();
   for (const Vec2& p : inner) solid.points.emplace_back(p.x(), p.y(), z);
-  points.insert(points.end(), inner.begin(), inner.end());
+  append(points, inner);
   const auto n = static_cast<Index>(polygon.size());
   const auto to_solid = [&](Index i) { return i < n ? polygon[i] : first + i - n; };
   for (const auto& [a, b, c] : delaunay(points).triangles)
@@ -206,7 +195,8 @@ IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<
   const Vec2 shift = (placed.points[front.hull[0]] - front.points[front.hull[0]]).head<2>();
   std::vector<Vec2> ground;
   for (const Vec2& p : rim_inner) ground.push_back(p - shift);
-  const std::vector<Triangle> relief = relief_of(placed);
+  std::vector<Triangle> relief = placed.triangles;
+  keep_where(relief, [&](std::size_t t) { return placed.regions[t] == Region::relief; });
   StaggeredLattice lattice(ground, spacing);
   for (const auto& [a, b, c] : relief) {
     const Circle circle =
@@ -214,7 +204,7 @@ IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<
     if (std::isfinite(circle.radius)) lattice.clear(circle.centre, circle.radius);
   }
   const std::vector<Vec2> inner = lattice.points_within(ground);
-  ground.insert(ground.end(), inner.begin(), inner.end());
+  append(ground, inner);
 
   auto cover = covered(front, relief, triangulated(front, ground), rim_inner.size());
   if (!cover) return {};

@@ -1,12 +1,10 @@
 #include "plate/height_field.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "geometry/raster.h"
 #include "geometry/weld.h"
+#include "plate/coincident_points.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
@@ -27,15 +25,6 @@ RasterInput front_input(const Solid& solid, const HeightField& field) {
     input.points[i] = {place.x(), place.y(), p.z() - field.box.min.z()};
   });
   return input;
-}
-
-// Returns the points as files store them. The floats are stored first, because g++ 12 removes the rounding in
-// double(float(x)) when it vectorises.
-std::vector<Vec3f> stored_points(const Solid& solid) {
-  std::vector<Vec3f> stored;
-  stored.reserve(solid.points.size());
-  for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
-  return stored;
 }
 
 // The ends of the segment in which a line of constant y intersects a triangle.

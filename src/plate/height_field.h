@@ -1,5 +1,4 @@
-// The front of a solid as an image: heights at the centres of the pixels. Tested by
-// tests/plate/height_field_test.cpp.
+// The front of a solid as an image: heights at the centres of the pixels.
 #pragma once
 
 #include <algorithm>

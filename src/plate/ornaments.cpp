@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/lists.h"
 #include "geometry/convex_polygon.h"
 #include "geometry/held_edges.h"
 #include "geometry/slope_limit.h"
@@ -37,8 +37,7 @@ LevelGround find_ground(const Solid& surface, std::span<const Vec2> inner) {
   ground.boundary = boundary_edges(triangles);
   std::vector<std::uint8_t> is_inner = used_points(surface.points.size(), triangles);
   for (const auto& [a, b] : ground.boundary) is_inner[a] = is_inner[b] = 0;
-  for (Index i = 0; i < is_inner.size(); ++i)
-    if (is_inner[i]) ground.inner_points.push_back(i);
+  ground.inner_points = indices_where(is_inner.size(), [&](Index i) { return is_inner[i] != 0; });
   return ground;
 }
 
@@ -128,7 +127,7 @@ class GroundMaker {
         }
         if (a < points.feet && b < points.feet) added_feet_.push_back({from, to, number});
       }
-      feet.insert(feet.end(), added_feet_.begin(), added_feet_.end());
+      append(feet, added_feet_);
       added_feet_.clear();
       facts.highest_mm = std::max(facts.highest_mm, points.most_mm);
       facts.thinnest_mm = std::min(facts.thinnest_mm, points.thinnest_mm);
@@ -217,7 +216,7 @@ class GroundMaker {
   void limit(std::span<const Triangle> triangles) {
     const std::size_t kept = new_.old.size();
     std::vector<double> heights(kept, 0);
-    heights.insert(heights.end(), new_.heights.begin(), new_.heights.end());
+    append(heights, new_.heights);
     std::vector<std::uint8_t> is_fixed(kept, 1);
     for (const double height : new_.heights) is_fixed.push_back(height == 0);
     const PlaneMesh field{new_.plane, triangles, is_fixed};
@@ -239,9 +238,8 @@ class GroundMaker {
     const std::vector<std::uint8_t> is_within = within_border(made, new_);
     if (is_within.empty())
       return geometry_error("text", "expected ground whose border crosses nothing, found another");
-    std::vector<Triangle> ground;
-    for (std::size_t t = 0; t < is_within.size(); ++t)
-      if (is_within[t]) ground.push_back(made.mesh.triangles[t]);
+    std::vector<Triangle> ground = made.mesh.triangles;
+    keep_where(ground, [&](std::size_t t) { return is_within[t] != 0; });
     limit(ground);
     replace_ground(ground);
     return {};
@@ -249,13 +247,11 @@ class GroundMaker {
 
   // Replaces the old ground triangles by the new ones, whose corners are indices of the new ground.
   void replace_ground(std::span<const Triangle> ground) {
-    std::vector<Triangle> triangles;
-    std::vector<Region> regions;
-    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      if (ground_.is_ground[t]) continue;
-      triangles.push_back(surface_.triangles[t]);
-      regions.push_back(surface_.regions[t]);
-    }
+    std::vector<Triangle>& triangles = surface_.triangles;
+    std::vector<Region>& regions = surface_.regions;
+    const auto is_kept = [&](std::size_t t) { return ground_.is_ground[t] == 0; };
+    keep_where(triangles, is_kept);
+    keep_where(regions, is_kept);
     const std::size_t kept = new_.old.size(), old_points = surface_.points.size();
     for (std::size_t i = 0; i < new_.heights.size(); ++i) {
       const Vec2& p = new_.plane[kept + i];
@@ -269,8 +265,6 @@ class GroundMaker {
       const auto is_low = [&](Index i) { return surface_.points[i].z() == surface_.ground_mm; };
       regions.push_back(std::ranges::all_of(triangles.back(), is_low) ? Region::ground : Region::bevel);
     }
-    surface_.triangles = std::move(triangles);
-    surface_.regions = std::move(regions);
   }
 
   Solid& surface_;

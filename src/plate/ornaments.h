@@ -1,5 +1,4 @@
-// Adds letters, borders and drawings to the level ground of a plate. Tested by
-// tests/plate/ornaments_test.cpp.
+// Adds letters, borders and drawings to the level ground of a plate.
 #pragma once
 
 #include <span>

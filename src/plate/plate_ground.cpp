@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "core/lists.h"
 #include "geometry/convex_polygon.h"
 #include "geometry/plane.h"
 

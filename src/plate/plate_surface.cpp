@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <span>
 #include <utility>
 
 #include "geometry/convex_polygon.h"
 #include "lettering/ornament_shapes.h"
 #include "plate/deformation.h"
 #include "plate/ornaments.h"
-#include "plate/plate_ground.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/simplify.h"
 

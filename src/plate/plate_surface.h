@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "geometry/weld.h"
 #include "plate/plate_ground.h"

@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/lists.h"
 #include "geometry/weld.h"
 #include "plate/coincident_points.h"
 #include "plate/deformation.h"
@@ -75,8 +76,7 @@ std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
 // Joins the plate's two sides and removes their walls.
 Result<void> close_ring(Solid& plate, const Vec2& across) {
   const std::vector<SidePoint> left = side_of(plate, -across), right = side_of(plate, across);
-  std::vector<Index> other(plate.points.size());
-  for (Index i = 0; i < other.size(); ++i) other[i] = i;
+  std::vector<Index> other = all_indices(plate.points.size());
   bool is_good = left.size() == right.size();
   for (std::size_t i = 0; is_good && i < left.size(); ++i) {
     is_good = std::abs(left[i].along - right[i].along) + std::abs(left[i].z - right[i].z) < 1e-6;

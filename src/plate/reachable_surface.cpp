@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/weld.h"
 #include "plate/height_field.h"
 #include "plate/plate_ground.h"
 #include "relievo/core/image.h"
@@ -140,13 +141,6 @@ Colour colour_of(const Solid& solid, Index i) {
   return solid.colours.empty() ? Colour{} : solid.colours[i];
 }
 
-std::vector<std::uint8_t> used_points(const Solid& solid) {
-  std::vector<std::uint8_t> is_used(solid.points.size(), 0);
-  for (const Triangle& t : solid.triangles)
-    for (const Index i : t) is_used[i] = 1;
-  return is_used;
-}
-
 // Returns the distance between points along the rim's edges. It is less than the width of the bevel, so no
 // triangle crosses the bevel.
 double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
@@ -162,7 +156,7 @@ PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
   const Solid& solid = surface.solid;
   PointSet set(heights, solid);
   // The outline comes first, because the walls are built on it.
-  std::vector<std::uint8_t> is_free = used_points(solid);
+  std::vector<std::uint8_t> is_free = used_points(solid.points.size(), solid.triangles);
   for (const Index i : surface.outline) {
     set.add(solid.points[i], colour_of(solid, i));
     is_free[i] = 0;

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "core/angle.h"
 #include "core/number.h"
 #include "geometry/image_filters.h"
 #include "geometry/weld.h"
 #include "plate/height_field.h"
-#include "relievo/core/image.h"
 #include "relievo/core/length.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"

@@ -10,6 +10,7 @@
 #include "quality/model_picture.h"
 #include "quality/surface_measures.h"
 #include "relievo/core/parallel.h"
+#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {
@@ -76,14 +77,11 @@ struct ReliefMetrics::Reference : ModelPicture {
 
   void find_steps(const Surface& surface) {
     const std::vector<std::uint8_t>& is_boundary = surface.boundary.is_boundary;
-    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-      for (int corner = 0; corner < 3 && surface.boundary.is_inside[t]; ++corner) {
-        const Index a = surface.triangulation.triangles[t][corner],
-                    b = surface.triangulation.triangles[t][(corner + 1) % 3];
-        if (is_boundary[a] != is_boundary[b]) steps.rim.push_back(is_boundary[a] ? b : a);
-        if (a < b && !is_boundary[a] && !is_boundary[b] && is_jump(surface, a, b))
-          steps.jumps.push_back({a, b});
-      }
+    each_side_inside(surface, [&](Index a, Index b) {
+      if (is_boundary[a] != is_boundary[b]) steps.rim.push_back(is_boundary[a] ? b : a);
+      if (a < b && !is_boundary[a] && !is_boundary[b] && is_jump(surface, a, b))
+        steps.jumps.push_back({a, b});
+    });
   }
 
   Shading shading_of(const NormalMap& n, int light) const {

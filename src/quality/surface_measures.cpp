@@ -7,6 +7,7 @@
 #include "core/quantile.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
+#include "scan/inside.h"
 
 namespace relievo {
 namespace {
@@ -142,13 +143,9 @@ double SurfaceMeasures::facet_angle_deg(std::span<const double> heights) const {
 
 double SurfaceMeasures::longest_side() const {
   double longest = 0;
-  for (std::size_t t = 0; t < surface_.triangulation.triangles.size(); ++t) {
-    if (!surface_.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface_.triangulation.triangles[t];
-    for (std::size_t k = 0; k < 3; ++k)
-      longest = std::max(
-          longest, (surface_.points[corners[k]] - surface_.points[corners[(k + 1) % 3]]).head<2>().norm());
-  }
+  each_side_inside(surface_, [&](Index a, Index b) {
+    longest = std::max(longest, (surface_.points[a] - surface_.points[b]).head<2>().norm());
+  });
   return surface_.rho > 0 ? longest / surface_.rho : 0;
 }
 

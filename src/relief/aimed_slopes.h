@@ -1,5 +1,4 @@
-// Changes target slopes for a relief that is made for one light. Tested by
-// tests/relief/aimed_slopes_test.cpp.
+// Changes target slopes for a relief that is made for one light.
 #pragma once
 
 #include <algorithm>

@@ -18,15 +18,6 @@ constexpr std::array widths{.008, .012, .016, .02, .024};
 // that are scaled by a sharper field would no longer be those of a surface.
 constexpr double prior_width = .35, smoothing = .02;
 
-std::vector<float> blurred(const Surface& surface, std::span<const float> values, double share) {
-  std::vector<Vec2f> pairs;
-  for (const float value : values) pairs.emplace_back(value, 0);
-  SurfaceBlur(surface.points, share * surface.longer_side()).apply(pairs);
-  std::vector<float> means;
-  for (const Vec2f& pair : pairs) means.push_back(pair.x());
-  return means;
-}
-
 // Returns the mean of all values that no neighbour exceeds, without the highest value.
 double mean_of_other_maxima(const Surface& surface, std::span<const float> values, float highest) {
   std::vector<std::uint8_t> is_exceeded(values.size(), 0);
@@ -46,8 +37,10 @@ double mean_of_other_maxima(const Surface& surface, std::span<const float> value
 // Adds the differences between two means of the curvature, scaled to at most 1, and weighted by the square of what the
 // other maxima lack of the highest one (the suppression S of Lee et al.).
 void add_differences(const Surface& surface, double width, std::span<float> sums) {
-  const std::vector<float> near = blurred(surface, surface.curvature.k, width),
-                           around = blurred(surface, surface.curvature.k, 2 * width);
+  const auto blurred_by = [&](double share) {
+    return blurred(surface.points, surface.curvature.k, share * surface.longer_side());
+  };
+  const std::vector<float> near = blurred_by(width), around = blurred_by(2 * width);
   std::vector<float> apart(near.size());
   for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = std::abs(near[i] - around[i]);
   const float highest = std::ranges::max(apart);
@@ -73,7 +66,7 @@ std::vector<float> attention(const Surface& surface) {
   if (values.empty() || !(surface.longer_side() > 0)) return values;
   for (const double width : widths) add_differences(surface, width, values);
   multiply_by_prior(surface, values);
-  values = blurred(surface, values, smoothing);
+  values = blurred(surface.points, values, smoothing * surface.longer_side());
   const auto [least, most] = std::ranges::minmax(values);
   const float range = most - least;
   for (float& value : values) value = range > 0 ? std::clamp((value - least) / range, 0.F, 1.F) : 0;

@@ -19,11 +19,6 @@ constexpr double narrow = .0025, wide = .025, least_narrow_rho = 1.5;
 // get none of the depth below `least_darker`, all of it above `most_darker`.
 constexpr float least_darker = .04F, most_darker = .12F;
 
-std::vector<Vec2f> blurred(const Surface& surface, std::vector<Vec2f> values, double sigma) {
-  SurfaceBlur(surface.points, sigma).apply(values);
-  return values;
-}
-
 // Writes factor * z minus the depth of the lines, at least the base. Returns the highest result and its
 // point.
 template <typename Real>
@@ -42,14 +37,14 @@ std::pair<double, std::size_t> lowered(std::span<const float> lines, double dept
 
 std::vector<float> dark_lines(const Surface& surface) {
   if (surface.colours.empty()) return {};
-  std::vector<Vec2f> light;
-  for (const Colour& colour : surface.colours) light.emplace_back(static_cast<float>(lightness(colour)), 0);
+  std::vector<float> light;
+  for (const Colour& colour : surface.colours) light.push_back(static_cast<float>(lightness(colour)));
   const double side = surface.longer_side();
-  const auto near = blurred(surface, light, std::max(narrow * side, least_narrow_rho * surface.rho));
-  const auto around = blurred(surface, light, wide * side);
+  const auto near = blurred(surface.points, light, std::max(narrow * side, least_narrow_rho * surface.rho));
+  const auto around = blurred(surface.points, light, wide * side);
   std::vector<float> lines = boundary_weights(surface.boundary.distance, surface.rho);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const float darker = around[i].x() - near[i].x();
+    const float darker = around[i] - near[i];
     const float t = std::clamp((darker - least_darker) / (most_darker - least_darker), 0.F, 1.F);
     lines[i] *= t * t * (3 - 2 * t);
   }

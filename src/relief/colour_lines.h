@@ -1,5 +1,4 @@
-// Lowers the dark parts of a coloured scan, such as pupils, inlays or painted letters. Tested by
-// tests/relief/colour_lines_test.cpp.
+// Lowers the dark parts of a coloured scan, such as pupils, inlays or painted letters.
 #pragma once
 
 #include <span>

@@ -14,6 +14,7 @@
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
 #include "relievo/scan/surface.h"
+#include "scan/inside.h"
 
 namespace relievo {
 namespace {
@@ -31,9 +32,7 @@ class Limiter {
  public:
   Limiter(const ReliefModel& model, const DraftOptions& options)
       : model_(&model), options_(options), plane_(in_plane(model.surface().points)) {
-    const Surface& surface = model.surface();
-    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-      if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
+    std::ranges::copy(triangles_inside(model.surface()), std::back_inserter(triangles_));
   }
 
   // Returns whether the slopes of relief and base together stay below kept_slope of the limit.

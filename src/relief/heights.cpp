@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include "core/groups.h"
+#include "core/lists.h"
 #include "geometry/plane.h"
 #include "relief/edge_weight.h"
 #include "relief/sliced_ell_matrix.h"
 #include "relievo/core/parallel.h"
-#include "relievo/geometry/triangulation.h"
-#include "relievo/scan/boundary.h"
 
 namespace relievo {
 namespace {
@@ -255,10 +253,8 @@ class NormalRows {
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
                                          const Boundary& boundary, std::span<const float> weights) {
   const HeightEquations equations = height_equations(points, triangulation, boundary, weights);
-  std::vector<Vec2> positions;
-  positions.reserve(equations.free_points.size());
-  for (const Index i : equations.free_points) positions.push_back(points[i]);
-  RELIEVO_TRY(solver::Cholesky factor, solver::Cholesky::factor(equations.A, positions));
+  RELIEVO_TRY(solver::Cholesky factor,
+              solver::Cholesky::factor(equations.A, pick(points, equations.free_points)));
   factor.renumber(equations.free_points);
   return HeightSystem(std::move(factor), SlicedEllMatrix(equations.edges));
 }

@@ -1,12 +1,10 @@
 #include "relief/layered_slopes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "relief/style.h"
 #include "relief/weight_table.h"
 #include "relievo/core/parallel.h"
-#include "relievo/relief/layers.h"
 #include "scan/surface_blur.h"
 
 namespace relievo {

@@ -5,7 +5,6 @@
 #include "relief/colour_lines.h"
 #include "relief/height_search.h"
 #include "relief/stroke_fields.h"
-#include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/relief.h"
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "geometry/plane.h"
 #include "relief/edge_weight.h"
 #include "relievo/core/parallel.h"
-#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {

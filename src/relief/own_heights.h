@@ -1,9 +1,7 @@
-// Sets the height of single models of a scene above the surface behind them. Tested by
-// tests/relief/own_heights_test.cpp.
+// Sets the height of single models of a scene above the surface behind them.
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 

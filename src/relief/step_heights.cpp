@@ -1,7 +1,6 @@
 #include "relief/step_heights.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/edges.h"
 #include "relief/edge_weight.h"

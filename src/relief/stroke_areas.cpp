@@ -7,9 +7,11 @@
 #include <numbers>
 
 #include "core/disjoint_sets.h"
+#include "core/lists.h"
 #include "geometry/neighbours.h"
 #include "geometry/outline_union.h"
 #include "relievo/core/parallel.h"
+#include "scan/inside.h"
 #include "scan/jumps.h"
 #include "scan/surface_blur.h"
 
@@ -54,6 +56,13 @@ class Line {
   std::vector<Box> boxes_;  // one per piece
 };
 
+// Returns the points with distances for which is_kept(i) is true.
+template <typename IsKept>
+StrokePoints kept(const StrokePoints& all, IsKept&& is_kept) {
+  const std::vector<Index> some = indices_where(all.points.size(), is_kept);
+  return {pick(all.points, some), pick(all.distances, some)};
+}
+
 StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, double radius) {
   Box box;
   for (const Vec3& p : line) box.extend(p);
@@ -70,49 +79,25 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
     distances[k] = std::sqrt(pieces.distance_sq(surface.points[in_box[k]], radius * radius));
   };
   parallel_for(in_box.size(), measure, 256);
-  StrokePoints near;
-  for (std::size_t k = 0; k < in_box.size(); ++k) {
-    if (distances[k] >= radius) continue;
-    near.points.push_back(in_box[k]);
-    near.distances.push_back(distances[k]);
-  }
-  return near;
+  return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
 // Calls f(a, b) for the sides of the triangles inside the relief for which is_wanted(a, b), except across depth jumps.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
-    for (std::size_t side = 0; side < 3; ++side) {
-      const Index a = corners[side], b = corners[(side + 1) % 3];
-      if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // the test for a jump takes longer
-    }
-  }
+  each_side_inside(surface, [&](Index a, Index b) {
+    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // the test for a jump takes longer
+  });
 }
 
 // Returns connected components of the given points, by each_link().
 DisjointSets connected(const Surface& surface, std::span<const Index> points) {
-  std::vector<Index> number(surface.points.size(), no_index);
-  for (Index i = 0; i < points.size(); ++i) number[points[i]] = i;
+  const std::vector<Index> number = places_in(points, surface.points.size());
   DisjointSets sets(points.size());
   each_link(
       surface, [&](Index a, Index b) { return number[a] != no_index && number[b] != no_index; },
       [&](Index a, Index b) { sets.join(number[a], number[b]); });
   return sets;
-}
-
-// Keeps the points with distances for which is_kept(i) is true.
-template <typename IsKept>
-StrokePoints kept(const StrokePoints& all, IsKept&& is_kept) {
-  StrokePoints some;
-  for (Index i = 0; i < all.points.size(); ++i) {
-    if (!is_kept(i)) continue;
-    some.points.push_back(all.points[i]);
-    some.distances.push_back(all.distances[i]);
-  }
-  return some;
 }
 
 StrokePoints points_at_line(const Surface& surface, std::span<const Vec3> line, double radius) {
@@ -171,13 +156,9 @@ StrokePoints points_in_lasso(const Surface& surface, const SeenLasso& lasso, dou
     if (!surface.boundary.is_boundary[i] && lasso.has(p, surface.normals[i]))
       distances[i] = radius - std::sqrt(rim.distance_sq(lasso.seen(p), radius * radius));
   });
-  StrokePoints inside;
-  for (Index i = 0; i < distances.size(); ++i) {
-    if (distances[i] < 0) continue;
-    inside.points.push_back(i);
-    inside.distances.push_back(distances[i]);
-  }
-  return inside;
+  std::vector<Index> inside = indices_where(distances.size(), [&](Index i) { return distances[i] >= 0; });
+  distances = pick(distances, inside);
+  return {std::move(inside), std::move(distances)};
 }
 
 // Returns how fast the surface turns at each point, in degrees per 1 % of the longer side: the angle between normals
@@ -229,15 +210,12 @@ std::vector<Index> without_holes(const Surface& surface, std::span<const Index> 
   constexpr std::size_t times_less = 10;
   std::vector<std::uint8_t> is_in(surface.points.size(), 0);
   for (const Index i : region) is_in[i] = 1;
-  std::vector<Index> outside;
-  for (Index i = 0; i < is_in.size(); ++i)
-    if (!is_in[i]) outside.push_back(i);
+  const std::vector<Index> outside = indices_where(is_in.size(), [&](Index i) { return !is_in[i]; });
   DisjointSets sets = connected(surface, outside);
   std::vector<std::size_t> size(outside.size(), 0);
   std::vector<std::uint8_t> touches(outside.size(), 0);
   for (Index i = 0; i < outside.size(); ++i) ++size[sets.find(i)];
-  std::vector<Index> number(surface.points.size(), no_index);
-  for (Index i = 0; i < outside.size(); ++i) number[outside[i]] = i;
+  const std::vector<Index> number = places_in(outside, surface.points.size());
   each_link(
       surface, [&](Index a, Index b) { return is_in[a] != is_in[b]; },
       [&](Index a, Index b) { touches[sets.find(number[is_in[a] ? b : a])] = 1; });
@@ -264,16 +242,14 @@ Index nearest_of(const Surface& surface, std::span<const Index> points, const Ve
 
 StrokePoints points_of_region(const Surface& surface, const Stroke& stroke, const Vec3& seed) {
   const std::vector<float> turning = turning_of(surface);
-  std::vector<Index> calm;
-  for (Index i = 0; i < turning.size(); ++i)
-    if (!surface.boundary.is_boundary[i] && turning[i] <= static_cast<float>(stroke.tolerance))
-      calm.push_back(i);
+  const std::vector<Index> calm = indices_where(turning.size(), [&](Index i) {
+    return !surface.boundary.is_boundary[i] && turning[i] <= static_cast<float>(stroke.tolerance);
+  });
   const Index first = nearest_of(surface, calm, seed);
   if (first == no_index) return {};
   DisjointSets sets = connected(surface, calm);
-  std::vector<Index> reached;
-  for (Index i = 0; i < calm.size(); ++i)
-    if (sets.find(i) == sets.find(first)) reached.push_back(calm[i]);
+  std::vector<Index> reached = calm;
+  keep_where(reached, [&](std::size_t i) { return sets.find(static_cast<Index>(i)) == sets.find(first); });
   StrokePoints region{without_holes(surface, reached), {}};
   const std::vector<Vec3> rim = rim_of(surface, region.points);
   const KdTree<Vec3> tree(rim);

@@ -1,7 +1,6 @@
-// Finds the points of a surface that belong to a stroke. Tested by tests/relief/stroke_areas_test.cpp.
+// Finds the points of a surface that belong to a stroke.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "relievo/relief/stroke.h"

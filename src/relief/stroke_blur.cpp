@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/lists.h"
 #include "geometry/edges.h"
 #include "relief/edge_weight.h"
+#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {
@@ -11,9 +13,7 @@ namespace {
 
 std::vector<float> point_areas(const Surface& surface) {
   std::vector<float> areas(surface.points.size(), 0);
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const auto& [a, b, c] = surface.triangulation.triangles[t];
+  for (const auto [a, b, c] : triangles_inside(surface)) {
     const Vec3 ab = surface.points[b] - surface.points[a], ac = surface.points[c] - surface.points[a];
     const auto third = static_cast<float>((ab.x() * ac.y() - ab.y() * ac.x()) / 6);
     for (const Index i : {a, b, c}) areas[i] += third;
@@ -50,8 +50,7 @@ template <typename Real>
 StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, std::span<const Index> points,
                              double sigma)
     : points_(points.begin(), points.end()) {
-  std::vector<Index> number(surface.points.size(), no_index);
-  for (Index i = 0; i < points_.size(); ++i) number[points_[i]] = i;
+  std::vector<Index> number = places_in(points_, surface.points.size());
   // Two solves, each with half of the variance, are nearer to a Gaussian than one.
   const double variance = sigma * sigma / 4, least_area = 1e-3 * surface.rho * surface.rho;
   std::vector<Eigen::Triplet<double>> entries;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/height_span.h"
+#include "core/lists.h"
 #include "relief/stroke_areas.h"
-#include "relief/stroke_moves.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
 
@@ -100,9 +99,7 @@ void StrokeFields<Real>::take(const Strokes& strokes) {
   std::vector<std::uint8_t> is_changed(surface_->points.size(), 0);
   for (const Layer& layer : layers_)
     for (const Index i : layer.mask.points) is_changed[i] = 1;
-  changed_.clear();
-  for (Index i = 0; i < is_changed.size(); ++i)
-    if (is_changed[i]) changed_.push_back(i);
+  changed_ = indices_where(is_changed.size(), [&](Index i) { return is_changed[i] != 0; });
   sum_masks();
 }
 
@@ -122,8 +119,7 @@ void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
 // Sums what depends on the strokes alone. Several strokes together may not subtract more than a blur removes.
 template <typename Real>
 void StrokeFields<Real>::sum_masks() {
-  std::vector<Index> number(surface_->points.size(), no_index);
-  for (Index k = 0; k < changed_.size(); ++k) number[changed_[k]] = k;
+  const std::vector<Index> number = places_in(changed_, surface_->points.size());
   std::array<std::vector<Real>, 2> amounts;  // of the narrow blurs and of the wide ones
   for (std::vector<Real>* sums : {&amounts[0], &amounts[1], &risen_}) sums->assign(changed_.size(), 0);
   const auto each_share = [&](Layer& layer, auto&& f) {

@@ -1,4 +1,4 @@
-// Applies strokes to the heights of a relief. Tested by tests/relief/stroke_fields_test.cpp.
+// Applies strokes to the heights of a relief.
 #pragma once
 
 #include <optional>

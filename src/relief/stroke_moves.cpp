@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "core/lists.h"
+#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {
@@ -38,20 +40,14 @@ void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, doub
 }
 
 std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask) {
-  std::vector<Index> number(surface.points.size(), no_index);
-  for (Index k = 0; k < mask.points.size(); ++k) number[mask.points[k]] = k;
+  const std::vector<Index> number = places_in(mask.points, surface.points.size());
   std::vector<Crossing> crossings;
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
-    for (std::size_t side = 0; side < 3; ++side) {
-      Index front = corners[side], behind = corners[(side + 1) % 3];
-      if (surface.points[front].z() < surface.points[behind].z()) std::swap(front, behind);
-      const Index k = number[front];
-      if (k == no_index || number[behind] != no_index || mask.weights[k] < .5F) continue;
-      if (is_jump(surface, front, behind)) crossings.push_back({k, behind});
-    }
-  }
+  each_side_inside(surface, [&](Index front, Index behind) {
+    if (surface.points[front].z() < surface.points[behind].z()) std::swap(front, behind);
+    const Index k = number[front];
+    if (k == no_index || number[behind] != no_index || mask.weights[k] < .5F) return;
+    if (is_jump(surface, front, behind)) crossings.push_back({k, behind});
+  });
   return crossings;
 }
 

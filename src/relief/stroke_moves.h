@@ -1,5 +1,4 @@
-// The brushes that move shapes as a whole: Brush::protect and Brush::in_front. Tested by
-// tests/relief/stroke_moves_test.cpp.
+// The brushes that move shapes as a whole: Brush::protect and Brush::in_front.
 #pragma once
 
 #include <span>

@@ -1,7 +1,5 @@
 #include "relievo/relief/weights.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "relief/aimed_slopes.h"

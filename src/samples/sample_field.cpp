@@ -68,9 +68,8 @@ Cells cover(const Solid& solid) {
   // 256 cells along the box; finer than the distance between any two sheets of a sample
   const int levels = 8;
   Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
-  for (int level = 0; level < levels; ++level) {
+  for (int level = 0; level < levels; ++level)
     cells = near_surface(solid, split(cells.centres, cells.side), cells.side / 2);
-  }
   return cells;
 }
 
@@ -212,9 +211,8 @@ Cloud scatter(const Solid& solid, const Scatter& how) {
   if (how.noise == 0) return cloud;
   parallel_ranges(how.points, default_grain, [&](std::size_t begin, std::size_t end) {
     Random random(~how.seed, begin / default_grain);
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end; ++i)
       disturb(how.noise, spacing, random, cloud.points[i], cloud.normals[i]);
-    }
   });
   return cloud;
 }

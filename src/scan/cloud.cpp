@@ -1,5 +1,6 @@
 #include "relievo/scan/cloud.h"
 
+#include "core/lists.h"
 #include "core/quantile.h"
 #include "relievo/core/parallel.h"
 
@@ -36,10 +37,7 @@ std::vector<Index> outliers(const Cloud& cloud) {
   // The radius leaves the ends of long and thin models, which are far from the median, in place. If points
   // are evenly distributed on a line, none is farther from the median than 1.2 times this quantile.
   const double radius = 20 * quantile(std::vector(distances), .9);
-  std::vector<Index> far;
-  for (Index i = 0; i < cloud.size(); ++i)
-    if (distances[i] > radius) far.push_back(i);
-  return radius > 0 ? far : std::vector<Index>{};
+  return indices_where(cloud.size(), [&](Index i) { return radius > 0 && distances[i] > radius; });
 }
 
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased) {

@@ -1,5 +1,5 @@
 // Measures of a cloud, made once and used for every view: order, spacing, normals, and, at points that views have
-// shown, points without noise and curvature. Tested by tests/scan/measured_cloud_test.cpp.
+// shown, points without noise and curvature.
 #pragma once
 
 #include <memory>

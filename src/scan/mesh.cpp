@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/srgb.h"
 #include "geometry/raster.h"
 #include "geometry/weld.h"
 #include "relievo/core/parallel.h"
@@ -207,22 +208,17 @@ class Sampler {
     const Vec3f weights = corner_weights(scene_, t, place.x(), place.y());
     const Triangle& corners = seen_.triangles[t];
     double z = 0;
-    Vec3f normal = Vec3f::Zero(), colour = Vec3f::Constant(.5F);
+    Vec3f normal = Vec3f::Zero();
     for (int i = 0; i < 3; ++i) {
       z += static_cast<double>(weights[i]) * seen_.points[corners[i]].z();
       normal += weights[i] * seen_.normals[t][i];
-      if (!mesh_.colours.empty())
-        for (int k = 0; k < 3; ++k)
-          colour[k] += weights[i] * static_cast<float>(mesh_.colours[corners[i]][k]);
     }
     normal.z() = std::max(normal.z(), least_corner_normal_z);
     const Vec2 from_corner = fine_pixel_ * place;
     to.points.emplace_back(seen_.box.min.x() + from_corner.x(), seen_.box.max.y() - from_corner.y(), z);
     to.normals.push_back(normal.normalized());
     if (!mesh_.own_heights.empty()) to.own_heights.push_back(mesh_.own_heights[corners[0]]);
-    if (mesh_.colours.empty()) return;
-    const auto byte = [&](int k) { return static_cast<std::uint8_t>(std::clamp(colour[k], 0.F, 255.F)); };
-    to.colours.push_back({byte(0), byte(1), byte(2)});
+    if (!mesh_.colours.empty()) to.colours.push_back(weighted_mean(mesh_.colours, corners, weights));
   }
 
   const Mesh& mesh_;

@@ -3,9 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
+#include "core/lists.h"
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/view.h"
@@ -92,9 +92,7 @@ std::vector<Vec3f> estimated_normals(const SearchableCloud& searchable, std::spa
 void estimate_normals(Cloud& cloud, std::size_t neighbours, const Progress* progress) {
   if (cloud.size() < 3) return;
   const KdTree<Vec3> tree(cloud.points);
-  std::vector<Index> all(cloud.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  cloud.normals = estimated_normals({cloud, {}, tree}, all, neighbours, progress);
+  cloud.normals = estimated_normals({cloud, {}, tree}, all_indices(cloud.size()), neighbours, progress);
 }
 
 void turn_to_viewer(Cloud& viewed) {

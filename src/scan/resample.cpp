@@ -4,6 +4,7 @@
 
 #include "geometry/neighbours.h"
 #include "geometry/plane.h"
+#include "scan/inside.h"
 
 namespace relievo {
 namespace {
@@ -25,9 +26,7 @@ std::vector<double> resampled(std::span<const double> heights, const Surface& fr
   std::vector<KdTree<Vec2>::Match> near;
   std::vector<double> result(places.size(), 0.0);
   constexpr double rounding = 1e-9;
-  for (std::size_t t = 0; t < from.triangulation.triangles.size(); ++t) {
-    if (!from.boundary.is_inside[t]) continue;
-    const Triangle& triangle = from.triangulation.triangles[t];
+  for (const Triangle triangle : triangles_inside(from)) {
     std::array<Vec2, 3> corner;
     for (std::size_t c = 0; c < 3; ++c) corner[c] = from.points[triangle[c]].head<2>();
     const Vec2 middle = (corner[0] + corner[1] + corner[2]) / 3;

@@ -1,5 +1,4 @@
-// Finds the direction from which a one-sided scan was taken, for rank_views() in view.h. Tested by
-// tests/scan/scanned_side_test.cpp.
+// Finds the direction from which a one-sided scan was taken, for rank_views() in view.h.
 #pragma once
 
 #include <optional>

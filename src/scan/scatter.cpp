@@ -5,6 +5,7 @@
 
 #include "core/angle.h"
 #include "core/groups.h"
+#include "core/srgb.h"
 #include "geometry/weld.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/mesh.h"
@@ -37,20 +38,16 @@ Vec3f spread_weights(std::size_t i) {
 void add(const Mesh& mesh, const std::array<Vec3f, 3>& normals, std::size_t t, const Vec3f& weights,
          Cloud& to) {
   Vec3 point = Vec3::Zero();
-  Vec3f normal = Vec3f::Zero(), colour = Vec3f::Constant(.5F);
+  Vec3f normal = Vec3f::Zero();
   for (int i = 0; i < 3; ++i) {
     const Index corner = mesh.triangles[t][static_cast<std::size_t>(i)];
     point += static_cast<double>(weights[i]) * mesh.points[corner];
     normal += weights[i] * normals[static_cast<std::size_t>(i)];
-    if (mesh.colours.empty()) continue;
-    for (int k = 0; k < 3; ++k)
-      colour[k] += weights[i] * static_cast<float>(mesh.colours[corner][static_cast<std::size_t>(k)]);
   }
   if (normal.isZero(0)) return;
   to.points.push_back(point);
   to.normals.push_back(normal.normalized());
-  const auto byte = [&](int k) { return static_cast<std::uint8_t>(std::clamp(colour[k], 0.F, 255.F)); };
-  if (!mesh.colours.empty()) to.colours.push_back({byte(0), byte(1), byte(2)});
+  if (!mesh.colours.empty()) to.colours.push_back(weighted_mean(mesh.colours, mesh.triangles[t], weights));
 }
 
 // Thousands of triangles may meet at the apex of a cone. An even sample of this size gives the same normal.

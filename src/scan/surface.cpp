@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,6 @@
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/normals.h"
 #include "relievo/scan/spacing.h"
-#include "relievo/scan/support_plane.h"
 #include "scan/coarse_visibility.h"
 #include "scan/depth/flat_picture.h"
 #include "scan/measured_cloud.h"
@@ -58,25 +58,16 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
       if (j != no_index && is_left[j] &&
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
         sets.join(i, j);
-  std::vector<LeftPiece> pieces;
-  std::vector<Index> numbers(cloud.size(), no_index);  // index of each part, by its representative
-  const auto piece_of = [&](Index i) -> LeftPiece& {
-    Index& number = numbers[sets.find(i)];
-    if (number == no_index) {
-      number = static_cast<Index>(pieces.size());
-      pieces.emplace_back();
-    }
-    return pieces[number];
-  };
-  for (const Index i : visible) piece_of(i).box.extend(cloud.points[i]);
+  std::unordered_map<Index, LeftPiece> pieces;  // by their representatives
+  for (const Index i : visible) pieces[sets.find(i)].box.extend(cloud.points[i]);
   for (const Index i : visible) {
-    LeftPiece& piece = piece_of(i);
+    LeftPiece& piece = pieces[sets.find(i)];
     const double height = plane.normal.dot(cloud.points[i]) - plane.offset;
     piece.high += height > std::max(low * plane.tolerance, flat * piece.box.diagonal());
   }
   std::vector<Index> rest;
   for (const Index i : visible)
-    if (static_cast<double>(piece_of(i).high) >= high_share * static_cast<double>(sets.size_of(i)))
+    if (static_cast<double>(pieces[sets.find(i)].high) >= high_share * static_cast<double>(sets.size_of(i)))
       rest.push_back(i);
   std::size_t largest = 0;
   for (const Index i : rest) largest = std::max(largest, sets.size_of(i));

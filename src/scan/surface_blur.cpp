@@ -114,4 +114,13 @@ void SurfaceBlur::apply(std::span<Vec2f> values) const {
   });
 }
 
+std::vector<float> blurred(std::span<const Vec3> points, std::span<const float> values, double sigma) {
+  std::vector<Vec2f> pairs;
+  for (const float value : values) pairs.emplace_back(value, 0);
+  SurfaceBlur(points, sigma).apply(pairs);
+  std::vector<float> averages;
+  for (const Vec2f& pair : pairs) averages.push_back(pair.x());
+  return averages;
+}
+
 }  // namespace relievo

@@ -58,4 +58,7 @@ class SurfaceBlur {
   std::vector<Column> columns_;  // the last one is empty and begins after the last cell
 };
 
+// Returns the averages of one number per point by a blur of that standard deviation.
+std::vector<float> blurred(std::span<const Vec3> points, std::span<const float> values, double sigma);
+
 }  // namespace relievo

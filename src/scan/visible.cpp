@@ -212,10 +212,8 @@ std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
                 static_cast<double>(spacing.local[i]) < sparsest_hole_fill * spacing.rho &&
                 !seen.is_near(place(i), radius);
   });
-  std::vector<Index> hole_fill;
-  for (Index i = 0; i < viewed.size(); ++i)
-    if (is_far[i]) hole_fill.push_back(i);
-  return with_least_distance(viewed, std::move(hole_fill), hole_fill_spacing * spacing.rho);
+  return with_least_distance(viewed, indices_where(viewed.size(), [&](Index i) { return is_far[i] != 0; }),
+                             hole_fill_spacing * spacing.rho);
 }
 
 }  // namespace relievo

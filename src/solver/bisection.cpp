@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.h"
 #include "core/quantile.h"
 
 namespace relievo::solver {
@@ -75,11 +76,10 @@ Sweep widest_sweep(std::span<const Eigen::Vector2f> positions) {
 
 SeparatorBand make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep,
                         const std::vector<Index>& vertices) {
-  std::vector<Index> slot(graph.size(), no_index);
-  for (Index i = 0; i < vertices.size(); ++i) slot[vertices[i]] = i;
+  const std::vector<Index> slot = places_in(vertices, graph.size());
   SeparatorBand band;
   band.direction = sweep.direction;
-  for (const Index v : vertices) band.positions.push_back(positions[v]);
+  band.positions = pick(positions, vertices);
   band.graph.begin.reserve(vertices.size() + 1);
   band.graph.to.reserve(vertices.size() * 6);
   band.touches_first.assign(vertices.size(), 0);
@@ -137,9 +137,7 @@ Bisection with_band(const Sweep& sweep, const std::vector<Index>& vertices, cons
 }
 
 Bisection cut_along(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep) {
-  std::vector<Index> vertices;
-  for (Index v = 0; v < graph.size(); ++v)
-    if (is_in_band(sweep, v)) vertices.push_back(v);
+  const auto vertices = indices_where(graph.size(), [&](Index v) { return is_in_band(sweep, v); });
   const MinimumSeparators cuts = minimum_separators(make_band(graph, positions, sweep, vertices));
   Bisection a = with_band(sweep, vertices, cuts.near_first), b = with_band(sweep, vertices, cuts.near_second);
   Bisection& better = cost(a) <= cost(b) ? a : b;

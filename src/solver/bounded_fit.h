@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-#include <span>
 #include <vector>
 
 #include "relievo/core/error.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/lists.h"
 #include "core/memory.h"
 #include "geometry/hilbert.h"
 #include "relievo/core/text.h"
@@ -62,13 +63,6 @@ WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A, std::span<const Ind
   return result;
 }
 
-std::vector<Eigen::Vector2f> in_order(std::span<const Eigen::Vector2f> points, std::span<const Index> order) {
-  std::vector<Eigen::Vector2f> result;
-  result.reserve(order.size());
-  for (const Index i : order) result.push_back(points[i]);
-  return result;
-}
-
 }  // namespace
 
 Cholesky::Cholesky(std::unique_ptr<Factor> factor) : factor_(std::move(factor)) {}
@@ -87,7 +81,7 @@ Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A, std::spa
   const std::vector<Index> vertices = plane_order(places);
   const WeightedGraph graph = graph_of(A, vertices);
   std::unique_ptr<Factor> factor =
-      build_task_tree(analyse(graph.graph, dissection_order(graph.graph, in_order(places, vertices))));
+      build_task_tree(analyse(graph.graph, dissection_order(graph.graph, pick(places, vertices))));
   const Index failed_column = graph.graph.size() > 0 ? factorise(graph, *factor) : no_index;
   for (Index& vertex : factor->order) vertex = vertices[vertex];
   const Index failed = failed_column == no_index ? no_index : factor->order[failed_column];

@@ -4,8 +4,8 @@
 // own contribution block for its parent. Declared in cholesky_factor.h, tested by
 // tests/solver/cholesky_test.cpp.
 #include <algorithm>
-#include <atomic>
 
+#include "core/lists.h"
 #include "relievo/core/parallel.h"
 #include "solver/cholesky_factor.h"
 #include "solver/supernode_panel.h"
@@ -137,8 +137,7 @@ void Multifrontal::eliminate_supernode(std::size_t t) {
   const Task& task = factor_.tasks[t];
   FrontalMatrix front;
   front.reset(task.own() + task.boundary);
-  std::vector<Index> slot(front.rows);
-  for (Index i = 0; i < front.rows; ++i) slot[i] = i;
+  std::vector<Index> slot = all_indices(front.rows);
   add_matrix(task, task.first_column, task.own(), slot, front);
   for (Index c = task.first_child; c < task.end_child; ++c) {
     const Task& child = factor_.tasks[factor_.children[c]];

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 
+#include "core/lists.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo::solver {
@@ -219,8 +218,7 @@ void turn_in_order(Graph& graph, std::span<const Eigen::Vector2f> positions) {
 }  // namespace
 
 std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
-  std::vector<Index> order(graph.size());
-  std::iota(order.begin(), order.end(), Index{0});
+  std::vector<Index> order = all_indices(graph.size());
   Part whole;
   whole.graph = graph;
   whole.positions.assign(positions.begin(), positions.end());

@@ -160,10 +160,9 @@ void FrontalMatrix::reset(Index new_rows) {
 Index eliminate_columns(FrontalMatrix& front, Index width, std::span<const double> smallest_pivot) {
   const Index failed = eliminate_recursively(front, 0, width, smallest_pivot);
   const double* left = front.column(0) + width;
-  if (width < front.rows) {
+  if (width < front.rows)
     subtract_product({front.column(width) + width, left, left, front.stride, front.stride, front.stride,
                       front.rows - width, front.rows - width, width, true});
-  }
   return failed;
 }
 

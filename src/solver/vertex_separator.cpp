@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/lists.h"
+
 namespace relievo::solver {
 namespace {
 
@@ -69,9 +71,7 @@ class PathFlow {
   };
 
   std::vector<Index> starts_from_above() const {
-    std::vector<Index> order;
-    for (Index v = 0; v < graph_.size(); ++v)
-      if (starts_[v]) order.push_back(v);
+    std::vector<Index> order = indices_where(graph_.size(), [&](Index v) { return starts_[v] != 0; });
     const Eigen::Vector2f up(-band_.direction.y(), band_.direction.x());
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       const float ya = up.dot(band_.positions[a]), yb = up.dot(band_.positions[b]);

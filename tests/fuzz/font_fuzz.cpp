@@ -1,7 +1,6 @@
 // Fuzz target of fonts: sets texts of several scripts in a font that consists of the input's bytes.
 #include <cstdlib>
 #include <memory>
-#include <string_view>
 
 #include "fuzz/fuzz_program.h"
 #include "lettering/font.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include "fuzz/fuzz_program.h"
 #include "relievo/make_relief.h"

@@ -1,6 +1,5 @@
 // Fuzz target of the scene reader.
 #include <cstdlib>
-#include <string_view>
 
 #include "common/scene_file.h"
 #include "fuzz/fuzz_program.h"

@@ -1,6 +1,5 @@
 // Fuzz target of drawings: SVG files, and the points of walls along small drawings.
 #include <cstdlib>
-#include <string_view>
 
 #include "fuzz/fuzz_program.h"
 #include "lettering/ornament_shapes.h"

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-
 #include "relievo/plate/outline.h"
 #include "support/plate_fronts.h"
 

@@ -4,7 +4,6 @@
 #include <rapidcheck.h>
 
 #include <array>
-#include <cmath>
 #include <random>
 
 #include "support/big_integer.h"

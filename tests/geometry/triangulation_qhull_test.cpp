@@ -53,9 +53,8 @@ TEST(DelaunayAgainstQhull, FindsTheSameTriangles) {
   std::vector<Vec2> stretched = random_points(5000, 7), dense = random_points(5000, 8);
   for (Vec2& p : stretched) p.y() *= 0.01;
   for (Vec2& p : dense) p = p.cwiseProduct(p).cwiseProduct(p);
-  for (const std::vector<Vec2>& points : {random_points(20000), stretched, dense}) {
+  for (const std::vector<Vec2>& points : {random_points(20000), stretched, dense})
     EXPECT_EQ(corners_of(delaunay(points)), qhull_corners(points));
-  }
 }
 
 }  // namespace

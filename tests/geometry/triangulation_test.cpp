@@ -63,11 +63,9 @@ Points brute_hull(Points points) {
 }
 
 bool is_degenerate(const Points& points) {
-  for (const Vec2& p : points) {
-    for (const Vec2& q : points) {
+  for (const Vec2& p : points)
+    for (const Vec2& q : points)
       if (twice_area(points[0], p, q) != 0) return false;
-    }
-  }
   return true;
 }
 
@@ -146,9 +144,8 @@ TEST(Delaunay, AgreesWithBruteForceOnSmallIntegers) {
         for (const Vec2& p : points) RC_ASSERT(in_circle(points[a], points[b], points[c], p) <= 0);
       }
       const Points expected_hull = brute_hull(points);
-      for (std::size_t k = 2; k < expected_hull.size(); ++k) {
+      for (std::size_t k = 2; k < expected_hull.size(); ++k)
         twice_hull_area += twice_area(expected_hull[0], expected_hull[k - 1], expected_hull[k]);
-      }
       RC_ASSERT(twice_sum == twice_hull_area);
 
       Points hull;
@@ -216,9 +213,8 @@ TEST(Delaunay, TriangulatesAThinTriangleAtTheEndsOfTheRange) {
 TEST(Delaunay, UsesTheFirstOfEqualPoints) {
   Points points = random_points(500);
   const std::set<Triangle> expected = sorted_triangles(delaunay(points));
-  for (int copies = 0; copies < 3; ++copies) {
+  for (int copies = 0; copies < 3; ++copies)
     for (std::size_t i = 0; i < 500; ++i) points.push_back(points[i * 7 % 500]);
-  }
   points.emplace_back(points[0]);
   EXPECT_EQ(sorted_triangles(delaunay(points)), expected);
   expect_correct(points);

@@ -78,9 +78,8 @@ TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
     colour.pixels.push_back(i < 8 ? 127 : 128);
   }
   const auto image = value_of(read_depth_image(write_png(colour), "d"));
-  for (std::size_t i = 0; i < 16; ++i) {
+  for (std::size_t i = 0; i < 16; ++i)
     EXPECT_TRUE(i < 8 ? std::isnan(image.values[i]) : image.values[i] == 10 * static_cast<float>(i)) << i;
-  }
 }
 
 // The chunk consists of its length 2, its name, the grey 3001 and its checksum.
@@ -112,8 +111,7 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
   }
   EXPECT_EQ(depth_message_of("GIF89a"),
             "d: expected a picture of depths (PNG, TIFF, JPEG, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
-            "heights), found "
-            "a GIF picture; save it as PNG");
+            "heights), found a GIF picture; save it as PNG");
   EXPECT_EQ(depth_message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }

@@ -3,7 +3,6 @@
 #include <rapidcheck.h>
 
 #include <bit>
-#include <cmath>
 
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
@@ -71,12 +70,10 @@ TEST(DepthNpy, ReadsAllNumbersInBothOrders) {
 
 TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
   EXPECT_EQ(message_in(npy("<c8", "")),
-            "d: expected an array of numbers, found the type '<c8'; in Python "
-            "astype('float32') converts it");
+            "d: expected an array of numbers, found the type '<c8'; in Python astype('float32') converts it");
   EXPECT_EQ(message_in(npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", "")),
             "d: expected an array of numbers, found records; in Python np.stack([a['x'], a['y'], a['z']], "
-            "-1) is an "
-            "array of points");
+            "-1) is an array of points");
   EXPECT_EQ(message_in(npy("|u1", "", "5, 6, 3")),
             "d: expected an array of rows and columns, found the shape (5, "
             "6, 3); in Python a[..., 0] is one of its channels");

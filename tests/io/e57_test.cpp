@@ -157,8 +157,7 @@ TEST(E57, BrokenDescriptionsAreNamed) {
             "a.e57, line 9 of the XML: expected the end of 'data3D', found that of 'data'");
   EXPECT_EQ(message_with("cartesianZ", "altitude"),
             "a.e57, element prototype: expected cartesianX, Y and Z or sphericalRange, Azimuth and "
-            "Elevation, found "
-            "cartesianX, cartesianY, altitude");
+            "Elevation, found cartesianX, cartesianY, altitude");
   EXPECT_EQ(message_with("type=\"Float\"", "type=\"Text\""),
             "a.e57, element cartesianX: expected a type Integer, ScaledInteger or Float, found 'Text'");
   EXPECT_EQ(message_with("recordCount=\"1\"", "recordCount=\"-1\""),

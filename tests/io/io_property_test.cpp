@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <numeric>
-
 #include "relievo/io/write.h"
 #include "support/e57_encoder.h"
 #include "support/format_samples.h"
@@ -116,9 +114,8 @@ TEST(PlyProperty, NormalsAreReadFromAnyTable) {
       return;
     }
     RC_ASSERT(file->cloud.normals.size() == normals.size());
-    for (std::size_t i = 0; i < normals.size(); ++i) {
+    for (std::size_t i = 0; i < normals.size(); ++i)
       RC_ASSERT((file->cloud.normals[i].cast<double>() - normals[i]).norm() < 1e-6);
-    }
   }));
 }
 
@@ -197,17 +194,13 @@ std::vector<FileSample> valid_files() {
 }
 
 TEST(BrokenFiles, TheUnbrokenOnesAreRead) {
-  for (const auto& [name, text] : valid_files()) {
-    EXPECT_EQ(check_answer(file_of(text, name), name), "");
-  }
+  for (const auto& [name, text] : valid_files()) EXPECT_EQ(check_answer(file_of(text, name), name), "");
 }
 
 TEST(BrokenFiles, TruncatedAnywhereGiveAnAnswer) {
-  for (const auto& [name, text] : valid_files()) {
-    for (std::size_t size = 0; size < text.size(); ++size) {
+  for (const auto& [name, text] : valid_files())
+    for (std::size_t size = 0; size < text.size(); ++size)
       EXPECT_EQ(check_answer(read(text.substr(0, size), name), name), "") << name << ' ' << size;
-    }
-  }
 }
 
 TEST(BrokenFiles, WithAnyByteChangedGiveAnAnswer) {

@@ -132,8 +132,7 @@ TEST(NpyPoints, AreRefusedIfTheFileIsCut) {
                 ": expected the points of an array (5, 3), found room for 4; the file is cut, get it anew"));
   EXPECT_EQ(message_of(npy("<f8", "", "4000000000, 4000000000, 3"), "scan"),
             "scan, byte 94: expected the points of an array (4000000000, 4000000000, 3), found room for 0; "
-            "the file is "
-            "cut, get it anew");
+            "the file is cut, get it anew");
   EXPECT_EQ(message_of(npy("<f4", "", "0, 3"), "scan"), "scan: expected points, found none");
 }
 

@@ -46,8 +46,7 @@ TEST(Obj, CurvesAndSurfacesAreNotRead) {
   const std::string surface = "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 3\nend\n";
   EXPECT_EQ(message_of(triangle + surface, "a.obj"),
             "a.obj, line 6: expected faces, found curves or surfaces, which are not read; the CAD program "
-            "that made "
-            "them exports triangles, too");
+            "that made them exports triangles, too");
   const CloudFile both = file_of(triangle + "f 1 2 3\n" + surface + "curv 0 1 1 2\n", "a.obj");
   EXPECT_EQ(both.mesh.triangles.size(), 1U);
   EXPECT_EQ(both.remarks[0], "left out 2 curves and surfaces (curv, surf), which are not read");

@@ -87,9 +87,8 @@ TEST_P(Ply, TruncatedVerticesAreAnError) {
   // If an ASCII file is cut within its last number or after it, the reader cannot notice that.
   const std::size_t least =
       GetParam() == PlyEncoding::ascii ? whole.rfind(' ', whole.size() - 3) + 1 : whole.size();
-  for (std::size_t size = header; size < least; ++size) {
+  for (std::size_t size = header; size < least; ++size)
     EXPECT_NE(message_of(whole.substr(0, size), "scan.ply"), "no error") << size;
-  }
 }
 
 TEST_P(Ply, FormatIsNamed) {
@@ -230,10 +229,9 @@ TEST(PlyAscii, BadBodyIsNamed) {
 TEST(PlyAscii, BadListLengthIsNamed) {
   const std::string header = replaced(small_ply.substr(0, small_ply.find("1 2 3")), "property float x\n",
                                       "property list uchar int l\nproperty float x\n");
-  for (const std::string length : {"-1", "1.5", "x"}) {
+  for (const std::string length : {"-1", "1.5", "x"})
     EXPECT_EQ(message_of(header + length + " 0 1 2 3\n", "scan.ply"),
               "scan.ply, line 9: expected the length of the list l, found '" + length + "'");
-  }
   EXPECT_EQ(message_of(header + "9000000000000000000 0 1 2 3\n", "scan.ply"),
             "scan.ply, line 9: expected 3 rows of element vertex, found the end of the file after 0");
 }

@@ -7,7 +7,6 @@
 
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"

@@ -64,8 +64,7 @@ TEST(ShapeLine, NamesMissingCharactersOnce) {
   const std::string message = message_of(check_text(text_in("aאbאש")));
   EXPECT_EQ(message,
             "text: expected characters of the font inside, Noto Serif, found others: 'א' (U+05D0), 'ש' "
-            "(U+05E9); font "
-            "names another font");
+            "(U+05E9); font names another font");
 }
 
 TEST(ShapeLine, RefusesWhatItCannotSet) {

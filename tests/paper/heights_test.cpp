@@ -9,6 +9,7 @@
 #include "relievo/core/parallel.h"
 #include "support/planar_points.h"
 #include "support/results.h"
+#include "support/same_bits.h"
 
 namespace relievo::paper {
 namespace {
@@ -78,11 +79,7 @@ TEST(PaperHeights, HaveTheSameBitsWithAnyNumberOfThreads) {
   is_boundary[5] = 1;
   const NormalEquations equations = value_of(NormalEquations::build(points, is_boundary));
   const std::vector<Vec2f> slopes = random_slopes(points.size());
-  set_thread_count(1);
-  const std::vector<float> alone = solved(equations, slopes);
-  set_thread_count(3);
-  EXPECT_EQ(solved(equations, slopes), alone);
-  set_thread_count(0);
+  test::expect_same_for_any_threads([&] { return solved(equations, slopes); });
 }
 
 }  // namespace

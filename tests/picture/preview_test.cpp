@@ -1,5 +1,4 @@
 #include "relievo/picture/preview.h"
-#include "relievo/core/image.h"
 #include "relievo/picture/height_map.h"
 
 #include <gtest/gtest.h>

@@ -3,21 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
+
+#include "support/results.h"
 
 namespace relievo {
 namespace {
-
-std::string complaint(const OptionValues& values) {
-  const auto options = parse_options(values);
-  return options ? "" : options.error().message();
-}
-
-std::string depth_complaint(const OptionValues& values) {
-  const auto options = parse_depth(values);
-  return options ? "" : options.error().message();
-}
 
 void expect_defaults(const ReliefOptions& read) {
   const ReliefOptions options;
@@ -97,15 +88,16 @@ TEST(ParseOptions, AWrongTextIsNamedWithoutDashes) {
 }
 
 TEST(ParseOptions, TellsWhatItExpected) {
-  EXPECT_EQ(complaint({{"finish", "polished"}}),
+  EXPECT_EQ(message_of(parse_options({{"finish", "polished"}})),
             "finish: expected one of full or reachable, found 'polished'");
-  EXPECT_EQ(complaint({{"rim", -1.}}), "rim: expected a number from 0.01 to 100000, found -1");
-  EXPECT_EQ(complaint({{"base", "wave"}, {"wrap", "sphere"}}),
+  EXPECT_EQ(message_of(parse_options({{"rim", -1.}})),
+            "rim: expected a number from 0.01 to 100000, found -1");
+  EXPECT_EQ(message_of(parse_options({{"base", "wave"}, {"wrap", "sphere"}})),
             "wrap: expected either base or wrap, found both");
-  EXPECT_EQ(complaint({{"alpha", "4"}}), "alpha: expected a number");
-  EXPECT_EQ(complaint({{"view", 4.}}), "view: expected a text");
-  EXPECT_EQ(complaint({{"hight", 4.}}), "hight: expected the name of an option");
-  EXPECT_TRUE(complaint({{"width", "wide"}}).starts_with("width: expected"));
+  EXPECT_EQ(message_of(parse_options({{"alpha", "4"}})), "alpha: expected a number");
+  EXPECT_EQ(message_of(parse_options({{"view", 4.}})), "view: expected a text");
+  EXPECT_EQ(message_of(parse_options({{"hight", 4.}})), "hight: expected the name of an option");
+  EXPECT_TRUE(message_of(parse_options({{"width", "wide"}})).starts_with("width: expected"));
 }
 
 TEST(ParseDepth, ReadsAndChecksTheRowsOfDepthImages) {
@@ -117,20 +109,20 @@ TEST(ParseDepth, ReadsAndChecksTheRowsOfDepthImages) {
   EXPECT_EQ(options->channel, 3);
   EXPECT_EQ(options->background, Removal::keep);
   EXPECT_EQ(parse_depth({{"depth-values", "auto"}})->values, DepthValues::automatic);
-  EXPECT_EQ(depth_complaint({{"depth-values", "far"}}),
+  EXPECT_EQ(message_of(parse_depth({{"depth-values", "far"}})),
             "depth-values: expected one of depth, height, inverse, luminance or auto, found 'far'");
-  EXPECT_TRUE(depth_complaint({{"background", "cut"}}).starts_with("background: "));
-  EXPECT_EQ(depth_complaint({{"depth-range", 11.}}),
+  EXPECT_TRUE(message_of(parse_depth({{"background", "cut"}})).starts_with("background: "));
+  EXPECT_EQ(message_of(parse_depth({{"depth-range", 11.}})),
             "depth-range: expected a number from 0.01 to 10, found 11");
-  EXPECT_EQ(depth_complaint({{"channel", 1.5}}), "channel: expected a whole number, found 1.5");
-  EXPECT_EQ(depth_complaint({{"channel", 65.}}), "channel: expected a number from 0 to 64, found 65");
+  EXPECT_EQ(message_of(parse_depth({{"channel", 1.5}})), "channel: expected a whole number, found 1.5");
+  EXPECT_EQ(message_of(parse_depth({{"channel", 65.}})), "channel: expected a number from 0 to 64, found 65");
 }
 
 TEST(ParseDoubtful, ReadsItsRowAlone) {
   EXPECT_FALSE(*parse_doubtful({{"height", 3.}}));
   EXPECT_FALSE(*parse_doubtful({{"doubtful", "drop"}}));
   EXPECT_TRUE(*parse_doubtful({{"doubtful", "keep"}}));
-  EXPECT_EQ(parse_doubtful({{"doubtful", "maybe"}}).error().message(),
+  EXPECT_EQ(message_of(parse_doubtful({{"doubtful", "maybe"}})),
             "doubtful: expected one of drop or keep, found 'maybe'");
 }
 
@@ -164,7 +156,8 @@ TEST(OptionTable, ChoicesAreWhatIsRead) {
       OptionValues values{{"height", 3.}, {"tool", "ball:1"}};
       if (option.name == "text-arc") values["text"] = "A";
       values[std::string(option.name)] = std::string(choice);
-      EXPECT_EQ(complaint(values) + depth_complaint(values), "") << option.name << " " << choice;
+      EXPECT_EQ(message_of(parse_options(values)), "no error") << option.name << " " << choice;
+      EXPECT_EQ(message_of(parse_depth(values)), "no error") << option.name << " " << choice;
     }
 }
 
@@ -176,7 +169,7 @@ TEST(ParseOptions, CrumbsMayBeANumberOfPieces) {
   EXPECT_TRUE(view("keep").has_crumbs);
   for (const char* wrong : {"0", "-1", "1.5", "two", "2x", "1e9"})
     EXPECT_EQ(
-        complaint({{"crumbs", wrong}}),
+        message_of(parse_options({{"crumbs", wrong}})),
         std::string("crumbs: expected drop, keep, largest or a number of pieces, found '") + wrong + "'");
 }
 

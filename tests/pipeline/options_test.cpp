@@ -7,18 +7,14 @@
 #include "relievo/core/text.h"
 #include "relievo/option_table.h"
 #include "relievo/relief/weights.h"
+#include "support/results.h"
 
 namespace relievo {
 namespace {
 
-std::string complaint(const ReliefOptions& options) {
-  const auto ok = check(options);
-  return ok ? "" : ok.error().message();
-}
-
 TEST(Options, DefaultsAreValid) {
   const ReliefOptions options;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
   EXPECT_EQ(options.effective_method(), Method::layered);
   EXPECT_EQ(options.effective_height_mm(), 5);
 }
@@ -26,7 +22,7 @@ TEST(Options, DefaultsAreValid) {
 TEST(Options, OfThePapersMethodAreThePapers) {
   ReliefOptions options;
   options.alpha = 4;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
   EXPECT_EQ(options.effective_method(), Method::paper);
   EXPECT_FALSE(options.effective_height_mm());
   EXPECT_EQ(options.effective_alpha(), 4);
@@ -48,15 +44,15 @@ TEST(Options, WithAHeightCompressEvenly) {
 TEST(Options, OutOfRangeAreNamed) {
   ReliefOptions options;
   options.width_mm = -5;
-  EXPECT_EQ(complaint(options), "width: expected a number from 0.1 to 100000, found -5");
+  EXPECT_EQ(message_of(check(options)), "width: expected a number from 0.1 to 100000, found -5");
   options.width_mm = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(complaint(options).find("width"), std::string::npos);
+  expect_error(check(options), "width");
   options = {};
   options.height_mm = 0;
-  EXPECT_NE(complaint(options).find("height"), std::string::npos);
+  expect_error(check(options), "height");
   options = {};
   options.thickness_mm = std::numeric_limits<double>::infinity();
-  EXPECT_NE(complaint(options).find("thickness"), std::string::npos);
+  expect_error(check(options), "thickness");
 }
 
 TEST(Options, TheBestViewFindsWhatIsUp) {
@@ -69,64 +65,66 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   ReliefOptions options;
   options.diameter_mm = 80;
   options.outline = Outline::circle;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
   options.rim_mm = 39;  // with a margin of 1 mm
-  EXPECT_EQ(complaint(options), "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
+  EXPECT_EQ(message_of(check(options)),
+            "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
   options = {};
   options.rim_mm = options.rim_bevel_mm = 2;
   options.outline = Outline::ellipse;
   options.plate_mm = Vec2(200, 89);  // the margin is 5 mm, and the bevel is as wide as the rim
   options.shift_mm = Vec2(5, 0);
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
 }
 
 TEST(Options, MethodsHaveWhatTheyNeed) {
   ReliefOptions options;
   options.method = Method::gradient;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
   options.alpha = 4;
-  EXPECT_EQ(complaint(options), "alpha: expected method paper with it, found gradient");
+  EXPECT_EQ(message_of(check(options)), "alpha: expected method paper with it, found gradient");
   options.alpha.reset();
   options.detail = .1;
-  EXPECT_NE(complaint(options).find("detail"), std::string::npos);
+  expect_error(check(options), "detail");
 }
 
 TEST(Options, HaveOneHeightAtMost) {
   ReliefOptions options;
   options.height_of_diagonal = .05;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
   options.alpha = 4;
-  EXPECT_EQ(complaint(options), "alpha: expected either height or alpha, found both");
+  EXPECT_EQ(message_of(check(options)), "alpha: expected either height or alpha, found both");
   options.height_mm = 3;
-  EXPECT_EQ(complaint(options),
+  EXPECT_EQ(message_of(check(options)),
             "height-of-diagonal: expected either height or height-of-diagonal, found both");
 }
 
 TEST(Options, HaveAVerticalScaleOrAHeight) {
   ReliefOptions options;
   options.ground_value = 3;
-  EXPECT_EQ(complaint(options), "ground: expected mm-per-value with it, found none");
+  EXPECT_EQ(message_of(check(options)), "ground: expected mm-per-value with it, found none");
   options.mm_per_value = .1;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
   EXPECT_EQ(options.effective_method(), Method::linear);
   EXPECT_FALSE(options.effective_height_mm());
   options.height_mm = 3;
-  EXPECT_EQ(complaint(options), "mm-per-value: expected no height beside it, found one");
+  EXPECT_EQ(message_of(check(options)), "mm-per-value: expected no height beside it, found one");
   options.height_mm.reset();
   options.method = Method::layered;
-  EXPECT_EQ(complaint(options), "mm-per-value: expected method linear with it, found layered");
+  EXPECT_EQ(message_of(check(options)), "mm-per-value: expected method linear with it, found layered");
   options.method.reset();
   options.draft_deg = 10;
-  EXPECT_EQ(complaint(options),
+  EXPECT_EQ(message_of(check(options)),
             "mm-per-value: expected neither a lithophane nor a draft beside it, found one");
 }
 
 TEST(Options, HaveControlPointsInASubspaceOnly) {
   ReliefOptions options;
   options.control_points = 4000;
-  EXPECT_EQ(complaint(options), "control-points: expected mode subspace or auto with it, found exact");
+  EXPECT_EQ(message_of(check(options)),
+            "control-points: expected mode subspace or auto with it, found exact");
   options.mode = Mode::automatic;
-  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(message_of(check(options)), "no error");
 }
 
 TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {

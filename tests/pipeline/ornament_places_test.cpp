@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
-#include <vector>
 
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"

@@ -52,8 +52,7 @@ TEST(StrokeText, ErrorsNameTheStrokeAndTheKey) {
   };
   EXPECT_EQ(of(R"("size": 1)"),
             "stroke 1: expected brush, amount, radius, softness, points, name, muted, area, direction or "
-            "tolerance, found "
-            "'size'");
+            "tolerance, found 'size'");
   EXPECT_EQ(of(R"("brush": "paint")"),
             "stroke 1: expected strengthen, sharpen, soften, raise, sink, level, protect or in-front as "
             "brush, found \"paint\"");

@@ -4,7 +4,6 @@
 #include <rapidcheck.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "support/results.h"
@@ -37,9 +36,7 @@ Base over(std::string_view text, std::shared_ptr<const Image<float>> image = nul
 
 std::string complaint(std::string_view text) {
   const auto options = parse_base(text);
-  if (!options) return options.error().message();
-  const auto base = Base::over(*options, plate);
-  return base ? "" : base.error().message();
+  return options ? message_of(Base::over(*options, plate)) : options.error().message();
 }
 
 constexpr const char* shapes[] = {"fold",          "fold:angle=30,direction=20,hollow",

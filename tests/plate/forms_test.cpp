@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <vector>
 
 #include "relievo/make_relief.h"
@@ -34,10 +33,6 @@ MadeRelief made(Form form) {
   MadeRelief relief = value_of(make_relief(balls(), options));
   EXPECT_EQ(check_solid(relief.solid), "");
   return relief;
-}
-
-Box box_of(const Solid& solid) {
-  return Box::of(solid.points);
 }
 
 // Returns the lithophane of a cloud. It is 20 mm wide, and its thickness varies by 4 mm.
@@ -76,7 +71,7 @@ double height_around(const HeightFieldMesh& front, const Vec2& centre, double ra
 
 TEST(Forms, AMirrorSwapsLeftAndRight) {
   const MadeRelief relief = made(Form::relief), mirror = made(Form::mirror);
-  const double width = box_of(relief.solid).max.x();
+  const double width = Box::of(relief.solid.points).max.x();
   ASSERT_EQ(relief.solid.points.size(), mirror.solid.points.size());
   for (std::size_t i = 0; i < relief.solid.points.size() - 8; i += 97) {
     EXPECT_NEAR(mirror.solid.points[i].x(), width - relief.solid.points[i].x(), 1e-9);
@@ -86,7 +81,7 @@ TEST(Forms, AMirrorSwapsLeftAndRight) {
 
 TEST(Forms, TheReliefFitsIntoItsDie) {
   const MadeRelief relief = made(Form::relief), die = made(Form::die);
-  const double width = box_of(relief.solid).max.x();
+  const double width = Box::of(relief.solid.points).max.x();
   // Rotated about the y axis, the die fits on the relief without a gap.
   const double sum = relief.solid.points[0].z() + die.solid.points[0].z();
   for (std::size_t i = 0; i < relief.solid.points.size() - 8; i += 89) {
@@ -98,7 +93,7 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
 
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const MadeRelief it = made(Form::lithophane);
-  const Box box = box_of(it.solid);
+  const Box box = Box::of(it.solid.points);
   EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is so thin that light passes
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
   // The lamp is at the upper left: the plate is thinner at the ball's upper left than at its lower right.

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "relievo/make_relief.h"
-#include "relievo/plate/solid.h"
 #include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"

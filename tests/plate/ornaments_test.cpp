@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <set>
 
 #include "geometry/plane.h"
 #include "support/admesh.h"

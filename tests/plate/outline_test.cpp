@@ -14,6 +14,7 @@
 #include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
+#include "support/surfaces.h"
 #include "support/triangles.h"
 
 namespace relievo {
@@ -336,7 +337,7 @@ TEST(Outlines, TheReportTellsWhereTheScanLies) {
       const ReliefReport& r = made.report;
       double lowest = 1e9;
       for (std::size_t i = 0; i < surface.points.size(); ++i) {
-        const Vec3 p = surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
+        const Vec3 p = test::place_of(surface, i);
         const Vec3 mm = r.scale * r.rotation * p + r.offset;
         lowest = std::min(lowest, mm.z());
         const bool is_inside = !surface.boundary.is_boundary[i];

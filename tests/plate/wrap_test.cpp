@@ -24,9 +24,7 @@ Wrap around(std::string_view text) {
 
 std::string complaint(std::string_view text) {
   const auto options = parse_wrap(text);
-  if (!options) return options.error().message();
-  const auto wrap = Wrap::around(*options, plate_outline);
-  return wrap ? "" : wrap.error().message();
+  return options ? message_of(Wrap::around(*options, plate_outline)) : options.error().message();
 }
 
 constexpr const char* bodies[] = {"cylinder:diameter=60",          "cylinder:turn=270,direction=0",

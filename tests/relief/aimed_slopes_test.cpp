@@ -48,8 +48,7 @@ TEST(AimedSlope, StaysWhereNoSlopeHasTheShading) {
 }
 
 TEST(LocalContrast, IsThatOfWavesAndNoneOfAPlane) {
-  const auto level = test::surface_of(test::height_field(
-      20000, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
+  const auto level = test::surface_of(test::sheet(20000, 1, 0));
   for (const float contrast : local_contrast(level, {45, 30})) EXPECT_NEAR(contrast, 0, 1e-5);
   const double k = 80, slope = .2;
   const auto waves = test::surface_of(test::height_field(

@@ -12,6 +12,7 @@
 #include "relievo/relief/frame.h"
 #include "relievo/relief/relief.h"
 #include "relievo/relief/weights.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 #include "support/surfaces.h"
 
@@ -48,9 +49,7 @@ TEST(Attention, IsHighWhereTheSurfaceIsUnlikeItsSurroundings) {
 }
 
 TEST(Attention, IsZeroWithoutCurvature) {
-  const Surface level = test::surface_of(test::height_field(
-      5000, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); }));
-  for (const float value : attention(level)) EXPECT_EQ(value, 0);
+  for (const float value : attention(test::surface_of(test::sheet(5000, 1, 0)))) EXPECT_EQ(value, 0);
   EXPECT_TRUE(attention(Surface()).empty());
 }
 
@@ -86,13 +85,7 @@ TEST(Attention, MovesWithTheModel) {
 
 TEST(Attention, HasTheSameBitsOnAnyNumberOfThreads) {
   const Surface surface = test::surface_of(waves_on_the_left());
-  std::vector<float> results[2];
-  for (int i = 0; i < 2; ++i) {
-    set_thread_count(i == 0 ? 1 : 4);
-    results[i] = attention(surface);
-  }
-  set_thread_count(0);
-  EXPECT_EQ(results[0], results[1]);
+  test::expect_same_for_any_threads([&] { return attention(surface); });
 }
 
 TEST(Attention, HasLevelsThatAddUpToNothing) {

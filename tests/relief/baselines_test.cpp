@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/relief/method.h"
 #include "support/differences.h"
 #include "support/least_squares.h"
 #include "support/surfaces.h"
@@ -57,8 +56,7 @@ TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
       EXPECT_EQ(made.error().kind, ErrorKind::geometry);
       EXPECT_EQ(made.error().message(),
                 "expected a height that can be reached, at most 0 mm for this view and width, found 2 mm: "
-                "this view "
-                "shows a level face alone; choose another")
+                "this view shows a level face alone; choose another")
           << info.name;
     }
   }

@@ -9,6 +9,7 @@
 #include "relievo/relief/heights.h"
 #include "relievo/relief/weights.h"
 #include "support/differences.h"
+#include "support/same_bits.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -61,11 +62,7 @@ TEST(Mimicking, MovesPiecesFreely) {
 
 TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
   const Surface surface = test::surface_of(test::bumps_behind_a_ring(10000));
-  set_thread_count(1);
-  const std::vector<double> expected = mimicking(surface, .05);
-  set_thread_count(3);
-  EXPECT_EQ(mimicking(surface, .05), expected);
-  set_thread_count(0);
+  test::expect_same_for_any_threads([&] { return mimicking(surface, .05); });
 }
 
 // Heights that do not reach a bound are those of (9).

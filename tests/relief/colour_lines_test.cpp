@@ -21,14 +21,9 @@ Cloud coloured(Cloud cloud, IsDark is_dark) {
   return cloud;
 }
 
-Cloud square() {
-  return test::height_field(
-      30000, 1, [](double, double) { return 0.; }, [](double, double) { return Vec2(0, 0); });
-}
-
 TEST(DarkLines, AreFullOnStripesAndNothingElsewhere) {
-  const Surface surface =
-      test::surface_of(coloured(square(), [](const Vec3& p) { return std::abs(p.x() - .2) < .04; }));
+  const Surface surface = test::surface_of(
+      coloured(test::sheet(30000, 1, 0), [](const Vec3& p) { return std::abs(p.x() - .2) < .04; }));
   const std::vector<float> lines = dark_lines(surface);
   ASSERT_EQ(lines.size(), surface.points.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -45,7 +40,8 @@ TEST(DarkLines, AreFullOnStripesAndNothingElsewhere) {
 }
 
 TEST(DarkLines, AreTheEdgesOfWideDarkAreas) {
-  const Surface surface = test::surface_of(coloured(square(), [](const Vec3& p) { return p.x() < 0; }));
+  const Surface surface =
+      test::surface_of(coloured(test::sheet(30000, 1, 0), [](const Vec3& p) { return p.x() < 0; }));
   const std::vector<float> lines = dark_lines(surface);
   float most = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -58,8 +54,8 @@ TEST(DarkLines, AreTheEdgesOfWideDarkAreas) {
 }
 
 TEST(DarkLines, NeedColours) {
-  EXPECT_TRUE(dark_lines(test::surface_of(square())).empty());
-  const Surface even = test::surface_of(coloured(square(), [](const Vec3&) { return true; }));
+  EXPECT_TRUE(dark_lines(test::surface_of(test::sheet(30000, 1, 0))).empty());
+  const Surface even = test::surface_of(coloured(test::sheet(30000, 1, 0), [](const Vec3&) { return true; }));
   EXPECT_EQ(std::ranges::max(dark_lines(even)), 0);
 }
 

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numbers>
 
 #include "relievo/make_relief.h"

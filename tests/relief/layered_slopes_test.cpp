@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/simd.h"
 #include "relief/style.h"
 #include "relief/weight_table.h"
 #include "support/shapes.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <vector>
 
 #include "relievo/job.h"
 #include "relievo/relief/draft.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "support/differences.h"
 #include "support/same_bits.h"

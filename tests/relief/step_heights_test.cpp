@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "relievo/relief/frame.h"
 #include "relievo/relief/relief.h"

@@ -11,6 +11,7 @@
 namespace relievo {
 namespace {
 
+using test::place_of;
 using test::surface_of;
 
 Stroke lasso_of(std::vector<Vec3> corners, const Vec3& direction, double radius = .1) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "core/height_span.h"
 #include "relievo/relief/frame.h"
@@ -16,7 +15,9 @@
 namespace relievo {
 namespace {
 
+using test::place_of;
 using test::surface_of;
+using test::waves;
 
 Stroke dab(Brush brush, const Vec3& at, double radius = .3, double amount = 1) {
   return {.name = {}, .brush = brush, .amount = amount, .radius = radius, .points = {at}};
@@ -186,13 +187,6 @@ TEST(StrokeFields, BlurWavesAsTheirTransferFunctionSays) {
     }
     EXPECT_NEAR(product / square_sum, 1 + sign * removed, .06 * removed);
   }
-}
-
-// Returns heights with waves in which each brush changes something.
-std::vector<double> waves(const Surface& surface) {
-  std::vector<double> z;
-  for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(40 * p.x()) * std::sin(30 * p.y()));
-  return z;
 }
 
 TEST(StrokeFields, ChangeNothingWhenMuted) {

@@ -14,17 +14,12 @@
 namespace relievo {
 namespace {
 
+using test::place_of;
 using test::surface_of;
+using test::waves;
 
 Stroke dab(const Vec3& at, double radius, double amount = 1) {
   return {.name = {}, .brush = Brush::protect, .amount = amount, .radius = radius, .points = {at}};
-}
-
-// Returns heights with waves in which each brush changes something.
-std::vector<double> waves(const Surface& surface) {
-  std::vector<double> z;
-  for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(40 * p.x()) * std::sin(30 * p.y()));
-  return z;
 }
 
 // Returns heights with waves, and the same heights under a smooth correction that is no plane.

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "relief/weight_table.h"
 
 namespace relievo {

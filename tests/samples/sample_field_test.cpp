@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "relievo/core/parallel.h"
 
@@ -36,9 +35,8 @@ Solid torus() {
 // `expected`.
 double misfit(const std::vector<double>& counts, const std::vector<double>& expected) {
   double chi_sq = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
+  for (std::size_t i = 0; i < counts.size(); ++i)
     chi_sq += (counts[i] - expected[i]) * (counts[i] - expected[i]) / expected[i];
-  }
   const double freedom = static_cast<double>(counts.size()) - 1;
   return (chi_sq - freedom) / std::sqrt(2 * freedom);
 }
@@ -83,9 +81,8 @@ TEST(Scatter, HasTheNearestNeighboursOfAPoissonProcess) {
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) {
     double nearest_sq = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t j = 0; j < n; ++j)
       if (j != i) nearest_sq = std::min(nearest_sq, (cloud.points[i] - cloud.points[j]).squaredNorm());
-    }
     sum += std::sqrt(nearest_sq);
   }
   const double spacing = std::sqrt(4 * pi / n);
@@ -113,9 +110,8 @@ TEST(Scatter, AddsTheNoiseAskedForAlongTheNormal) {
 }
 
 TEST(Scatter, ReturnsAnyNumberOfPoints) {
-  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, default_grain, default_grain + 1}) {
+  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, default_grain, default_grain + 1})
     EXPECT_EQ(scatter(sphere(), {n, 0.1, 6}).size(), n);
-  }
 }
 
 TEST(Scatter, ScattersOtherwiseWithAnotherSeed) {

@@ -62,9 +62,8 @@ TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
     const Vec3& p = cloud.points[i];
     ASSERT_LT(std::abs(solid.value(p)), 1e-6);
     Vec3 gradient;  // from central differences, unlike the cloud's normals
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
       gradient[axis] = solid.value(p + step * Vec3::Unit(axis)) - solid.value(p - step * Vec3::Unit(axis));
-    }
     if (gradient.normalized().dot(cloud.normals[i].cast<double>()) < 0.9998) ++off_normals;  // 1 degree
   }
   EXPECT_LT(off_normals, 300) << "only a point on a crease may have another normal";
@@ -137,9 +136,8 @@ std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane
 // this area is smaller by the factor |nz|.
 std::vector<double> shares_by_points(const Cloud& cloud, const Plane& plane) {
   std::vector<double> shares(plane.cells(), 0);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = 0; i < cloud.size(); ++i)
     shares[plane.cell(cloud.points[i])] += std::abs(static_cast<double>(cloud.normals[i].z()));
-  }
   const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
   for (double& share : shares) share /= all;
   return shares;

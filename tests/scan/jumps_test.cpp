@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "relievo/scan/surface.h"
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/lists.h"
 #include "relievo/scan/normals.h"
 #include "relievo/scan/surface.h"
 #include "support/results.h"
@@ -46,10 +47,19 @@ double noise_of(const Cloud& cloud) {
   return measure_noise(cloud, measure_spacing(cloud));
 }
 
-Cloud without_noise(const NoisyCloud& noisy) {
-  Cloud cloud = noisy.cloud;
-  remove_noise(cloud, measure_spacing(cloud), noise_of(cloud));
+// Removes noise at all points.
+Cloud cleaned(Cloud cloud, double noise) {
+  const Spacing spacing = measure_spacing(cloud);
+  const KdTree<Vec3> tree(cloud.points);
+  const std::vector<Index> all = all_indices(cloud.size());
+  CleanPoints clean = without_noise({cloud, spacing, tree}, {noise, all}, nullptr);
+  cloud.points = std::move(clean.points);
+  cloud.normals = std::move(clean.normals);
   return cloud;
+}
+
+Cloud without_noise(const NoisyCloud& noisy) {
+  return cleaned(noisy.cloud, noise_of(noisy.cloud));
 }
 
 TEST(MeasureNoise, IsZeroOnCleanShapes) {
@@ -101,9 +111,8 @@ TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {
 
 TEST(RemoveNoise, KeepsTheRadiusOfASphereWithoutNoise) {
   // A filter that fits constants would move the points inwards by about rho^2 / 2, which is 3e-4 here.
-  Cloud cloud = test::sphere(20000, 1);
-  const std::vector<Vec3f> truth = cloud.normals;
-  remove_noise(cloud, measure_spacing(cloud), .5);
+  const std::vector<Vec3f> truth = test::sphere(20000, 1).normals;
+  const Cloud cloud = cleaned(test::sphere(20000, 1), .5);
   for (const Vec3& p : cloud.points) ASSERT_NEAR(p.norm(), 1, 5e-5);
   EXPECT_LT(mean_error_deg(cloud, truth), .1);
 }
@@ -135,22 +144,6 @@ TEST(RemoveNoise, IsNotMisledByOutliers) {
     test::add(noisy.cloud, 1.2 * p, Vec3(random.gaussian(), random.gaussian(), random.gaussian()));
   }
   EXPECT_LT(mean_error_deg(without_noise(noisy), noisy.truth), 1.05 * without);
-}
-
-TEST(RemoveNoise, LeavesTheCloudAsItWasWhenItIsCancelled) {
-  const NoisyCloud noisy = with_noise(test::cube(3000), .3);
-  Cloud cloud = noisy.cloud;
-  Cancelled progress;
-  remove_noise(cloud, measure_spacing(cloud), .3, &progress);
-  EXPECT_EQ(cloud.points, noisy.cloud.points);
-  EXPECT_EQ(cloud.normals, noisy.cloud.normals);
-}
-
-TEST(RemoveNoise, DoesNothingWithoutNormals) {
-  Cloud bare = test::without_normals(test::sphere(500, 1));
-  const std::vector<Vec3> before = bare.points;
-  remove_noise(bare, measure_spacing(bare), .5);
-  EXPECT_EQ(bare.points, before);
 }
 
 TEST(SurfaceNoise, IsRemovedAsMuchAsMeasuredOrAsked) {

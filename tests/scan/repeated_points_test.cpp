@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
 #include "support/surfaces.h"
 

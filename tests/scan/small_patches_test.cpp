@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {

@@ -275,9 +275,8 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
         floating.coeffRef(j, j) -= e.value();
         floating.coeffRef(e.row(), e.row()) -= e.value();
       }
-  for (const Sparse& A : {indefinite, singular, not_finite, floating, Sparse(2, 3)}) {
+  for (const Sparse& A : {indefinite, singular, not_finite, floating, Sparse(2, 3)})
     expect_error(Cholesky::factor(A), ErrorKind::geometry);
-  }
   EXPECT_EQ(
       Cholesky::factor(indefinite).error().message(),
       "matrix, unknown 1: expected a symmetric positive definite matrix, found a pivot that is not positive");

@@ -6,7 +6,6 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
 #include "geometry/hilbert.h"
 #include "support/planar_systems.h"

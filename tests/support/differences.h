@@ -1,7 +1,6 @@
 // Compares two sequences of numbers or vectors.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>

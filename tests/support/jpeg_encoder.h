@@ -2,7 +2,6 @@
 // pixels are known without a transform.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

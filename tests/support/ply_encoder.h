@@ -104,19 +104,17 @@ inline std::string encode_ply_header(const std::vector<PlyTable>& tables, PlyEnc
   std::string out = "ply\nformat " + names[static_cast<std::size_t>(encoding)] + " 1.0\n";
   for (const PlyTable& table : tables) {
     out += "element " + table.name + " " + std::to_string(table.rows.size()) + "\n";
-    for (const PlyColumn& c : table.columns) {
+    for (const PlyColumn& c : table.columns)
       out += "property " + (c.length_type.empty() ? "" : "list " + c.length_type + " ") + c.type + " " +
              c.name + "\n";
-    }
   }
   return out + "end_header\n";
 }
 
 inline std::string encode_ply(const std::vector<PlyTable>& tables, PlyEncoding encoding) {
   std::string out = encode_ply_header(tables, encoding);
-  for (const PlyTable& table : tables) {
+  for (const PlyTable& table : tables)
     for (const auto& row : table.rows) ply_encoder::put_row(out, table, row, encoding);
-  }
   return out;
 }
 

@@ -49,9 +49,8 @@ inline std::string as_string(const std::vector<std::byte>& bytes) {
 }
 
 inline std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
     text.replace(at, what.size(), by);
-  }
   return text;
 }
 
@@ -69,19 +68,15 @@ inline std::string check_answer(const Result<CloudFile>& answer, std::string_vie
   const Cloud& cloud = answer->cloud;
   if (cloud.points.empty()) return "no points";
   if (cloud.has_normals() && cloud.normals.size() != cloud.size()) return "not one normal per point";
-  for (const Vec3& p : cloud.points) {
+  for (const Vec3& p : cloud.points)
     if (!p.allFinite()) return "point is not finite";
-  }
-  for (const Vec3f& n : cloud.normals) {
+  for (const Vec3f& n : cloud.normals)
     if (!(std::abs(n.norm() - 1) < 1e-6F)) return "normal is not unit";
-  }
   if (cloud.has_colours() && cloud.colours.size() != cloud.size()) return "not one colour per point";
   const Mesh& mesh = answer->mesh;
-  for (const Triangle& t : mesh.triangles) {
-    for (const Index i : t) {
+  for (const Triangle& t : mesh.triangles)
+    for (const Index i : t)
       if (i >= mesh.points.size() || !mesh.points[i].allFinite()) return "triangle without a finite corner";
-    }
-  }
   const bool has_normals = !mesh.corner_normals.empty(), has_colours = !mesh.colours.empty();
   if (has_normals && mesh.corner_normals.size() != mesh.triangles.size())
     return "not three normals per triangle";

@@ -12,13 +12,20 @@ inline Surface surface_of(const Cloud& cloud, const View& view = {}) {
   return value_of(find_surface(cloud, view));
 }
 
-inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
-  return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, {mode}));
+// Returns the position of a point of the surface in the scan's coordinates.
+inline Vec3 place_of(const Surface& surface, std::size_t i) {
+  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
 }
 
-// Returns the position of a point of the surface in the scan's coordinates.
-inline Vec3 place_of(const Surface& surface, Index i) {
-  return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
+// Returns heights with waves in which each brush changes something.
+inline std::vector<double> waves(const Surface& surface) {
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(40 * p.x()) * std::sin(30 * p.y()));
+  return z;
+}
+
+inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
+  return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, {mode}));
 }
 
 // Returns bumps behind a ring that hides parts of them. There are curvature of both signs, a depth jump, and

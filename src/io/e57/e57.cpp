@@ -34,12 +34,6 @@ struct E57Scan {
   Vec3 origin = Vec3::Zero();  // translation after the rotation
 };
 
-// Returns the name without its namespace prefix. Normals are an extension of the standard, for which files
-// may choose any prefix.
-std::string_view local_name(std::string_view name) {
-  return name.substr(name.find(':') + 1);
-}
-
 // Parses the description of a scan, a child of the element data3D. Errors name the element.
 class ScanParser {
  public:

@@ -1,6 +1,6 @@
 // Decodes buffer views that are compressed by the glTF extensions KHR_meshopt_compression and
 // EXT_meshopt_compression. The format is specified in appendices A and B of KHR_meshopt_compression, which
-// includes all of EXT_meshopt_compression. Tested by tests/io/meshopt_test.cpp.
+// includes all of EXT_meshopt_compression.
 #pragma once
 
 #include <cstddef>

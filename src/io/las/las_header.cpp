@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "io/formats.h"
-#include "io/numbers.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 

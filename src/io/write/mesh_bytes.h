@@ -16,6 +16,13 @@ std::byte* put(std::byte* to, T value) {
   return to + sizeof value;
 }
 
+// Writes the components of a vector.
+template <typename Vector>
+std::byte* put_vector(std::byte* to, const Vector& vector) {
+  for (const auto value : vector) to = put(to, value);
+  return to;
+}
+
 inline std::byte* put_text(std::byte* to, std::string_view text) {
   std::memcpy(to, text.data(), text.size());
   return to + text.size();

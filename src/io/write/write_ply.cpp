@@ -37,12 +37,6 @@ std::string make_header(const Cloud& cloud, std::string_view comment, bool is_do
   return header + "end_header\n";
 }
 
-template <typename Vector>
-std::byte* put_vector(std::byte* to, const Vector& vector) {
-  for (const auto value : vector) to = detail::put(to, value);
-  return to;
-}
-
 constexpr std::size_t vertex_size = 12, colour_size = 3, face_size = 13;
 
 std::string header(const Solid& solid) {
@@ -62,8 +56,9 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment) {
   std::vector<std::byte> bytes(header.size() + row * cloud.size());
   std::byte* to = detail::put_text(bytes.data(), header);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    to = is_double ? put_vector(to, cloud.points[i]) : put_vector(to, Vec3f(cloud.points[i].cast<float>()));
-    if (cloud.has_normals()) to = put_vector(to, cloud.normals[i]);
+    to = is_double ? detail::put_vector(to, cloud.points[i])
+                   : detail::put_vector(to, Vec3f(cloud.points[i].cast<float>()));
+    if (cloud.has_normals()) to = detail::put_vector(to, cloud.normals[i]);
   }
   return bytes;
 }

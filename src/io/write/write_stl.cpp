@@ -14,16 +14,11 @@ namespace {
 
 constexpr std::size_t header_size = 80, triangle_size = 50;
 
-std::byte* put_vector(std::byte* to, const Vec3f& v) {
-  for (const float x : {v.x(), v.y(), v.z()}) to = detail::put(to, x);
-  return to;
-}
-
 void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   // The normal is computed from the rounded corners, because some readers compute it from them and compare.
   const Vec3 normal = (b - a).cast<double>().cross((c - a).cast<double>());
-  to = put_vector(to, normal.stableNormalized().cast<float>());
-  for (const Vec3f& corner : {a, b, c}) to = put_vector(to, corner);
+  to = detail::put_vector(to, Vec3f(normal.stableNormalized().cast<float>()));
+  for (const Vec3f& corner : {a, b, c}) to = detail::put_vector(to, corner);
   detail::put(to, std::uint16_t{0});
 }
 

@@ -2,17 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 
+#include "core/lists.h"
 #include "geometry/predicates.h"
 
 namespace relievo {
 
 bool Approximation::start() {
-  std::vector<Index> names(plane_.size());
-  std::iota(names.begin(), names.end(), Index{0});
   if (!std::ranges::all_of(plane_, is_exact_point)) return false;
-  mesh_.emplace(plane_, std::move(names));
+  mesh_.emplace(plane_, all_indices(plane_.size()));
   if (!mesh_->start()) return false;
   for (Index i = 0; i < plane_.size(); ++i) mesh_->insert(i);
   return true;

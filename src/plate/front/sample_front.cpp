@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "core/lists.h"
+#include "core/quantile.h"
+#include "core/srgb.h"
 #include "geometry/edges.h"
 #include "geometry/point_set.h"
 #include "geometry/raster.h"
@@ -16,7 +18,6 @@
 #include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
-#include "relievo/plate/solid.h"
 
 namespace relievo {
 namespace {
@@ -119,15 +120,8 @@ class Sampler {
 
   Colour colour_at(Index t, const Vec2& place) const {
     const Vec2 pixel = grid_.pixel(place);
-    const Vec3f weights = corner_weights(grid_.input, t, pixel.x(), pixel.y());
-    Colour colour;
-    for (std::size_t c = 0; c < 3; ++c) {
-      float sum = .5F;
-      for (int i = 0; i < 3; ++i)
-        sum += weights[i] * static_cast<float>(front_.colours[front_.triangles[t][i]][c]);
-      colour[c] = static_cast<std::uint8_t>(std::clamp(sum, 0.F, 255.F));
-    }
-    return colour;
+    return weighted_mean(front_.colours, front_.triangles[t],
+                         corner_weights(grid_.input, t, pixel.x(), pixel.y()));
   }
 
   // Adds the points to keep: points of the band and of the hull, and the highest and the lowest point.
@@ -165,9 +159,7 @@ class Sampler {
           lengths.push_back((front_.points[c[i]] - front_.points[c[(i + 1) % 3]]).head<2>().norm());
         }
     if (lengths.empty()) return;
-    const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::ranges::nth_element(lengths, median);
-    const double side = *median;
+    const double side = median(lengths);
     divisions_ = std::clamp(static_cast<int>(std::lround(side / options_.resolution_mm)), 1, most_divisions);
     if (divisions_ == 1) return;
     for (Index t = 0; t < is_band_.size(); ++t)

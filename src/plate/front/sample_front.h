@@ -1,5 +1,4 @@
-// Samples the smooth surface of a front with well-shaped triangles. Tested by
-// tests/plate/sample_front_test.cpp.
+// Samples the smooth surface of a front with well-shaped triangles.
 #pragma once
 
 #include <span>

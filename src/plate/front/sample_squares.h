@@ -1,4 +1,4 @@
-// Chooses the squares in which a surface is sampled. Tested by tests/plate/sample_squares_test.cpp.
+// Chooses the squares in which a surface is sampled.
 #pragma once
 
 #include <span>

@@ -132,10 +132,8 @@ std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles) {
 }
 
 std::vector<Triangle> relief_triangles(const HeightFieldMesh& front) {
-  if (front.is_relief.empty()) return front.triangles;
-  std::vector<Triangle> triangles;
-  for (std::size_t t = 0; t < front.triangles.size(); ++t)
-    if (front.is_relief[t]) triangles.push_back(front.triangles[t]);
+  std::vector<Triangle> triangles = front.triangles;
+  if (!front.is_relief.empty()) keep_where(triangles, [&](std::size_t t) { return front.is_relief[t] != 0; });
   return triangles;
 }
 

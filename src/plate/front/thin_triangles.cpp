@@ -6,7 +6,6 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/weld.h"
+#include "plate/coincident_points.h"
 #include "plate/plate_surface.h"
 #include "relievo/core/types.h"
 
@@ -213,15 +213,11 @@ class Flipper {
 constexpr int most_steps = 6;  // units in the last place by which a point may move
 constexpr int most_passes = 8;
 
-// Returns the x and y of all points, rounded as in files. The floats are stored first, because g++ 12 removes
-// the rounding in double(float(x)) when it vectorises.
+// Returns the x and y of all points, rounded as in files.
 std::vector<Vec2> stored_places(const Solid& solid) {
-  std::vector<Vec2f> stored;
-  stored.reserve(solid.points.size());
-  for (const Vec3& p : solid.points) stored.push_back(p.head<2>().cast<float>());
   std::vector<Vec2> places;
-  places.reserve(stored.size());
-  for (const Vec2f& p : stored) places.push_back(p.cast<double>());
+  places.reserve(solid.points.size());
+  for (const Vec3f& p : stored_points(solid)) places.push_back(p.head<2>().cast<double>());
   return places;
 }
 
@@ -234,10 +230,7 @@ std::span<const Triangle> front_of(const Solid& solid) {
 }
 
 std::vector<Index> folds_among(const Solid& solid, std::span<const Vec2> places) {
-  std::vector<Index> folds;
-  for (Index t = 0; t < front_of(solid).size(); ++t)
-    if (is_folded(places, solid.triangles[t])) folds.push_back(t);
-  return folds;
+  return indices_where(solid.front_triangles, [&](Index t) { return is_folded(places, solid.triangles[t]); });
 }
 
 class Unfolder {

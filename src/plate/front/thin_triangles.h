@@ -1,5 +1,4 @@
-// Repairs triangles of a plate's front that are too thin for the single precision of files. Tested by
-// thin_triangles_test.
+// Repairs triangles of a plate's front that are too thin for the single precision of files.
 #pragma once
 
 #include <span>

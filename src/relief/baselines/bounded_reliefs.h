@@ -1,6 +1,5 @@
 // Baselines whose heights are kept between 0 and the relief's height by a convex quadratic problem with
-// bounds (solver::BoundedFit), solved with a tolerance of 1e-4. Tested by
-// tests/relief/bounded_reliefs_test.cpp.
+// bounds (solver::BoundedFit), solved with a tolerance of 1e-4.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // A baseline that weights two layers of the normals. Source: Wei, Tian, Pang, Wang, Pang, Wang, Qin and Heng,
 // Bas-relief modeling from normal layers, IEEE Transactions on Visualization and Computer Graphics 25(4),
-// 2019. Tested by tests/relief/normal_layers_test.cpp.
+// 2019.
 //
 // The paper splits the field of normals into a piecewise smooth base layer and a detail layer. Reliefs that
 // preserve detail flatten the base layer and keep the detail layer; reliefs that preserve structure keep more
@@ -12,7 +12,6 @@
 // methods.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "relievo/scan/surface.h"

@@ -1,8 +1,6 @@
 // Functions that several baselines use.
 #pragma once
 
-#include <span>
-
 #include "relievo/relief/baselines.h"
 #include "relievo/relief/heights.h"
 #include "relievo/relief/relief.h"

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "core/lists.h"
 #include "core/memory.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "relief/correction/soft_clip.h"
 #include "relievo/core/parallel.h"
+#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {
@@ -42,10 +43,7 @@ constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
 
 std::vector<Index> free_points(const Boundary& boundary) {
-  std::vector<Index> found;
-  for (Index i = 0; i < boundary.is_boundary.size(); ++i)
-    if (!boundary.is_boundary[i]) found.push_back(i);
-  return found;
+  return indices_where(boundary.is_boundary.size(), [&](Index i) { return !boundary.is_boundary[i]; });
 }
 
 struct Scale {
@@ -65,9 +63,7 @@ struct Scale {
 // silhouette and rises smoothly to 1 within two cells, wherever the silhouette passes between the nodes.
 std::vector<float> coverage_of(const Surface& surface, const Lattice& lattice) {
   std::vector<float> coverage(lattice.nodes());
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& c = surface.triangulation.triangles[t];
+  for (const Triangle c : triangles_inside(surface)) {
     const Vec2 p = lattice.place(c[0]), u = lattice.place(c[1]) - p, v = lattice.place(c[2]) - p;
     lattice.spread(p + (u + v) / 3, static_cast<float>(cross(u, v) / 2), coverage);
   }

@@ -5,7 +5,7 @@
 #include "geometry/neighbours.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
-#include "relievo/scan/surface.h"
+#include "scan/inside.h"
 
 namespace relievo {
 namespace {
@@ -56,9 +56,7 @@ std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surfac
   std::vector<double> area(triangles.size(), 0.0);
   if (area.empty()) return {};
   Walker walker(mesh.points, mesh.triangulation);
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
+  for (const Triangle corners : triangles_inside(surface)) {
     const Vec2 a = surface.points[corners[0]].head<2>(), b = surface.points[corners[1]].head<2>(),
                c = surface.points[corners[2]].head<2>();
     const Index found = walker.find((a + b + c) / 3);
@@ -99,9 +97,7 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
 // give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
+  for (const Triangle corners : triangles_inside(surface)) {
     const Vec2 a = surface.points[corners[0]].head<2>();
     const Vec2 u = surface.points[corners[1]].head<2>() - a, v = surface.points[corners[2]].head<2>() - a;
     for (const Index i : corners) share[i] += cross(u, v);

@@ -1,7 +1,6 @@
 // The triangulation of the control points, and samples of the surface for each control point.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "relievo/relief/control_points.h"

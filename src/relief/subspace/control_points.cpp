@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
+
+#include "core/lists.h"
 
 namespace relievo {
 namespace {
@@ -54,8 +55,7 @@ class ChosenPoints {
 
 // Returns the points ordered by distance from the boundary.
 std::vector<Index> inward_order(std::span<const Vec2> points, std::span<const float> boundary_distance) {
-  std::vector<Index> order(points.size());
-  std::iota(order.begin(), order.end(), Index{0});
+  std::vector<Index> order = all_indices(points.size());
   const auto key = [&](Index i) { return std::tuple(boundary_distance[i], points[i].x(), points[i].y(), i); };
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   return order;

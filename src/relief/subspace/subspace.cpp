@@ -9,8 +9,6 @@
 #include "relief/style.h"
 #include "relief/subspace/control_mesh.h"
 #include "relief/weight_table.h"
-#include "relievo/geometry/spline.h"
-#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {

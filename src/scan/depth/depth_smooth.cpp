@@ -1,7 +1,6 @@
 #include "scan/depth/depth_grid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "relievo/core/parallel.h"

@@ -60,10 +60,7 @@ double nearest_depth(const DepthImage& image) {
   std::vector<float> depths;
   for (const float v : image.values.pixels)
     if (std::isfinite(v) && v > 0) depths.push_back(v);
-  if (depths.empty()) return 0;
-  const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 100);
-  std::ranges::nth_element(depths, at);
-  return double{*at};
+  return depths.empty() ? 0 : double{value_of_rank(std::span(depths), depths.size() / 100)};
 }
 
 // Returns the share of the image's border that has the value.

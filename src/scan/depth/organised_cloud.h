@@ -1,5 +1,4 @@
-// Organised clouds of depth cameras whose points are the pixels of a picture. Tested by
-// tests/scan/organised_cloud_test.cpp.
+// Organised clouds of depth cameras whose points are the pixels of a picture.
 #pragma once
 
 #include <cstddef>

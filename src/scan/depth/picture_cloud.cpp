@@ -1,4 +1,4 @@
-// Converts a picture into points for a lithophane. Tested by tests/scan/picture_cloud_test.cpp.
+// Converts a picture into points for a lithophane.
 #include <algorithm>
 #include <cmath>
 #include <limits>

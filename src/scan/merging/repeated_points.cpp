@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "core/quantile.h"
-#include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
-#include "relievo/scan/cloud.h"
 
 namespace relievo {
 namespace {

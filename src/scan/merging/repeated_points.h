@@ -1,6 +1,6 @@
 // Repeated points, as in a scan that was exported twice and merged, or in a mesh file in which each face has
 // its own copies of its corners. A search for neighbours would find only a point's repeats instead of its
-// surroundings. Tested by tests/scan/repeated_points_test.cpp.
+// surroundings.
 #pragma once
 
 #include <optional>

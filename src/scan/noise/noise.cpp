@@ -1,8 +1,7 @@
-// Measures the noise of a scan. Declared in noise.h. Tested by tests/scan/noise_test.cpp.
+// Measures the noise of a scan. Declared in noise.h.
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -1,4 +1,4 @@
-// Measures the noise of a scan, and removes it without rounding creases. Tested by tests/scan/noise_test.cpp.
+// Measures the noise of a scan, and removes it without rounding creases.
 #pragma once
 
 #include "relievo/core/progress.h"
@@ -15,29 +15,25 @@ namespace relievo {
 // than 100 points or without normals.
 double measure_noise(const Cloud& cloud, const Spacing& spacing);
 
-// Moves each point onto a surface that is fitted around it by robust regression, and replaces its normal by
-// that of the surface. Does nothing without normals. `noise` > 0 is the standard deviation to remove, in
-// sampling distances. Larger values average over wider neighbourhoods, and round sharper creases. Normals are
-// fitted by linear functions in the tangent plane. Neighbours that deviate from the last fit, such as those
-// beyond a crease, get less weight. Source: Oeztireli, Guennebaud and Gross, "Feature preserving point set
-// surfaces based on non-linear kernel regression", 2009; that fit is constant, which flattens curved parts.
-// If the progress is cancelled, the cloud does not change.
-void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress = nullptr);
-
 // The points of a cloud, and their normals.
 struct CleanPoints {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
 };
 
-// See remove_noise(): how much noise is removed, and at which points.
+// How much noise is removed, and at which points.
 struct NoiseRemoval {
-  double noise;
+  double noise;  // > 0: standard deviation, in sampling distances
   std::span<const Index> points;
 };
 
-// Returns what remove_noise() changes some points and their normals to, in their order. The cloud must have
-// normals, and its rho be greater than 0. The result is not usable once the progress is cancelled.
+// Returns the points, in their order, each moved onto a surface that is fitted around it by robust regression,
+// and the normals of these surfaces. More noise averages over wider neighbourhoods, and rounds sharper creases.
+// Normals are fitted by linear functions in the tangent plane. Neighbours that deviate from the last fit, such
+// as those beyond a crease, get less weight. Source: Oeztireli, Guennebaud and Gross, "Feature preserving point
+// set surfaces based on non-linear kernel regression", 2009; that fit is constant, which flattens curved parts.
+// The cloud must have normals, and its rho be greater than 0. The result is not usable once the progress is
+// cancelled.
 CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal, const Progress* progress);
 
 // Returns the points, ascending, that may be visible in a view once noise is removed, and those around them that

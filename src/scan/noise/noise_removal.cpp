@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <tuple>
 
 #include "core/angle.h"
+#include "core/lists.h"
 #include "core/simd.h"
 #include "geometry/near_search.h"
 #include "relievo/core/parallel.h"
@@ -230,20 +230,7 @@ std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f
       for (const Index j : spacing.nearest[i])
         if (j != no_index) level[j] = std::max(level[j], ring);
     }
-  std::vector<Index> points;
-  for (Index i = 0; i < level.size(); ++i)
-    if (level[i] > 0) points.push_back(i);
-  return points;
-}
-
-void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress) {
-  if (!cloud.has_normals() || !(spacing.rho > 0)) return;
-  std::vector<Index> all(cloud.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  CleanPoints clean = without_noise({cloud, spacing, KdTree<Vec3>(cloud.points)}, {noise, all}, progress);
-  if (progress && progress->is_cancelled()) return;
-  cloud.points = std::move(clean.points);
-  cloud.normals = std::move(clean.normals);
+  return indices_where(level.size(), [&](Index i) { return level[i] > 0; });
 }
 
 }  // namespace relievo

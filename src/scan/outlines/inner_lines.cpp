@@ -2,14 +2,15 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
 #include "core/angle.h"
+#include "core/lists.h"
 #include "core/simd.h"
 #include "geometry/plane.h"
 #include "geometry/point_set.h"
+#include "scan/inside.h"
 
 namespace relievo {
 namespace {
@@ -273,13 +274,10 @@ class LineFinder {
   // largest first.
   std::vector<std::pair<Index, Index>> bent_edges() const {
     std::vector<std::tuple<float, Index, Index>> found;
-    for (std::size_t t = 0; t < surface_.triangulation.triangles.size(); ++t)
-      for (int i = 0; surface_.boundary.is_inside[t] && i < 3; ++i) {
-        const Triangle& corners = surface_.triangulation.triangles[t];
-        const Index a = corners[i], b = corners[(i + 1) % 3];
-        const float likeness = surface_.normals[a].dot(surface_.normals[b]);
-        if (likeness < bent_below) found.emplace_back(likeness, std::min(a, b), std::max(a, b));
-      }
+    each_side_inside(surface_, [&](Index a, Index b) {
+      const float likeness = surface_.normals[a].dot(surface_.normals[b]);
+      if (likeness < bent_below) found.emplace_back(likeness, std::min(a, b), std::max(a, b));
+    });
     std::ranges::sort(found);
     std::vector<std::pair<Index, Index>> edges;
     for (const auto& [likeness, a, b] : found)
@@ -367,7 +365,7 @@ class LineFinder {
         places[k] = (before[k - 1] + 2 * before[k] + before[k + 1]) / 4;
     }
     curve.points.resize(last);
-    curve.points.insert(curve.points.end(), places.begin(), places.end());
+    append(curve.points, places);
     curve.is_corner.resize(last);
     curve.is_corner.resize(curve.points.size(), 0);
     for (const Vec2& place : places) lines_.add(place, 0);

@@ -1,5 +1,5 @@
 // Lines inside a surface along which it bends or steps within a sampling distance, such as eyelids, lips,
-// hems and creases. Tested by tests/scan/inner_lines_test.cpp.
+// hems and creases.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Joins depth jumps that continue each other. Tested by tests/scan/joined_jumps_test.cpp.
+// Joins depth jumps that continue each other.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The exact outlines of a mesh in a view. Tested by tests/scan/mesh_outlines_test.cpp.
+// The exact outlines of a mesh in a view.
 #pragma once
 
 #include <span>

@@ -4,17 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "core/lists.h"
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
+#include "scan/inside.h"
 #include "scan/outlines/inner_lines.h"
 #include "scan/outlines/joined_jumps.h"
 #include "scan/outlines/outlines.h"
-#include "scan/outlines/row_points.h"
 #include "scan/outlines/row_smoothing.h"
 
 namespace relievo {
@@ -49,9 +48,7 @@ void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std
 // hexagonal lattice with a spacing of one rho.
 std::vector<Vec2> places_in_gaps(const Surface& surface) {
   std::vector<Vec2> centres, lattice;
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
+  for (const Triangle corners : triangles_inside(surface)) {
     const auto at = [&](int i) -> Vec2 { return surface.points[corners[i]].head<2>(); };
     if (!(cross(at(1) - at(0), at(2) - at(0)) > 0)) continue;
     const Vec2 centre = circle_through(at(0), at(1), at(2)).centre;
@@ -60,7 +57,7 @@ std::vector<Vec2> places_in_gaps(const Surface& surface) {
     if ((centre - at(0)).norm() > widest_sample * surface.rho)
       add_lattice_points({at(0), at(1), at(2)}, surface.rho, lattice);
   }
-  centres.insert(centres.end(), lattice.begin(), lattice.end());
+  append(centres, lattice);
   return centres;
 }
 
@@ -112,9 +109,8 @@ class NewSurface {
   std::vector<std::uint8_t> kept(const PointSet& rows) {
     outline_distance_.assign(surface_.points.size(), std::numeric_limits<float>::infinity());
     std::vector<std::uint8_t> is_kept(surface_.points.size(), 0);
-    for (std::size_t t = 0; t < surface_.triangulation.triangles.size(); ++t)
-      if (surface_.boundary.is_inside[t])
-        for (const Index i : surface_.triangulation.triangles[t]) is_kept[i] = 1;
+    for (const Triangle corners : triangles_inside(surface_))
+      for (const Index i : corners) is_kept[i] = 1;
     const double rho = surface_.rho;
     parallel_for(is_kept.size(), [&](std::size_t i) {
       const Vec2 p = surface_.points[i].head<2>();
@@ -235,11 +231,6 @@ class NewSurface {
 // The least length of (n_x, n_y) at which a surface turns away from the viewer; the same as in outlines.cpp.
 constexpr double least_turned = .75;
 
-double circle_radius(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const double twice_area = std::abs(cross(b - a, c - a));
-  return (b - a).norm() * (c - b).norm() * (a - c).norm() / std::max(2 * twice_area, 1e-300);
-}
-
 // Returns whether there is a depth jump between two points and the surface behind ends there, with a normal
 // that leans towards the point in front.
 bool ends_at_jump(const Surface& surface, Index front, Index back) {
@@ -266,7 +257,7 @@ std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
     const auto ends_between = [&](Index p, Index q) {
       return ends_at_jump(surface, p, q) || ends_on_both_sides(surface, p, q);
     };
-    is_gap[t] = circle_radius(at(a), at(b), at(c)) > surface.view.gap / 2 * surface.rho &&
+    is_gap[t] = circumradius(at(a), at(b), at(c)) > surface.view.gap / 2 * surface.rho &&
                 (ends_between(a, b) || ends_between(b, c) || ends_between(c, a));
   });
   return is_gap;
@@ -305,9 +296,7 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
 void open_notches(Surface& surface) {
   std::vector<std::uint8_t>& is_inside = surface.boundary.is_inside;
   const std::vector<std::uint8_t> is_gap = gap_triangles(surface);
-  std::vector<Index> open;
-  for (Index t = 0; t < is_inside.size(); ++t)
-    if (!is_inside[t]) open.push_back(t);
+  std::vector<Index> open = indices_where(is_inside.size(), [&](Index t) { return !is_inside[t]; });
   while (!open.empty()) {
     const Index t = open.back();
     open.pop_back();

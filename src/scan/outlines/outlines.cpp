@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "core/disjoint_sets.h"
-#include "geometry/neighbours.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
@@ -39,7 +38,7 @@ class Pieces {
  public:
   explicit Pieces(const Surface& surface)
       : sets_(surface.triangulation.triangles.size()),
-        area_(sets_count(surface), 0),
+        area_(surface.triangulation.triangles.size(), 0),
         is_open_(area_.size(), 0) {
     const auto& inside = surface.boundary.is_inside;
     for (Index t = 0; t < area_.size(); ++t)
@@ -57,8 +56,6 @@ class Pieces {
   bool touches_hull(Index t) { return is_open_[sets_.find(t)]; }
 
  private:
-  static std::size_t sets_count(const Surface& surface) { return surface.triangulation.triangles.size(); }
-
   DisjointSets sets_;
   std::vector<double> area_;
   std::vector<std::uint8_t> is_open_;

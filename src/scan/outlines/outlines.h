@@ -1,5 +1,4 @@
-// Outlines of the visible surface as smooth curves: its silhouette, and the depth jumps inside it. Tested by
-// tests/scan/outlines_test.cpp.
+// Outlines of the visible surface as smooth curves: its silhouette, and the depth jumps inside it.
 #pragma once
 
 #include <optional>

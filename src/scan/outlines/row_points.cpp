@@ -228,10 +228,7 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   const auto fit = field.fitted();
   Value value;
   value.is_known = true;
-  Vec2 lean = fit.value.head<2>();
-  const double most = std::sqrt(1 - least_nz * least_nz);
-  if (lean.norm() > most) lean *= most / lean.norm();
-  const Vec3 normal(lean.x(), lean.y(), std::sqrt(1 - lean.squaredNorm()));
+  const Vec3 normal = normal_with(fit.value.head<2>());
   value.normal = normal.cast<float>();
   value.k = std::clamp(fit.value.z(), -1 / surface_.rho, 1 / surface_.rho);
   value.point << p.at, depth_at(p.at, normal, matches);

@@ -35,6 +35,13 @@ inline constexpr double half_wall = .15, last_row = 2.95;
 // n_z of normals at new points is at least this, which is 88.9 degrees.
 inline constexpr double least_nz = .02;
 
+// Returns the unit normal with this (n_x, n_y), shortened if n_z would be less than least_nz.
+inline Vec3 normal_with(Vec2 lean) {
+  const double most = std::sqrt(1 - least_nz * least_nz);
+  if (lean.norm() > most) lean *= most / lean.norm();
+  return {lean.x(), lean.y(), std::sqrt(1 - lean.squaredNorm())};
+}
+
 // Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points
 // on the silhouette come first, then points on both sides of each jump, then parallel rows in the order of
 // their distance from the outline. A point is left out if it would be nearer to another outline, behind one,

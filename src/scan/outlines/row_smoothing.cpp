@@ -112,10 +112,7 @@ class RowSmoother {
 
   void set(Value& value, const Numbers& numbers) const {
     value.point.z() = numbers[0] * rho_;
-    Vec2 lean(numbers[1], numbers[2]);
-    const double most = std::sqrt(1 - least_nz * least_nz);
-    if (lean.norm() > most) lean *= most / lean.norm();
-    value.normal = Vec3(lean.x(), lean.y(), std::sqrt(1 - lean.squaredNorm())).cast<float>();
+    value.normal = normal_with({numbers[1], numbers[2]}).cast<float>();
     value.k = numbers[3];
   }
 

@@ -1,4 +1,4 @@
-// Smooths the values at points of rows. Tested by tests/scan/row_smoothing_test.cpp.
+// Smooths the values at points of rows.
 #pragma once
 
 #include <span>

@@ -6,6 +6,7 @@
 
 #include "core/disjoint_sets.h"
 #include "core/lists.h"
+#include "scan/inside.h"
 #include "scan/outlines/outlines.h"
 
 namespace relievo {
@@ -27,18 +28,15 @@ struct Rim {
 
 // Returns for each point whether it is kept.
 std::vector<std::uint8_t> points_to_keep(const Surface& surface) {
-  const std::vector<Triangle>& triangles = surface.triangulation.triangles;
   DisjointSets patches(surface.points.size());
   std::vector<std::array<Index, 2>> jumps;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3 && surface.boundary.is_inside[t]; ++k) {
-      const Index a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-      const double length = (surface.points[a] - surface.points[b]).head<2>().norm();
-      if (is_occlusion(surface, a, b) || length > connection_length * surface.rho)
-        jumps.push_back({a, b});
-      else
-        patches.join(a, b);
-    }
+  each_side_inside(surface, [&](Index a, Index b) {
+    const double length = (surface.points[a] - surface.points[b]).head<2>().norm();
+    if (is_occlusion(surface, a, b) || length > connection_length * surface.rho)
+      jumps.push_back({a, b});
+    else
+      patches.join(a, b);
+  });
   std::vector<Rim> rims(surface.points.size());
   for (const auto& [a, b] : jumps) {
     const bool is_a_behind = surface.points[a].z() < surface.points[b].z();

@@ -1,4 +1,4 @@
-// Removes surfaces that are visible only through slits. Tested by tests/scan/small_patches_test.cpp.
+// Removes surfaces that are visible only through slits.
 #pragma once
 
 #include "relievo/scan/surface.h"

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <span>
 #include <vector>
 
+#include "core/quantile.h"
 #include "core/simd.h"
 #include "relievo/core/parallel.h"
-#include "relievo/core/types.h"
 #include "scan/scan_limits.h"
 
 namespace relievo {
@@ -258,9 +256,7 @@ class FrontDrawing {
   float usual_spacing() const {
     std::vector<float> some;
     for (std::size_t i = 0; i < points_.size(); i += 97) some.push_back(points_[i].spacing);
-    if (some.empty()) return 0;
-    std::ranges::nth_element(some, some.begin() + static_cast<long>(some.size() / 2));
-    return some[some.size() / 2];
+    return some.empty() ? 0 : median(some);
   }
 
   void set_cells(std::size_t wanted) {

@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "relievo/core/image.h"
 #include "relievo/core/types.h"
