@@ -106,7 +106,7 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   RELIEVO_CHECK(check_cancelled(progress));
   own = {pick(own.points, order), pick(own.normals, order), pick(own.colours, order),
          std::move(own.outlines), cloud.is_height_field,    pick(own.own_heights, order),
-         cloud.units_per_value};
+         cloud.units_per_value,   pick(own.axes, order)};
   RELIEVO_CHECK(measured->measure_points(view, progress));
   RELIEVO_CHECK(check_digits(cloud, measured->spacing().rho));
   measured->repeated_points_ = cloud.size() - own.size();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "support/shapes.h"
 
@@ -44,6 +45,23 @@ TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
       EXPECT_EQ(shared.normals, own.normals);
     }
   }
+}
+
+// Points of a sphere are moved along its normals, which are also their axes.
+TEST(MeasuredCloud, FindsNormalsFromPointsAndAxes) {
+  Cloud cloud = test::sphere(20'000, 1);
+  test::Random random(5);
+  const double noise = .6 * measure_spacing(cloud).rho;
+  cloud.axes = std::exchange(cloud.normals, {});
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.points[i] *= 1 + noise * random.gaussian();
+  const auto mean_sine = [](const Cloud& scan) {
+    const std::shared_ptr<const MeasuredCloud> sphere = measured(scan);
+    double sum = 0;
+    for (std::size_t i = 0; i < sphere->cloud().size(); ++i)
+      sum += sphere->cloud().points[i].normalized().cross(sphere->cloud().normals[i].cast<double>()).norm();
+    return sum / static_cast<double>(sphere->cloud().size());
+  };
+  EXPECT_LT(mean_sine(cloud), .5 * mean_sine({cloud.points, {}}));
 }
 
 TEST(MeasuredCloud, RemovesTheSameNoiseFromAFrontAsFromAllPoints) {

@@ -113,6 +113,7 @@ class Merging {
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());
     if (!cloud_.own_heights.empty()) to_.own_heights.push_back(cloud_.own_heights[i]);
+    if (!cloud_.axes.empty()) to_.axes.push_back(cloud_.axes[i]);
   }
 
   bool is_merged(Index i) const { return is_merged_[i]; }
