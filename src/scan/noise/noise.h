@@ -21,7 +21,7 @@ struct CleanPoints {
   std::vector<Vec3f> normals;
 };
 
-// How much noise is removed, and at which points.
+// States how much noise without_noise() removes, and at which points.
 struct NoiseRemoval {
   double noise;  // > 0: standard deviation, in sampling distances
   std::span<const Index> points;
