@@ -46,7 +46,8 @@ class OrderPull {
  private:
   struct Direction {
     std::size_t offset;  // > 0; from the first node of a pair to the second
-    // How far the first node should be above the second, as a share of OrderLimits::height; 0: no pair.
+    // Holds for each first node how far it should be above the second, as a share of OrderLimits::height. It
+    // is 0 where a node is in no pair.
     std::vector<float> wanted;
   };
   std::vector<Direction> directions_;
