@@ -143,7 +143,8 @@ class ChangeFinder {
       constexpr double share = .1;  // factor of the squared scatter of depths relative to that of normals
       return share * std::max(0.0, squared_depths - depths * depth());
     }
-    // Squared deviations of depths, plus those of normals: from the fit, or from their mean.
+    // Both return the squared deviations of depths plus those of normals, which misfit() takes from the fit and
+    // scatter() from the mean.
     double misfit() const { return of_normals + of_depths(); }
     double scatter() const { return around_mean + of_depths(); }
   };
