@@ -58,8 +58,8 @@ struct OutlineCurve {
   bool is_crease = false;  // a jump without a step: the surface only bends there
 };
 
-// Returns how smooth the curves of jumps are. Points of creases are as far apart as those of scans, because nothing
-// is torn there.
+// Returns how smooth the curves of jumps are, and how far apart their points. Points of creases are as far
+// apart as those of scans, because only steps need closer ones.
 FairCurveOptions jump_curve_options(double rho, bool is_crease = false);
 
 // The distance between the points of a crease, in rho.
