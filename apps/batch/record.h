@@ -53,8 +53,8 @@ class Journal {
   Descriptor file_;
 };
 
-// Locks a shard of the folder until the returned object is destroyed, so that no other run does its jobs.
-// Errors: kind output if another run has locked it.
+// Locks a shard of the jobs until the returned object is destroyed. Errors: kind output if another run of the
+// same shard has locked it.
 Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard);
 
 // Waits until no other process does the job of that name, then locks the job until the returned object is

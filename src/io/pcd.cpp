@@ -127,7 +127,7 @@ class PcdHeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    // Then the product does not overflow.
+    // If it fits, the product of width and height does not overflow.
     const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})

@@ -35,7 +35,8 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
   return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
-// Smooths the organised cloud of a depth camera as its depth image would be, and says so.
+// If the cloud is organised, which means that its points are the pixels of a depth camera, smooths it like a
+// depth image and adds a remark.
 void smooth(io::RawCloud& raw, bool keeps_blur) {
   if (raw.columns == 0) return;
   const std::size_t rows = raw.cloud.size() / raw.columns;

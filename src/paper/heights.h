@@ -1,4 +1,5 @@
-// The heights of the control points (section 3.4): equation (4), in the form of (8) and the first (9).
+// The heights of the control points (section 3.4): equation (4), in the form of (8) and (9). The paper has
+// two equations (9); this is the first.
 #pragma once
 
 #include <span>

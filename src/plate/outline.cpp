@@ -51,8 +51,8 @@ struct CircleSides {
   double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns the sides of an inscribed polygon that deviates by at most finest_mm from a circle of that radius.
-// The distance of a side from the centre is radius * cos(half the side's angle).
+// Returns a polygon in the unit circle with so many sides that it deviates from the circle, both scaled to
+// the radius, by at most finest_mm, or by finest_share of the radius if that is more.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
@@ -156,7 +156,8 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-// Returns the bounding box of points, or a box with the same centre and the given size less the margin.
+// Returns the bounding box of points. If the options have a size, returns a box of that size with the same
+// centre, less the margin on all sides.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);

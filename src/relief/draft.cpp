@@ -64,8 +64,9 @@ class Limiter {
   }
 
  private:
-  // For a wall that is one row of points wide, the least-squares fit finds a low wall. Models of a scene that
-  // have a height of their own must keep it, so their walls are made wide enough instead.
+  // If a wall rises between two neighbouring rows of points, the least-squares fit keeps to the largest slope
+  // by lowering the wall. Models of a scene for which a height was requested must keep it, so their walls
+  // become wider instead.
   void keep_own_heights(Relief& relief) {
     if (model_->paper() || model_->own_heights().empty()) return;
     constexpr double share = .9;  // share of the limit; the surface behind the model has a slope, too
@@ -129,9 +130,10 @@ class DraftSearch {
   // Beyond u = e^4.5 the weights of (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief grows with the scale until it consists of walls only. The scale is limited, so that the
-  // relief without walls would be 64 times as high as one with the largest slope over half the longer side. That
-  // height does not depend on the requested one, so the largest height is the same for all requests.
+  // A baseline's relief grows with the scale until it consists of walls only. The scale is limited, so that
+  // the relief without walls would be 64 times as high as one with the largest slope over half the longer
+  // side. That height does not depend on the requested one, so the largest height is the same for all
+  // requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);

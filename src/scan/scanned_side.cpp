@@ -73,8 +73,9 @@ class OwnDirection {
     return best_;
   }
 
-  // Returns the largest angle between scan and axis at which the scan is shown along the axis. The direction
-  // of a coin's normals is exact; the direction of a bust depends on which parts were scanned.
+  // If the direction found is within this angle of an axis, the view is along the axis. The angle is small
+  // for flat scans such as coins, whose direction is exact, and large for others such as busts, whose
+  // direction depends on which parts were scanned.
   double snap_deg() const { return is_flat_ ? 3 : 25; }
 
  private:

@@ -69,10 +69,9 @@ struct DepthOptions {
   // camera and for heights. If there is no such jump, `drop` removes far depths, provided that they cover
   // most of the border.
   Removal background = Removal::automatic;
-  // Blur consists of points between two surfaces that continue neither of them. `automatic` keeps all points
-  // of height images, whose walls are part of the surface, and removes blur of at most 3 points in other
-  // images. In images of depth cameras `automatic`, and in all images `drop`, remove blur of at most 12
-  // points.
+  // Blur is a run of points between two surfaces that belong to neither surface. `drop` removes runs of at
+  // most 12 points. `automatic` does the same in images of depth cameras, keeps all points of height images,
+  // as their walls are part of the surface, and removes runs of at most 3 points in all other images.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this many points
 

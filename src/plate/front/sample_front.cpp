@@ -148,8 +148,8 @@ class Sampler {
     }
   }
 
-  // Divides the band's smooth triangles so that most of their edges are at most a step long. New points on
-  // creases stay on the creases.
+  // Divides each edge of the band's smooth triangles into the same number of parts, so that the median part
+  // is about as long as the resolution. New points on creases stay on the creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)

@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// The rays of a camera at the origin: that of the pixel (c, r) is start + c right + r down. Its component along
-// `forward` is 1.
+// The rays of a camera at the origin: that of the pixel (c, r) is start + c right + r down. Its component
+// along `forward` is 1.
 struct OrganisedCamera {
   Vec3 start, right, down, forward;
 
@@ -49,8 +49,9 @@ std::vector<Pixel> some_pixels(const OrganisedCloud& scan) {
   return pixels;
 }
 
-// Returns the camera whose rays are nearest to the pixels' points, in the sense of least squares of the products
-// of rays and points, which are 0 where both have one direction. Nothing if the rays span no picture.
+// Returns the camera whose rays are nearest to the pixels' points, in the sense of least squares of the
+// products of rays and points, which are 0 where both have one direction. Nothing if the rays span no
+// picture.
 std::optional<OrganisedCamera> nearest_camera(const std::vector<Pixel>& pixels, double scale) {
   using Unknowns = Eigen::Matrix<double, 9, 9>;
   Unknowns squares = Unknowns::Zero();
@@ -101,8 +102,8 @@ std::optional<OrganisedCamera> find_camera(const OrganisedCloud& scan) {
   return camera;
 }
 
-// Returns the step of values, of which each occurs many times, as of a camera that counts: the least difference
-// between two of them. 0 for other values.
+// Returns the step of values, of which each occurs many times, as of a camera that counts: the least
+// difference between two of them. 0 for other values.
 double step_of(const std::vector<float>& values) {
   constexpr std::size_t least_pixels_per_value = 32;
   constexpr float rounding = 1e-6F;
@@ -130,7 +131,8 @@ DepthImage depths_of(const OrganisedCloud& scan, const OrganisedCamera& camera) 
   return image;
 }
 
-// Returns the normal of the surface whose height in the picture, -f log(depth), has this normal.
+// Returns the normal in space at the point on a ray. `in_picture` is the normal of the heights -f log(depth)
+// over the picture.
 Vec3f normal_in_space(const OrganisedCamera& camera, const Vec3& ray, const Vec3f& in_picture) {
   const Vec3 n = in_picture.cast<double>() / double{in_picture.z()};
   const Vec3 along = camera.right + n.x() / camera.focal() * ray;
