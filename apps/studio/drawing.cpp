@@ -209,7 +209,10 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   answer.is_size_exact = answer.is_finished || is_level(request.options);
   answer.relief_height_mm = answer.height_mm;
   if (is_frame && !answer.is_finished) {
-    live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
+    if (request.is_drawn_apart)
+      answer.undrawn = {model_, live_.shown(made), render};
+    else
+      live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
     answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
     const Vec2 half = facts_.size * render.mm_per_unit / 2;

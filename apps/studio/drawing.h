@@ -43,21 +43,30 @@ struct PictureRequest {
   ReliefOptions options;  // the view of these options is ignored
   std::optional<double>
       draft_limit_mm;  // largest height that the draft angle allows; empty without an angle, or if unknown
-  std::optional<View> turned;  // the view while the user turns the model; empty: the prepared view
-  std::optional<double> u;     // strength of the compression; empty if the height is given
-  bool is_original = false;    // draw the model itself instead of its relief
-  bool is_finished = false;    // draw the piece exactly as it is exported
-  bool has_attention = false;  // colour the model itself by its attention
+  std::optional<View> turned;   // the view while the user turns the model; empty: the prepared view
+  std::optional<double> u;      // strength of the compression; empty if the height is given
+  bool is_original = false;     // draw the model itself instead of its relief
+  bool is_finished = false;     // draw the piece exactly as it is exported
+  bool has_attention = false;   // colour the model itself by its attention
+  bool is_drawn_apart = false;  // leave out the drawing of a frame, see PictureAnswer::undrawn
   std::optional<Error> ornament_error = {};       // why the ornaments of the options were left out
   RenderOptions render;                           // lengths in it are overwritten by those of the options
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
+// What a FrameRenderer needs to draw a frame. The arrays of `shown` are valid until the next picture.
+struct UndrawnFrame {
+  std::shared_ptr<const ReliefModel> model;
+  Shown shown;
+  RenderOptions render;
+};
+
 struct PictureAnswer {
   Picture picture;
-  bool is_finished = false;    // the picture shows the piece as it is exported, or the model itself
-  bool is_plain = false;       // the piece is a relief on a rectangular plate without ornaments
-  bool has_ornaments = false;  // whether the picture shows the ornaments of the options
+  std::optional<UndrawnFrame> undrawn;  // replaces the picture of a frame that is drawn apart
+  bool is_finished = false;             // the picture shows the piece as it is exported, or the model itself
+  bool is_plain = false;                // the piece is a relief on a rectangular plate without ornaments
+  bool has_ornaments = false;           // whether the picture shows the ornaments of the options
   std::optional<Error> ornament_error = {};  // that of the request
   double drawing_s = 0;
   double width_mm = 0;                  // the longer side of the relief

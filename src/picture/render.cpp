@@ -105,21 +105,23 @@ void paint(const Canvas& canvas, Image8& picture) {
 }  // namespace
 
 struct FrameRenderer::State {
-  std::shared_ptr<const ReliefModel> model;
-  PlateMesh mesh{plate_mesh(model->surface())};
-  std::vector<float> depths{depths_of(model->surface())};  // depths of the model itself
+  std::shared_ptr<const Surface> surface;
+  PlateMesh mesh{plate_mesh(*surface)};
+  std::vector<float> depths{depths_of(*surface)};  // depths of the model itself
   float deepest = std::ranges::max(depths);
   DrawCache cache = {};
   CachedVisibility profile = {};
 };
 
-FrameRenderer::FrameRenderer(std::shared_ptr<const ReliefModel> model)
-    : state_(std::make_unique<State>(std::move(model))) {}
+FrameRenderer::FrameRenderer(std::shared_ptr<const Surface> surface)
+    : state_(std::make_unique<State>(std::move(surface))) {}
+FrameRenderer::FrameRenderer(const std::shared_ptr<const ReliefModel>& model)
+    : FrameRenderer(std::shared_ptr<const Surface>(model, &model->surface())) {}
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 FrameRenderer::~FrameRenderer() = default;
 
 Shown FrameRenderer::original() const {
-  return {state_->depths, state_->model->surface().normals, 1, {{0, state_->deepest}}};
+  return {state_->depths, state_->surface->normals, 1, {{0, state_->deepest}}};
 }
 
 void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Picture& picture,

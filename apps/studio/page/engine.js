@@ -6,8 +6,9 @@
 //                                  drawsMeanwhile: whether it draws pictures while a piece is made; canRemove: whether
 //                                  documents are stored until the user removes them; slowMs: if frames take longer,
 //                                  they get fewer pixels}. The Engine has the same traits
-//   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture;
-//                                  `about` has facts about the picture; the request is optional
+//   call(name, request, {files, signal, onSolved}) -> {about, body}: the body is an object, a Blob, or the bytes of a
+//                                  picture; `about` has facts about the picture; the request is optional; onSolved is
+//                                  called when a frame only has to be drawn, if the next one can be solved meanwhile
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
 //                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
@@ -79,7 +80,7 @@ export class Engine {
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, about}. `options.signal` can cancel the picture.
+  // Return {image: ImageData, about}. `options.signal` can cancel the picture, options.onSolved is that of the transport.
   frame = (request, options) => this.#picture("frame", request, options);
   scan = (request) => this.#picture("scan", request);
   // Returns a depth image, in which the pixels that were left out have the colours that its facts state.

@@ -107,7 +107,7 @@ export class Stage {
     const asked = this.ahead?.model === this.model ? this.ahead : this.ask(isFine, isLast), {number} = asked;
     this.ahead = null;
     try {
-      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, asked));
+      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(asked));
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = this.drawn = number;
@@ -140,23 +140,37 @@ export class Stage {
   // Requests a picture of the newest state. The last picture of a state shows the piece as it is exported.
   ask(isFine, isLast) {
     const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
-    const frame = this.isTable ? null : this.frame(request, this.unwanted?.signal);
-    return {number: this.wanted, model: this.model, changedAt: this.changedAt, isLast, frame};
+    const asked = {number: this.wanted, model: this.model, changedAt: this.changedAt, isFine, isLast};
+    const onSolved = () => {
+      asked.isSolved = true;
+      if (this.drawing === asked) this.askAhead(asked);
+    };
+    if (!this.isTable) asked.frame = this.frame(request, {signal: this.unwanted?.signal, onSolved});
+    return asked;
+  }
+
+  // Requests the next picture before the one that was asked for is shown, if the picture keeps changing.
+  askAhead({isFine, number}) {
+    if (isFine || this.ahead || number === this.wanted || this.isTable || this.waitsForPicture) return;
+    this.ahead = this.ask(false, false);
+    this.ahead.frame.catch(() => {}); // reported when this picture is drawn
   }
 
   // Returns a picture of the newest state. Its facts also have the document's options and `isTurned`: whether it shows
   // the turned relief of a view that is not prepared yet. Such a relief has another size.
-  async frame(request, signal) {
-    const {options} = this.doc.now, {image, about} = await this.engine.frame(request, {signal});
+  async frame(request, calling) {
+    const {options} = this.doc.now, {image, about} = await this.engine.frame(request, calling);
     return {image, about: {...about, options, isTurned: Boolean(request.turned)}};
   }
 
-  // Draws the relief. While the picture keeps changing, requests the next picture before it shows this one.
-  async drawRelief(isFine, {model, changedAt, number, isLast, frame}) {
+  // Draws the relief that was asked for.
+  async drawRelief(asked) {
+    const {model, changedAt, isFine, isLast, frame} = asked;
+    this.drawing = asked;
+    if (asked.isSolved) this.askAhead(asked);
     const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view was opened meanwhile
-    if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
-      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // reported when this picture is drawn
+    this.askAhead(asked);
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -180,7 +194,7 @@ export class Stage {
     for (const [i, {light}] of TABLE_LIGHTS.entries()) {
       const cell = $(`#table [data-cell="${i}"] canvas`);
       const {image, about} = await this.frame(
-        this.request({width: half(width), height: half(height), fine: isFine, light}), this.unwanted?.signal);
+        this.request({width: half(width), height: half(height), fine: isFine, light}), {signal: this.unwanted?.signal});
       if (!this.isReady || model !== this.model) return;
       paint(cell, image);
       if (i === 0) this.on.picture(about, 0, isFine);

@@ -1,7 +1,8 @@
 // Sends requests to the WebAssembly engine, which runs in a worker, and to the browser's store of documents. Replaces
 // apps/studio/page/transport.js; apps/studio/page/engine.js describes transports.
 import {compile} from "../../../npm/src/compile.js";
-import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
+import {EngineError, TAB, cancelled} from "../../studio/page/engine.js";
+import {EngineWorker} from "./engine_worker.js";
 import {bytesOf, documentOf, inputOf, mainOf, optionsIn, pathsIn, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
@@ -25,9 +26,8 @@ export class Transport {
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // addresses of the page's pictures by name
-  #worker = null;
-  #waiting = new Map(); // unanswered requests by the number of their message
-  #last = 0;
+  #worker = null; // prepares and solves
+  #drawer = null; // draws the frames of #worker
   #opened = {document: "", input: null}; // the document that was opened last
   #isOpen = new Set(); // documents that the worker has open
   #statuses = new Map(); // the last reported status of each document
@@ -45,37 +45,32 @@ export class Transport {
     picture: ({document, picture}) => this.#store.keepPicture(document, picture),
   };
 
-  async call(name, request = {}, {files = []} = {}) {
+  async call(name, request = {}, {files = [], onSolved} = {}) {
     const own = this.#own[name];
+    if (name === "frame") return this.#frame(request, onSolved);
     return own ? {body: await own(request, files)} : this.#ask(name, request);
   }
 
   // ------------------------------------------------------------------------------------------------- the worker
 
+  // Starts the worker that prepares and solves, unless it runs.
   async #start() {
-    this.#module ??= compile(content("engine"));
-    const module = await this.#module;
-    if (this.#worker) return;
-    const address = URL.createObjectURL(new Blob([content("worker")], {type: "text/javascript"}));
-    const worker = this.#worker = new Worker(address);
-    worker.onmessage = ({data}) => worker === this.#worker && this.#take(data);
-    worker.onerror = (event) => {
-      event.preventDefault();
-      const text = `The engine cannot run here: ${event.message ?? "workers are forbidden"}.`;
-      this.#end(new EngineError({kind: "failure", text}));
-    };
-    worker.postMessage({module});
+    const module = await (this.#module ??= compile(content("engine")));
+    this.#worker ??= this.#newWorker(module);
   }
 
-  // Ends the worker. Rejects unanswered requests: those for pieces and files with `error`, all others with `others`.
+  #newWorker(module) {
+    const address = URL.createObjectURL(new Blob([content("worker")], {type: "text/javascript"}));
+    return new EngineWorker(address, module, {
+      statuses: (statuses) => statuses.forEach((each) => this.#tell(each)), over: (error) => this.#failed(error)});
+  }
+
+  // Ends the workers. Rejects unanswered requests: those for pieces and files with `error`, all others with `others`.
   // The next request starts a new worker.
   #end(error, others = error) {
-    this.#worker?.terminate();
-    this.#worker = null;
     this.#isOpen.clear();
-    const waiting = [...this.#waiting.values()];
-    this.#waiting.clear();
-    for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
+    for (const worker of [this.#worker, this.#drawer]) worker?.end(error, others);
+    this.#worker = this.#drawer = null;
   }
 
   // Ends the worker if it is still preparing the document that was opened last.
@@ -94,13 +89,9 @@ export class Transport {
     }
   }
 
-  async #send(call, request = {}, files = []) {
+  async #send(call, request, files) {
     await this.#start();
-    const id = ++this.#last, isMaking = call === "piece" || call === "export";
-    return new Promise((resolve, reject) => {
-      this.#waiting.set(id, {isMaking, resolve, reject});
-      this.#worker.postMessage({id, call, request, files});
-    });
+    return this.#worker.send(call, request, files);
   }
 
   // Sends a call for a document. Throws if the worker does not have that document open.
@@ -117,20 +108,21 @@ export class Transport {
     return (await this.#store.scan(scanOf(input)))?.files ?? [];
   }
 
-  #take({id, statuses, error, isOver, status, about, type, body}) {
-    if (statuses) return statuses.forEach((each) => this.#tell(each));
-    const waiting = this.#waiting.get(id);
-    this.#waiting.delete(id);
-    if (isOver) this.#failed(error);
-    const refusal = error ?? (status >= 400 || status === CANCELLED ? body.error : null);
-    if (refusal) return waiting?.reject(new EngineError(refusal));
-    const isFile = body instanceof Uint8Array && !about;
-    waiting?.resolve({about, body: isFile ? new Blob([body], {type}) : body});
+  // Returns a picture. A frame of a plate is solved in the worker and drawn in another one, so that the next frame is
+  // solved meanwhile. Calls onSolved when the worker can solve the next frame.
+  async #frame(request, onSolved) {
+    const {about, body} = await this.#ask("frame", {...request, apart: true});
+    onSolved?.();
+    if (!about.is_undrawn) return {about, body};
+    this.#drawer ??= this.#newWorker(await this.#module);
+    const {options: _, ...picture} = request;
+    const drawn = await this.#drawer.send("draw", picture, [["frame", body]], [body.buffer]);
+    return {about: {...about, ...drawn.about}, body: drawn.body};
   }
 
   // Ends the worker after the engine ran out of memory or failed, and reports the error as the document's status.
   #failed(error) {
-    this.#end(new EngineError(error), closed());
+    this.#end(error, closed());
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
@@ -141,7 +133,7 @@ export class Transport {
   }
 
   #cancelPiece() {
-    if ([...this.#waiting.values()].some(({isMaking}) => isMaking)) this.#end(cancelled(), closed());
+    if (this.#worker?.isMaking) this.#end(cancelled(), closed());
   }
 
   #status() {

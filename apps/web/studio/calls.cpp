@@ -6,6 +6,7 @@
 #include "relievo/core/text.h"
 #include "studio/actions.h"
 #include "studio/answers.h"
+#include "web/studio/apart.h"
 #include "web/studio/browser_store.h"
 
 // Sends the statuses of the open documents, as JSON, to the host after one has changed. The host provides
@@ -68,6 +69,13 @@ Result<CallAnswer> call(std::string_view name, const Json& json) {
     studio.documents.work();
     return CallAnswer{};
   }
+  if (name == "draw") {
+    RELIEVO_TRY(const studio::Answer drawn, draw(json));
+    return call_answer(drawn, Json::object());
+  }
+  if (name == "frame" && json.value("apart", false))
+    if (const auto engine = studio.documents.find(json.value("document", "")))
+      return call_answer(undrawn_frame(*engine, json), Json::object());
   if (!studio.actions.has(name))
     return option_error("call", cat("expected the name of a function, found '", name, "'"));
   const studio::Answer made = studio.actions.run(name, json);

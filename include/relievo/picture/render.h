@@ -78,8 +78,10 @@ struct Shown {
 // views take three times as long. Not for concurrent use.
 class FrameRenderer {
  public:
-  // Shares ownership of the model.
-  explicit FrameRenderer(std::shared_ptr<const ReliefModel> model);
+  // Shares ownership of the surface, of which it uses the points, their normals, the triangles with their
+  // hull, and Boundary::is_inside. The second constructor draws the surface of a model.
+  explicit FrameRenderer(std::shared_ptr<const Surface> surface);
+  explicit FrameRenderer(const std::shared_ptr<const ReliefModel>& model);
   FrameRenderer(FrameRenderer&&) noexcept;
   ~FrameRenderer();
 
