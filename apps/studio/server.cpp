@@ -93,8 +93,7 @@ struct Server::State {
     set_up();
   }
 
-  // --------------------------------------------------------------------------------------------- GET
-  // requests
+  // ------------------------------------------------------------------------------------ GET requests
 
   void get(const std::string& name, Response& response) {
     if (name == "api/about") return send(answer_of(actions.about()), response);

@@ -17,9 +17,8 @@ namespace relievo {
 
 // A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is the rest.
 struct VisiblePoint {
-  Triangle corners = {no_index, no_index,
-                      // Stored here, because looking them up would make live pictures a third slower.
-                      no_index};
+  // Stored here, because looking them up would make live pictures a third slower.
+  Triangle corners = {no_index, no_index, no_index};
   Index triangle = no_index;
   std::uint16_t first = 0, second = 0;
   float z = 0;  // height towards the viewer, in pixels

@@ -98,6 +98,15 @@ std::string takers_of_room(const ReliefOptions& options) {
   return cat("margin", last.empty() ? " and rim" : ", rim", last);
 }
 
+// A font that was not read is not replaced by another font.
+Result<void> check_files(const ReliefOptions& options) {
+  if (!options.font_name.empty() && !options.font)
+    return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));
+  if (!options.ornament_source.empty() && options.ornaments.empty())
+    return option_error("ornaments", cat("expected those of '", options.ornament_source, "', found none"));
+  return {};
+}
+
 }  // namespace
 
 bool is_mirrored(Form form) {
@@ -113,15 +122,6 @@ Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   return option_error(options.rim_bevel_mm ? "rim-bevel" : "rim",
                       cat("expected at least ", least, " mm, so that the rim of ", std::abs(rim.height_mm),
                           " mm leans as draft asks, found ", rim.bevel_mm, " mm"));
-}
-
-// A font that was not read is not replaced by another font.
-Result<void> check_files(const ReliefOptions& options) {
-  if (!options.font_name.empty() && !options.font)
-    return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));
-  if (!options.ornament_source.empty() && options.ornaments.empty())
-    return option_error("ornaments", cat("expected those of '", options.ornament_source, "', found none"));
-  return {};
 }
 
 bool is_simplified_as_plate(const ReliefOptions& options) {

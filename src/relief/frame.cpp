@@ -208,8 +208,6 @@ struct OwnFrames {
       }
       apply_strokes(heights, frame);
       sink_lines(heights, frame.options.shape);
-      if (const std::vector<float>* base = frame.options.base.get())
-        heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });
   }
 

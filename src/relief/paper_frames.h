@@ -107,16 +107,12 @@ class PaperFrames {
     if (frame.is_height_met) last_ = Found{wanted, frame.options.shape};
   }
 
-  // Scales the heights to the requested height, and adds the base.
+  // Scales the heights to the requested height.
   static void finish(Frame& frame) {
-    if (!frame.options.height && !frame.options.base) return;
-    const bool is_met = frame.options.height && frame.is_height_met;
-    const auto scale = static_cast<float>(is_met ? *frame.options.height / frame.height : 1);
-    if (is_met) frame.height = *frame.options.height;
-    const std::vector<float>* base = frame.options.base.get();
-    parallel_for(frame.heights.size(), [&](std::size_t i) {
-      frame.heights[i] = scale * frame.heights[i] + (base ? (*base)[i] : 0);
-    });
+    if (!frame.options.height || !frame.is_height_met) return;
+    const auto scale = static_cast<float>(*frame.options.height / frame.height);
+    frame.height = *frame.options.height;
+    parallel_for(frame.heights.size(), [&](std::size_t i) { frame.heights[i] *= scale; });
     const HeightSpan<float> span = span_of(std::span<const float>(frame.heights));
     frame.lowest = span.lowest;
     frame.highest = span.highest;

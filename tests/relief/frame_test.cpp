@@ -185,20 +185,6 @@ TEST(Frame, KnowsItsLowestAndHighestPoints) {
   expect_both();
   options.height = .2;
   expect_both();
-  options.base = std::make_shared<const std::vector<float>>(model().surface().points.size(), -3.F);
-  expect_both();
-}
-
-TEST(Frame, ABaseIsAddedToTheHeights) {
-  FrameOptions options{Shape{}};
-  const Frame plane = frame_of(options);
-  auto base = std::make_shared<std::vector<float>>(plane.heights.size());
-  for (std::size_t i = 0; i < base->size(); ++i)
-    (*base)[i] = static_cast<float>(model().surface().points[i].x());
-  options.base = base;
-  const Frame curved = frame_of(options);
-  EXPECT_EQ(curved.height, plane.height);
-  for (std::size_t i = 0; i < base->size(); ++i) ASSERT_EQ(curved.heights[i], plane.heights[i] + (*base)[i]);
 }
 
 TEST(Frame, OfASubspaceIsItsRelief) {

@@ -20,10 +20,9 @@ struct FrameOptions {
   // A locked height in units of the cloud: u is searched for it. mm_per_unit() in make_relief.h gives the
   // conversion.
   std::optional<double> height = {};
-  std::shared_ptr<const std::vector<float>> base = {};  // height of the base per point; null for a plane
   double height_tolerance = 5e-4;  // relative to the locked height; a larger tolerance can save a solve
 
-  bool operator==(const FrameOptions&) const = default;  // equal bases are the same object
+  bool operator==(const FrameOptions&) const = default;
 };
 
 struct FrameTimes {
@@ -35,9 +34,9 @@ struct FrameTimes {
 
 struct Frame {
   FrameOptions options;           // the effective options, including the u that was found
-  std::vector<float> heights;     // heights of the surface's points including the base, in the cloud's units
+  std::vector<float> heights;     // heights of the surface's points, in the cloud's units
   std::vector<Vec3f> normals;     // unit normals: area-weighted means over the triangles around a point
-  double height = 0;              // highest minus lowest height, without the base; 0 counts as a height
+  double height = 0;              // highest minus lowest height; 0 counts as a height
   float lowest = 0, highest = 0;  // lowest and highest number among `heights` and 0
   bool is_height_met =
       true;  // false if a locked height is out of reach; the relief is then as high as possible
