@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_json = 4U << 20;
 constexpr int most_waiting = 32, most_pages = 8;
-constexpr int most_files =
-    24;  // uploads at the same time: a quarter of the threads, so that others can answer
+// Uploads at the same time: a quarter of the threads, so that others can answer.
+constexpr int most_files = 24;
 
 class ScopedCount {
  public:
