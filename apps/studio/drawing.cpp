@@ -128,7 +128,9 @@ Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::stri
 
 LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
   if (is_frozen_ && live_.last_frame().frame) return live_.last_frame();
-  return live_.make_frame(request.options, {request.u, !is_exact});
+  const LiveFrame made = live_.make_frame(request.options, {request.u, !is_exact});
+  frames_made_ += made.is_new;
+  return made;
 }
 
 // Returns two corners of the relief's bounding box, relative to the centre of the piece.
@@ -210,7 +212,7 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   answer.relief_height_mm = answer.height_mm;
   if (is_frame && !answer.is_finished) {
     if (request.is_drawn_apart)
-      answer.undrawn = {model_, live_.shown(made), render};
+      answer.undrawn = {model_, frames_made_, live_.shown(made), render};
     else
       live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);

@@ -57,6 +57,7 @@ struct PictureRequest {
 // What a FrameRenderer needs to draw a frame. The arrays of `shown` are valid until the next picture.
 struct UndrawnFrame {
   std::shared_ptr<const ReliefModel> model;
+  std::size_t number = 0;  // how many frames of the model have been made; the same for the same heights
   Shown shown;
   RenderOptions render;
 };
@@ -111,8 +112,8 @@ struct PieceHeight {
 // Leaves out the ornaments of a request if the error of its piece is theirs. Returns whether it did.
 bool leave_out_ornaments(PictureRequest& request, const Error& error);
 
-// Reads the files of the request's ornaments. If one cannot be read, takes the ornaments out of the request and
-// keeps the error in it.
+// Reads the files of the request's ornaments. If one cannot be read, takes the ornaments out of the request
+// and keeps the error in it.
 void read_ornaments_of(PictureRequest& request);
 
 // Not for concurrent use.
@@ -173,6 +174,7 @@ class Drawing {
   LiveModel live_;
   std::optional<DrawnPiece> finished_, coarse_;
   std::vector<float> attention_;  // attention of the model; empty until a picture shows it
+  std::size_t frames_made_ = 0;
   bool is_frozen_ = false;
 };
 

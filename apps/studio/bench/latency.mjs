@@ -81,6 +81,7 @@ async function measureOpening(scan) {
 // openInPage() and openInProgram() open a scan, and return a function that ends its engine.
 async function openInPage(page, scan) {
   await page.goto(pathToFileURL(html).href);
+  await page.locator("#samples button").first().waitFor({state: "attached"}); // then the page is ready
   await page.locator("#file").setInputFiles(scan);
   return () => {};
 }

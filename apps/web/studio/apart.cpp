@@ -69,12 +69,12 @@ class ArrayReader {
   std::span<const std::byte> rest_;
 };
 
-// The numbers of a frame and of its surface.
-struct Numbers {
+// What precedes the arrays.
+struct Head {
   RenderOptions lengths;  // only mm_per_unit, margin_mm and thickness_mm
   float stretch = 1;
   std::array<float, 2> range = {};
-  bool has_surface = false;
+  bool has_surface = false, has_frame = false;
 };
 
 void add_surface(const Surface& surface, ArrayWriter& to) {
@@ -95,20 +95,47 @@ std::shared_ptr<const Surface> read_surface(ArrayReader& from) {
   return surface;
 }
 
-std::string packed(const studio::UndrawnFrame& frame, bool has_surface) {
-  const Numbers numbers{frame.render, frame.shown.stretch, *frame.shown.range, has_surface};
+// The surface and the frame that the other instance received last.
+struct Sent {
+  std::weak_ptr<const ReliefModel> model;
+  std::size_t frame = 0;
+};
+
+std::string packed(const studio::UndrawnFrame& undrawn, const Sent& sent) {
+  const auto& [model, number, shown, render] = undrawn;
+  const bool has_surface = sent.model.lock() != model, has_frame = has_surface || sent.frame != number;
+  const Head head{render, shown.stretch, *shown.range, has_surface, has_frame};
   ArrayWriter all;
-  all.add(std::span<const Numbers>(&numbers, 1));
-  if (has_surface) add_surface(frame.model->surface(), all);
-  all.add(frame.shown.heights);
-  all.add(frame.shown.normals);
+  all.add(std::span<const Head>(&head, 1));
+  if (has_surface) add_surface(model->surface(), all);
+  if (has_frame) {
+    all.add(shown.heights);
+    all.add(shown.normals);
+  }
   return std::move(all.bytes);
 }
+
+// The surface whose frames this instance draws, and the frame that it received last.
+struct Received {
+  std::optional<FrameRenderer> renderer;
+  std::vector<float> heights;
+  std::vector<Vec3f> normals;
+
+  void take(const Head& head, ArrayReader& arrays) {
+    if (head.has_surface) {
+      renderer.reset();
+      renderer.emplace(read_surface(arrays));
+    }
+    if (!head.has_frame) return;
+    arrays.read(heights);
+    arrays.read(normals);
+  }
+};
 
 }  // namespace
 
 Answer undrawn_frame(studio::Engine& engine, const Json& json) {
-  static std::weak_ptr<const ReliefModel> sent;  // the model whose surface the other instance has
+  static Sent sent;
   Result<studio::PictureRequest> request = studio::picture_request(json);
   if (!request) return studio::answer_of(request.error());
   request->is_drawn_apart = !request->turned;  // turned reliefs have another surface in each view
@@ -118,29 +145,24 @@ Answer undrawn_frame(studio::Engine& engine, const Json& json) {
   if (!made->undrawn) return studio::answer_of(made->picture, about);
   about["is_undrawn"] = true;
   Answer answer = studio::answer_of(Picture(), about);
-  answer.body = packed(*made->undrawn, sent.lock() != made->undrawn->model);
-  sent = made->undrawn->model;
+  answer.body = packed(*made->undrawn, sent);
+  sent = {made->undrawn->model, made->undrawn->number};
   return answer;
 }
 
 Result<Answer> draw(const Json& json) {
-  static std::optional<FrameRenderer> renderer;  // of the surface whose frames this instance draws
+  static Received received;
   RELIEVO_TRY(const studio::PictureRequest request, studio::picture_request(json));
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file("frame"));
   ArrayReader arrays(bytes);
-  const Numbers& numbers = arrays.next<Numbers>().front();
-  if (numbers.has_surface) {
-    renderer.reset();
-    renderer.emplace(read_surface(arrays));
-  }
-  const auto heights = arrays.next<float>();
-  const auto normals = arrays.next<Vec3f>();
+  const Head& head = arrays.next<Head>().front();
+  received.take(head, arrays);
   RenderOptions render = request.render;
-  render.mm_per_unit = numbers.lengths.mm_per_unit;
-  render.margin_mm = numbers.lengths.margin_mm;
-  render.thickness_mm = numbers.lengths.thickness_mm;
+  render.mm_per_unit = head.lengths.mm_per_unit;
+  render.margin_mm = head.lengths.margin_mm;
+  render.thickness_mm = head.lengths.thickness_mm;
   Picture picture;
-  renderer->render({heights, normals, numbers.stretch, numbers.range}, render, picture);
+  received.renderer->render({received.heights, received.normals, head.stretch, head.range}, render, picture);
   return studio::answer_of(picture, {{"width", picture.image.width},
                                      {"height", picture.image.height},
                                      {"pixels_per_mm", picture.pixels_per_mm}});
