@@ -65,6 +65,12 @@ std::optional<MakeError> make_outputs(const Job& job, const Workshop& workshop, 
 
 }  // namespace
 
+std::string output_kind_names() {
+  std::vector<std::string> names;
+  for (const OutputKind& kind : all_kinds()) names.push_back(kind.name);
+  return either({names.begin(), names.end()});
+}
+
 Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list) {
   const std::vector<OutputKind> known = all_kinds();
   std::vector<OutputKind> kinds;
@@ -77,9 +83,8 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list) {
   for (std::string_view rest = list; !rest.empty();) {
     const std::string_view name = rest.substr(0, rest.find(','));
     rest.remove_prefix(std::min(rest.size(), name.size() + 1));
-    std::vector<std::string_view> names;
-    for (const OutputKind& kind : known) names.push_back(kind.name);
-    if (!add(name)) return option_error("files", cat("expected ", either(names), ", found '", name, "'"));
+    if (!add(name))
+      return option_error("files", cat("expected ", output_kind_names(), ", found '", name, "'"));
   }
   add("preview");
   const auto count = [&](std::string_view flag) {

@@ -19,6 +19,9 @@ struct OutputKind {
   std::string flag;    // the flag of `make` that takes the path of such a file
 };
 
+// Returns the names of all kinds as a text: "stl, 3mf, ... or report".
+std::string output_kind_names();
+
 // Returns the kinds in a list such as "stl,preview,report". Adds the preview, which the pages need. Errors:
 // kind option for other words, for two solids, for two height maps, and if there is neither a solid nor a
 // height map.

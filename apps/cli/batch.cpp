@@ -280,9 +280,9 @@ void add_batch(CLI::App& program, Result<void>& result) {
   command.add_option("-o,--output", arguments->outputs, "folder of the reliefs and the pages about them")
       ->type_name("FOLDER");
   command
-      .add_option(
-          "--files", arguments->kinds,
-          "what is made of each scan: stl, 3mf, ply or obj; with it or alone heightmap or tiff; report")
+      .add_option("--files", arguments->kinds,
+                  cat("what is made of each scan, at most one solid and one height map: ",
+                      batch::output_kind_names()))
       ->type_name("LIST")
       ->capture_default_str();
   command.add_option("--match", arguments->match, "only files of a folder with such names, as '*.ply'")

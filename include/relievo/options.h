@@ -121,7 +121,7 @@ struct ReliefOptions : NumericOptions {
   std::vector<Ornament> all_ornaments() const;
   // The plate of a lithophane is thin, because light has to pass through its thinnest parts.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
-  // Returns the view. For the paper's method, it removes neither noise nor crumbs.
+  // Returns the view; for the paper's method, View::for_paper().
   View effective_view() const;
   ModelOptions effective_model() const { return {mode, static_cast<std::size_t>(control_points)}; }
   double effective_saturation() const;
