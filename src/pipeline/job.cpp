@@ -62,7 +62,7 @@ struct LiveModel::State {
   // Returns the options of a frame. The tone curve object is reused if its points are the same, because equal
   // frames share it.
   FrameOptions frame_options(const ReliefOptions& options) {
-    FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side), std::nullopt, nullptr};
+    FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side)};
     wanted.shape.boundary_width *= shown.spacing_ratio;
     if (!options.tone) return wanted;
     if (!curve || curve->points() != options.tone->points()) curve = wanted.shape.compression.curve;

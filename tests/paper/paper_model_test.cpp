@@ -112,7 +112,7 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
     const ReliefModel model = prepared(ball_before_a_sheet(), mode);
     FrameMaker maker(model);
     Frame frame;
-    FrameOptions options{Shape{{1, .2}, .05}, std::nullopt, nullptr};
+    FrameOptions options{Shape{{1, .2}, .05}};
     maker.make(options, frame);
     const Relief relief = model.make(options.shape);
     for (std::size_t i = 0; i < relief.heights.size(); ++i)

@@ -33,7 +33,7 @@ Image8 picture_of(const TurnedRelief& relief) {
   ReliefOptions options;
   options.height_mm = height_mm;
   const double mm = mm_per_unit(relief.model->surface(), options);
-  FrameOptions wanted{shape_of(options), height_mm / mm, nullptr};
+  FrameOptions wanted{shape_of(options), height_mm / mm};
   wanted.shape.boundary_width *= relief.spacing_ratio;
   FrameMaker maker(*relief.model);
   Frame frame;
