@@ -173,7 +173,7 @@ export class KindCards {
       const {options, ...step} = this.stepOf(kind), {material, light} = step;
       const request = {options: shownOptions({options}), material, light, width: WIDTH, height: HEIGHT,
         camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}, ...(!model && {turned})};
-      const made = await this.engine.frame(request).catch(() => null); // the kind may be impossible in this view
+      const made = await this.engine.picture(request).catch(() => null); // the kind may be impossible in this view
       if (!made || key !== this.model) continue;
       const card = $(`#kinds [data-kind="${kind}"]`);
       paint($("canvas", card), made.image);

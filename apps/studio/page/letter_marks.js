@@ -40,7 +40,7 @@ export class LetterMarks {
     this.handle = make("button", {type: "button", class: "letter-handle", hidden: true});
     this.listen();
     stage.element.append(this.handle);
-    stage.letterMarks = (about) => this.marks(about);
+    stage.letterMarks = (facts) => this.marks(facts);
   }
 
   // Takes the outlines of the list's ornaments, as the engine has placed them.
@@ -68,9 +68,9 @@ export class LetterMarks {
 
   // Returns the marks over a picture, and shows the handle at its place. There are none while the piece is seen
   // obliquely or is bent.
-  marks(about) {
+  marks(facts) {
     const {stage, panel} = this, {yaw, pitch} = stage.camera, {list, chosen} = panel;
-    const isFlat = about && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !about.isTurned;
+    const isFlat = facts && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !facts.isTurned;
     if (!isFlat || !panel.isShown) return this.showHandle(null), [];
     const [x, y] = stage.toPixels([0, 0]), scale = stage.pixelsPerMm;
     if (!this.placed[chosen]?.path || !list[chosen]) this.showHandle(null);
@@ -79,8 +79,8 @@ export class LetterMarks {
       if (!list[i] || !placed.path) return [];
       const {transform, handle} = this.movement(list[i], placed), isChosen = i === chosen;
       if (isChosen) this.showHandle(list[i], handle);
-      const isHidden = about.has_ornaments && !(isChosen && this.drag);
-      const look = about.ornament_error ? " refused" : "";
+      const isHidden = facts.has_ornaments && !(isChosen && this.drag);
+      const look = facts.ornament_error ? " refused" : "";
       return isHidden ? [] : [make("path", {class: `letter${look}`, d: placed.path, transform: base + transform})];
     });
   }

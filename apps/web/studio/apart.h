@@ -7,7 +7,7 @@
 
 namespace relievo::app::web {
 
-// Does the action "frame". If another instance can draw the frame, the facts about it have `is_undrawn`, and the body is
+// Does the action "picture". If another instance can draw the frame, the facts have `is_undrawn`, and the body is
 // the file "frame" for draw(). The first such body of a model also has the model's surface.
 studio::Answer undrawn_frame(studio::Engine& engine, const nlohmann::json& request);
 
