@@ -261,9 +261,9 @@ function begun(former) {
 }
 
 // Shows a turned relief while the first view is being prepared.
-function measured({shown}) {
+function measured({requested}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
-  doc.note({options: optionsOf(opened.wantedView(shown), doc.now)});
+  doc.note({options: optionsOf(opened.wantedView(requested), doc.now)});
   showDocument();
   $("#choose-view").disabled = false;
   stage.isReady = true;

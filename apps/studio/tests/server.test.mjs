@@ -290,15 +290,15 @@ test("takes a view that is chosen while the scan is read", async () => {
   engine.document = document;
   const status = await engine.untilIdle();
   assert.equal(status.input.sample, "still_life");
-  assert.equal(status.shown.view, "left");
+  assert.equal(status.requested.view, "left");
   assert.equal((await facts()).rotation[6], -1);
   await engine.open({path: scan});
 });
 
 test("crops a scan as seen", async () => {
   const crop = "0,0,0.5,1", before = await facts();
-  const {shown} = await engine.prepare({view: "front", crop}), {size} = await facts();
-  assert.equal(shown.crop, crop);
+  const {requested} = await engine.prepare({view: "front", crop}), {size} = await facts();
+  assert.equal(requested.crop, crop);
   assert.ok(Math.abs(size[0] / before.size[0] - 0.5) < 0.1, `${size} of ${before.size}`);
   const wrong = await engine.post("view", {view: "front", crop: "0,0,1"});
   assert.equal(wrong.status, 422);
@@ -315,7 +315,7 @@ test("shows the pixels of a depth image, and no other scan", async () => {
 
 test("removes as much noise as is measured or asked for", async () => {
   const measured = (await facts()).noise;
-  assert.equal((await engine.prepare({view: "front", denoise: "0.6"})).shown.denoise, "0.6");
+  assert.equal((await engine.prepare({view: "front", denoise: "0.6"})).requested.denoise, "0.6");
   assert.equal((await facts()).noise, 0.6);
   assert.equal((await engine.post("view", {view: "front", denoise: "much"})).status, 422);
   await engine.prepare({view: "front"});
@@ -356,7 +356,7 @@ test("finds the face of a scan, and sets it upright, whichever way the scanner h
   for (const scan of [face, turned]) {
     const {document} = await engine.json("open", {input: {path: scan}, view: "auto"});
     engine.document = document;
-    found.push({view: (await engine.untilIdle()).shown.view, ...await facts()});
+    found.push({view: (await engine.untilIdle()).requested.view, ...await facts()});
   }
   assert.equal(found[0].view, "front");
   assert.equal(found[1].view, "bottom");

@@ -138,7 +138,7 @@ export class Transport {
 
   #status() {
     const {document} = this.#opened;
-    return this.#statuses.get(document) ?? {document, model: 0, input: null, shown: {}, making: {}};
+    return this.#statuses.get(document) ?? {document, model: 0, input: null, requested: {}, making: {}};
   }
 
   #tell(status) {
