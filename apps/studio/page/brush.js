@@ -205,7 +205,7 @@ export class Brush {
   toggle(stage) {
     if (this.painting) return this.end();
     const {width, height} = stage.size, [offsetX, offsetY] = this.at ?? [width / 2, height / 2];
-    this.doc.endStroke();
+    this.doc.endGesture();
     this.press(stage, {offsetX, offsetY});
     if (this.painting?.settings.area === "region") this.end();
   }

@@ -148,7 +148,7 @@ export class KindCards {
   show() {
     const kind = kindOf(this.doc.now), isPending = this.entries.isPending("kind");
     for (const card of $("#kinds").children) card.ariaBusy = isPending ? "true" : null;
-    if (this.doc.stroke === null) this.showTitles();
+    if (this.doc.gesture === null) this.showTitles();
     if (kind === this.shown) return; // this method runs for each event of a drag
     this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);

@@ -33,10 +33,10 @@ function extentOf(outlines) {
 }
 
 export class LetterMarks {
-  // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, stroke).
+  // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, gesture).
   constructor({stage, doc, panel}) {
     Object.assign(this, {stage, doc, panel, placed: [], drag: null});
-    this.rest = new Pause(() => doc.endStroke("letters"), REST_MS);
+    this.rest = new Pause(() => doc.endGesture("letters"), REST_MS);
     this.handle = make("button", {type: "button", class: "letter-handle", hidden: true});
     this.listen();
     stage.element.append(this.handle);
@@ -110,7 +110,7 @@ export class LetterMarks {
     handle.onpointerdown = (event) => {
       event.stopPropagation(); // the picture's tool must not take it
       handle.setPointerCapture(event.pointerId);
-      this.doc.endStroke();
+      this.doc.endGesture();
       const {list, chosen} = this.panel, at = list[chosen].at ?? this.placed[chosen]?.at ?? [0, 0];
       this.drag = {from: place(event), ornament: list[chosen], at};
     };
@@ -120,7 +120,7 @@ export class LetterMarks {
     };
     handle.onlostpointercapture = () => {
       this.drag = null;
-      this.doc.endStroke("letters");
+      this.doc.endGesture("letters");
       this.stage.drawOverlay();
       this.panel.refresh();
     };

@@ -125,8 +125,8 @@ export class LettersPanel {
   }
 
   // Changes an ornament. A key without a value gets the engine's default.
-  set(at, part, stroke = null) {
-    this.doc.change(partOf(this.list.map((each, i) => (i === at ? withoutEmpty({...each, ...part}) : each))), stroke);
+  set(at, part, gesture = null) {
+    this.doc.change(partOf(this.list.map((each, i) => (i === at ? withoutEmpty({...each, ...part}) : each))), gesture);
   }
 
   choose(at) {
@@ -181,8 +181,8 @@ export class LettersPanel {
   textRow(at) {
     const show = ({text}) => isUnfinished(input) || (input.value = text);
     const input = textField({"aria-label": "Text", maxlength: 500}, {
-      take: (text) => (text ? this.set(at, {text}, "letters") : 0, this.doc.endStroke("letters"), this.show()),
-      show: () => (this.doc.cancelStroke(), show(this.list[at]))});
+      take: (text) => (text ? this.set(at, {text}, "letters") : 0, this.doc.endGesture("letters"), this.show()),
+      show: () => (this.doc.cancelGesture(), show(this.list[at]))});
     input.oninput = () => input.value.trim() && this.set(at, {text: input.value.trim()}, "letters");
     return {row: pair("Text", input), show};
   }

@@ -52,7 +52,7 @@ const brush = new Brush({engine, doc, modelFacts: () => modelFacts, say: refuse}
 const strokePanel = new StrokePanel({doc, brush});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, brush, viewRests: () => shownView.choose()});
-const curve = new CurveEditor(changeTone, () => doc.endStroke());
+const curve = new CurveEditor(changeTone, () => doc.endGesture());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const modes = new Modes({stage, doc, cropFrame, sliders: sliders.elements, compared: () => snapshotPanel.mark()});
 const snapshotPanel = new SnapshotPanel({doc, modes});
@@ -64,7 +64,7 @@ const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, red
 const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
 const outcome = new Outcome({doc, stage, entries, pieces, facts: () => facts});
 const exporting = new ExportDialog({engine, outcome, name: () => fileName(doc.now), heightText, say: toast});
-const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
+const isAtRest = () => !stage.isBusy && doc.gesture === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, entries, isAtRest, say: refuse});
 const kindPanel = new KindPanel({doc, entries, elements: {...pieces.elements, ...sliders.elements}});
 const tour = new Tour(() => {
@@ -128,9 +128,9 @@ addEventListener("change", ({target}) => target.type !== "range" && takeRefusalB
 function changed(before) {
   const {now} = doc;
   if (doc.steps.includes(before)) takeRefusalBack(); // not for the later changes of a drag
-  opened.keep(doc.stroke !== null);
+  opened.keep(doc.gesture !== null);
   tour.takeBack();
-  doc.stroke === null ? showDocument() : showing.begin();
+  doc.gesture === null ? showDocument() : showing.begin();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
     shownView.choose();

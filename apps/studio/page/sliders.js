@@ -24,7 +24,7 @@ export class Sliders {
     this.lock = lockButton(() => this.toggleLock());
     const sliderOf = ([name, field]) => new Slider(
       {...field, extra: name === "height" ? this.lock : null, otherwise: FIRST.options[name]},
-      (...moved) => this.slide(name, ...moved), () => doc.endStroke(name), say);
+      (...moved) => this.slide(name, ...moved), () => doc.endGesture(name), say);
     this.all = Object.fromEntries(Object.entries(FIELDS).map((field) => [field[0], sliderOf(field)]));
     for (const [name, slider] of Object.entries(this.all)) {
       slider.number.dataset.option = name;

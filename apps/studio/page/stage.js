@@ -287,7 +287,7 @@ export class Stage {
   press(event) {
     const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
     if (isOther || this.drag || !this.facts) return;
-    this.doc.endStroke(); // earlier changes by keys or the wheel are a separate step
+    this.doc.endGesture(); // earlier changes by keys or the wheel are a separate step
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const isDivider = event.button === 0 && this.comparing.isAt(event.offsetX);
@@ -318,7 +318,7 @@ export class Stage {
     this.drag = this.sun = null;
     TOOLS[drag?.tool]?.release?.(this, drag);
     this.element.classList.remove("dragging");
-    if (drag?.tool !== "brush") this.doc.endStroke(); // the brush ends its stroke when all points of it are found
+    if (drag?.tool !== "brush") this.doc.endGesture(); // the brush ends its gesture when all points of it are found
     this.drawOverlay();
   }
 
@@ -350,7 +350,7 @@ export class Stage {
       this.invalidate();
     }
     const isLifted = this.on.brush.cancel();
-    return this.doc.cancelStroke() || isEnded || isLifted;
+    return this.doc.cancelGesture() || isEnded || isLifted;
   }
 
   zoom(event) {

@@ -195,7 +195,7 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", async 
   await pen("mouseReleased", middle[0] + 80, middle[1] - 50, {buttons: 0});
   await soon.equal(() => tablet.locator("#overlay .sun").count(), 0);
   await undo(1, tablet);
-  await soon.ok(() => button("Undo", tablet).isDisabled(), "one stroke is one step");
+  await soon.ok(() => button("Undo", tablet).isDisabled(), "one gesture is one step");
   await radio("Crop", tablet).click();
   const frame = tablet.locator("#crop-frame .frame"), whole = await frame.boundingBox();
   await pen("mousePressed", whole.x + whole.width, whole.y + whole.height / 2);
