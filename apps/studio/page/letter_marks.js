@@ -4,7 +4,7 @@
 import {ARROWS, Pause, make} from "./controls.js";
 import {degrees} from "./lights.js";
 import {angleOf, hasPlace, isOnArc, nameOf} from "./ornaments.js";
-import {REST_MS} from "./slider.js";
+import {GESTURE_END_MS} from "./slider.js";
 
 const BESIDE = 30; // pixels from the middle of letters to their handle
 
@@ -36,7 +36,7 @@ export class LetterMarks {
   // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, gesture).
   constructor({stage, doc, panel}) {
     Object.assign(this, {stage, doc, panel, placed: [], drag: null});
-    this.rest = new Pause(() => doc.endGesture("letters"), REST_MS);
+    this.rest = new Pause(() => doc.endGesture("letters"), GESTURE_END_MS);
     this.handle = make("button", {type: "button", class: "letter-handle", hidden: true});
     this.listen();
     stage.element.append(this.handle);

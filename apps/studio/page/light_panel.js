@@ -5,7 +5,7 @@ import {hasScale} from "./document.js";
 import {isUnfinished} from "./inputs.js";
 import {typedNumber} from "./lengths.js";
 import {angles, degrees, direction} from "./lights.js";
-import {REST_MS} from "./slider.js";
+import {GESTURE_END_MS} from "./slider.js";
 
 const LOWEST = 5, HIGHEST = 85; // degrees of elevation that the engine takes
 const RADIUS = 46; // of the dial, in its own units
@@ -29,7 +29,7 @@ const lightAt = (x, y) => ({azimuth: degrees(Math.atan2(-y, x)), elevation: 90 *
 export class LightPanel {
   // `sliders` has the elements of the sliders by the names of their options; `say` shows a line to the user.
   constructor({doc, sliders, say}) {
-    Object.assign(this, {doc, sliders, say, facts: null, rest: new Pause(() => doc.endGesture("aim"), REST_MS)});
+    Object.assign(this, {doc, sliders, say, facts: null, rest: new Pause(() => doc.endGesture("aim"), GESTURE_END_MS)});
     this.input = make("input", {type: "checkbox", id: "light", "data-option": "light", "aria-label": "Made for one light",
       onchange: ({target}) => doc.change({options: {light: target.checked ? textOf(angles(doc.now.light)) : ""}})});
     this.choice = pair("Made for one light", this.input);

@@ -64,7 +64,7 @@ const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, red
 const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
 const outcome = new Outcome({doc, stage, entries, pieces, facts: () => facts});
 const exporting = new ExportDialog({engine, outcome, name: () => fileName(doc.now), heightText, say: toast});
-const isAtRest = () => !stage.isBusy && doc.gesture === null && stage.finished === stage.wanted;
+const isAtRest = () => !stage.isAsking && doc.gesture === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, entries, isAtRest, say: refuse});
 const kindPanel = new KindPanel({doc, entries, elements: {...pieces.elements, ...sliders.elements}});
 const tour = new Tour(() => {

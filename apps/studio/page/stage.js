@@ -12,8 +12,8 @@ import {TOOLS, takeKey} from "./tools.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
-const REST_MS = 160; // time without changes until the fine picture is requested
-const FINISH_MS = 500; // time without changes until the finished piece is requested
+const FINE_AFTER_MS = 160; // time without changes until the fine picture is requested
+const FINISHED_AFTER_MS = 500; // time without changes until the finished piece is requested
 const MOST_PIXELS = 7.9e6; // just below the engine's limit; a window on a screen of 5,120 x 2,880 has more
 
 export class Stage {
@@ -93,15 +93,16 @@ export class Stage {
 
   // Requests the next picture of the relief. There is one request at a time, always for the newest state.
   async pump() {
-    if (this.isBusy || !this.isReady) return;
+    if (this.isAsking || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
     if (this.finished === this.wanted) return;
-    const pause = this.fine === this.wanted ? FINISH_MS : REST_MS, rest = this.changedAt + pause - performance.now();
+    const pause = this.fine === this.wanted ? FINISHED_AFTER_MS : FINE_AFTER_MS;
+    const rest = this.changedAt + pause - performance.now();
     rest > 0 ? this.pause.begin(rest) : this.draw(true);
   }
 
   async draw(isFine) {
-    this.isBusy = true;
+    this.isAsking = true;
     const start = performance.now(), isLast = this.fine === this.wanted;
     this.unwanted = isFine ? new AbortController() : null;
     const asked = this.ahead?.model === this.model ? this.ahead : this.ask(isFine, isLast), {number} = asked;
@@ -119,7 +120,7 @@ export class Stage {
       if (!isCancelled && isNewest) this.on.failed(error); // errors of older states do not matter
       if (isCancelled && isNewest) this.changedAt = performance.now(); // try again after a pause
     }
-    this.isBusy = false;
+    this.isAsking = false;
     this.unwanted = null;
     this.showBusy();
     this.pump();
