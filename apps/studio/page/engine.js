@@ -3,9 +3,10 @@
 //
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
-//                                  drawsMeanwhile: whether it draws pictures while a piece is made; canRemove: whether
-//                                  documents are stored until the user removes them; slowMs: if pictures take longer,
-//                                  they get fewer pixels}. The Engine has the same traits
+//                                  drawsMeanwhile: whether it draws pictures while a piece is made, and while the
+//                                  first view is prepared; canRemove: whether documents are stored until the user
+//                                  removes them; slowMs: if pictures take longer, they get fewer pixels}. The Engine
+//                                  has the same traits
 //   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
 //                                  picture; `facts` has facts about it; the request is optional; onSolved is
 //                                  called when a picture only has to be drawn, if the next one can be solved meanwhile
