@@ -61,7 +61,7 @@ export class Comparing {
 
   rivalRequest(isFine, isLast) {
     const {stage} = this, {light} = stage.doc.now;
-    return stage.request({...stage.pixels(isFine), fine: isFine, finished: isLast, light},
+    return stage.request({...stage.pictureSize(isFine), fine: isFine, finished: isLast, light},
       {...stage.doc.now, ...this.shownRival});
   }
 
@@ -69,7 +69,7 @@ export class Comparing {
   // the centre of the plate. If the figure is mirrored, camera and light are mirrored for the request, and paint()
   // mirrors the picture.
   request(isFine) {
-    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true,
+    const {stage} = this, request = stage.request({...stage.pictureSize(isFine), fine: isFine, original: true,
       attention: Boolean(this.hasAttention)});
     const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
     request.camera = {...camera, yaw: sign * camera.yaw, x: sign * (camera.x - x), y: camera.y - y};

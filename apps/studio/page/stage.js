@@ -132,7 +132,7 @@ export class Stage {
     return this.facts?.is_finished || (this.facts?.is_plain && !this.engine.drawsMeanwhile);
   }
 
-  pixels(isFine) {
+  pictureSize(isFine) {
     const {width, height} = this.size, most = Math.sqrt(MOST_PIXELS / (width * height));
     const scale = Math.min(isFine ? Math.min(window.devicePixelRatio, 2) : this.share, most);
     return {width: Math.round(width * scale), height: Math.round(height * scale)};
@@ -140,7 +140,7 @@ export class Stage {
 
   // Requests a picture of the newest state. The last picture of a state shows the piece as it is exported.
   ask(isFine, isLast) {
-    const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
+    const request = this.request({...this.pictureSize(isFine), fine: isFine, finished: isLast});
     const asked = {number: this.wanted, model: this.model, changedAt: this.changedAt, isFine, isLast};
     const onSolved = () => {
       asked.isSolved = true;
@@ -191,7 +191,7 @@ export class Stage {
 
   async drawTable(isFine) {
     const half = (n) => Math.max(1, Math.round(n / 2));
-    const {width, height} = this.pixels(isFine), {model} = this;
+    const {width, height} = this.pictureSize(isFine), {model} = this;
     for (const [i, {light}] of TABLE_LIGHTS.entries()) {
       const cell = $(`#table [data-cell="${i}"] canvas`);
       const {image, facts} = await this.requestPicture(
