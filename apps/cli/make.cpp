@@ -50,7 +50,7 @@ Result<void> take_output(MakeArguments& arguments) {
 Result<CheckedOrder> order_of(MakeArguments& arguments) {
   MakeOrder& order = arguments.order;
   RELIEVO_TRY(arguments.files.unit, parse_unit(arguments.units));
-  RELIEVO_TRY(order.in, parse_input_texts(arguments.in));
+  RELIEVO_TRY(order.input_arguments, parse_input_texts(arguments.in));
   order.values.insert(arguments.in.depth.begin(), arguments.in.depth.end());
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
   RELIEVO_CHECK(take_output(arguments));

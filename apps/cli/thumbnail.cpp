@@ -21,7 +21,7 @@ MakeOrder quick_order(const std::string& input) {
   order.inputs = {input};
   order.values.emplace("points", 40000.);
   if (ending_of(input) != "relievo") order.values.emplace("view", "auto");
-  order.in.stream_above_mb = 30;
+  order.input_arguments.stream_above_mb = 30;
   return order;
 }
 

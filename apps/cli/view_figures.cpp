@@ -52,7 +52,7 @@ Result<void> prepare(Session& session, const ViewRun& run, const View& view) {
 }
 
 Result<void> turn(Session& session, const View& view) {
-  RELIEVO_TRY(const TurnedRelief relief, session.turn(view));
+  RELIEVO_TRY(const ShownModel relief, session.turn(view));
   make_frame(*relief.model, relief.spacing_ratio);
   return {};
 }

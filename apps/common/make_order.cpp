@@ -54,9 +54,9 @@ Result<CheckedOrder> check_order(MakeOrder order) {
               find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));
   const OptionValues values = values_of(order, project);
-  RELIEVO_TRY(order.in.depth, parse_depth(values));
-  RELIEVO_TRY(order.in.keeps_doubtful, parse_doubtful(values));
-  order.in.is_lithophane = options.form == Form::lithophane;
+  RELIEVO_TRY(order.input_arguments.depth, parse_depth(values));
+  RELIEVO_TRY(order.input_arguments.keeps_doubtful, parse_doubtful(values));
+  order.input_arguments.is_lithophane = options.form == Form::lithophane;
   if (are_files) order.name = joined(order.inputs);
   return CheckedOrder{std::move(order), std::move(project), std::move(options)};
 }
@@ -65,15 +65,16 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
   LoadedOrder loaded{std::move(order), {}, {}};
   if (loaded.project) {
     RELIEVO_CHECK(progress.stage("read", 0));
-    if (loaded.options.points) loaded.in.depth.points = *loaded.options.points;
-    const LoadOptions how{loaded.in, [&] { return progress.is_cancelled(); }};
+    if (loaded.options.points) loaded.input_arguments.depth.points = *loaded.options.points;
+    const LoadOptions how{loaded.input_arguments, [&] { return progress.is_cancelled(); }};
     RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, how));
     loaded.project->packed = nullptr;  // frees the bytes, which may be as large as the points
   } else {
     const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
     if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");
-    RELIEVO_TRY(loaded.scene, loaded.read ? loaded.read(loaded.in, wanted, &progress)
-                                          : read_scene(loaded.inputs, loaded.in, wanted, &progress));
+    RELIEVO_TRY(loaded.scene, loaded.read
+                                  ? loaded.read(loaded.input_arguments, wanted, &progress)
+                                  : read_scene(loaded.inputs, loaded.input_arguments, wanted, &progress));
   }
   if (!loaded.options.view.is_best) return loaded;
   loaded.side = best_side(loaded.scene);

@@ -21,7 +21,7 @@ namespace relievo::app {
 // Describes a relief to make.
 struct MakeOrder {
   OptionValues values;                   // includes the options of depth images
-  InputArguments in;                     // check_order() sets the fields that `values` has
+  InputArguments input_arguments;        // check_order() sets the fields that `values` has
   std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};
   std::string scan_path = {};  // path of a project's scan

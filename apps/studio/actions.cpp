@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_picture = 200'000;  // bytes
+constexpr std::size_t most_thumbnail = 200'000;  // bytes
 
 double time_of(const Json& state) {
   const Json time = state.value("changed", Json());
@@ -68,7 +68,7 @@ const std::map<std::string, Actions::Action, std::less<>> Actions::actions_{
     {"open", &Actions::open},
     {"leave", &Actions::leave},
     {"state", &Actions::keep},
-    {"picture", &Actions::keep_picture},
+    {"thumbnail", &Actions::keep_thumbnail},
     {"recent", &Actions::recent},
     {"kept", &Actions::kept_amount},
     {"remove", &Actions::remove},
@@ -177,14 +177,14 @@ Result<Answer> Actions::keep(const Json& json) {
   return done();
 }
 
-Result<Answer> Actions::keep_picture(const Json& json) {
-  const std::string picture = json.value("picture", "");
-  if (!picture.starts_with("data:image/jpeg;base64,") || picture.size() > most_picture)
-    return refusal(400, "expected a small picture");
+Result<Answer> Actions::keep_thumbnail(const Json& json) {
+  const std::string thumbnail = json.value("thumbnail", "");
+  if (!thumbnail.starts_with("data:image/jpeg;base64,") || thumbnail.size() > most_thumbnail)
+    return refusal(400, "expected a thumbnail");
   const std::string id = json.value("document", "");
   const Lock lock(storing_);
-  if (is_document(id) && !is_known(id)) return refusal(400, "expected the picture of a kept document");
-  RELIEVO_CHECK(store_.keep_picture(id, picture));
+  if (is_document(id) && !is_known(id)) return refusal(400, "expected the thumbnail of a kept document");
+  RELIEVO_CHECK(store_.keep_thumbnail(id, thumbnail));
   return done();
 }
 
@@ -207,13 +207,13 @@ Json Actions::recent_list(const std::string& after) {
     list.push_back({{"document", entry.document},
                     {"input", to_json(found->second.input)},
                     {"is_there", true},
-                    {"picture", ""}});
+                    {"thumbnail", ""}});
   }
   for (const KeptDocument& kept : store_.recent(after))
     list.push_back({{"document", kept.id},
                     {"input", to_json(kept.input)},
                     {"is_there", kept.is_scan_there},
-                    {"picture", kept.picture}});
+                    {"thumbnail", kept.thumbnail}});
   return list;
 }
 

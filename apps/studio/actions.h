@@ -70,7 +70,7 @@ class Actions {
   Result<Answer> open(const nlohmann::json& json);
   Result<Answer> leave(const nlohmann::json& json);
   Result<Answer> keep(const nlohmann::json& json);
-  Result<Answer> keep_picture(const nlohmann::json& json);
+  Result<Answer> keep_thumbnail(const nlohmann::json& json);
   Result<Answer> recent(const nlohmann::json& json);
   Result<Answer> kept_amount(const nlohmann::json& json);
   Result<Answer> remove(const nlohmann::json& json);

@@ -24,12 +24,12 @@ Answer answer_of(const Error& error) {
   return answer_of(Json{{"error", error_json(error)}}, status_of(error.kind));
 }
 
-Answer answer_of(const Picture& picture, const Json& about) {
+Answer answer_of(const Picture& picture, const Json& facts) {
   const auto& pixels = picture.image.pixels;
   return {200,
           "application/octet-stream",
           {reinterpret_cast<const char*>(pixels.data()), pixels.size()},
-          {{"X-Relievo", about.dump(-1, ' ', true)}}};
+          {{"X-Relievo", facts.dump(-1, ' ', true)}}};
 }
 
 Answer refusal(int status, const std::string& text) {

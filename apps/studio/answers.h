@@ -27,7 +27,7 @@ Answer answer_of(const nlohmann::json& json, int status = 200);
 Answer answer_of(const Error& error);
 
 // Returns the pixels as the body, and the facts about them in the header X-Relievo.
-Answer answer_of(const Picture& picture, const nlohmann::json& about);
+Answer answer_of(const Picture& picture, const nlohmann::json& facts);
 
 // Returns an answer with an error message that the page can show.
 Answer refusal(int status, const std::string& text);

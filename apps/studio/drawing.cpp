@@ -121,7 +121,7 @@ void read_ornaments_of(PictureRequest& request) {
   request.ornament_error = read.error();
 }
 
-Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)
+Drawing::Drawing(ShownModel shown, std::size_t outliers, std::vector<std::string> remarks)
     : facts_(facts_of(*shown.model, outliers, std::move(remarks))),
       model_(shown.model),
       live_(std::move(shown)) {}

@@ -122,7 +122,7 @@ class Drawing {
   // Shares the model. If the model has fewer points than the scan, `shown` also has the detail that these
   // points cannot represent. `outliers` is the number of outliers that were left out of the scan; `remarks`
   // are the other remarks on the scan.
-  Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
+  Drawing(ShownModel shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
 

@@ -34,7 +34,7 @@ std::uint64_t new_model_number() {
   return next++;
 }
 
-struct ShownModel : NumberedModel {
+struct PreparedScan : NumberedModel {
   LoadedScan scan;
 };
 
@@ -44,7 +44,7 @@ struct Shared {
   std::optional<ViewGuess> best;            // the side that was chosen, if the view is "auto"
   std::shared_ptr<const ScanOrder> unread;  // the scan that was requested but is not read yet
   LoadedScan scan;                          // the scan that was read last
-  ShownModel shown;
+  PreparedScan shown;
 };
 
 }  // namespace
@@ -144,7 +144,7 @@ struct Engine::State {
   // A request for another view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
     std::uint64_t model = 0;  // the drawn model when the turned relief was begun
-    for (std::optional<TurnedRelief> relief;;) {
+    for (std::optional<ShownModel> relief;;) {
       {
         const Lock lock(drawing_mutex);
         RELIEVO_CHECK(check_cancelled(request.progress.get()));
@@ -165,10 +165,10 @@ struct Engine::State {
   // `drawing_mutex`.
   Drawing* current_drawing() {
     const bool is_preparing = session.status().is_preparing;
-    const ShownModel shown = shared.with([](const Shared& s) { return s.shown; });
+    const PreparedScan shown = shared.with([](const Shared& s) { return s.shown; });
     if (!shown.model) return nullptr;
     if (drawn_model != shown.number) {
-      drawing.emplace(TurnedRelief{shown.model, nullptr, 1}, shown.scan.left_out(), shown.scan.remarks());
+      drawing.emplace(ShownModel{shown.model}, shown.scan.left_out(), shown.scan.remarks());
       turned_view.reset();
       turned.reset();
     }

@@ -209,7 +209,7 @@ Result<ExportOrder> export_order_from(const Json& json) {
 
 // Returns the options for preparing a scan. An option without a value is an empty text, or null if it is a
 // number.
-static Json shown_json(const OptionValues& values) {
+static Json view_json(const OptionValues& values) {
   Json json = Json::object();
   for (const OptionRow& option : option_table()) {
     if (!option.is_prepared()) continue;
@@ -233,7 +233,7 @@ Json to_json(const EngineStatus& status) {
             {"error", nullptr},
             {"input", nullptr},
             {"making", {{"stage", status.making_stage}, {"fraction", status.making_fraction}}},
-            {"shown", shown_json(status.view)}};
+            {"requested", view_json(status.view)}};
   if (status.error) json["error"] = error_json(*status.error);
   if (status.model > 0) json["input"] = to_json(status.input);
   return json;

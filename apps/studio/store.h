@@ -1,4 +1,4 @@
-// Stores documents with their pictures, and scans that were dropped on the page. They stay after the studio
+// Stores documents with their thumbnails, and scans that were dropped on the page. They stay after the studio
 // ends.
 #pragma once
 
@@ -31,7 +31,7 @@ struct KeptDocument {
   std::string id;
   ScanSource input;
   bool is_scan_there = false;
-  std::string picture;  // as passed to keep_picture(); may be empty
+  std::string thumbnail;  // as passed to keep_thumbnail(); may be empty
 };
 
 // The number of stored documents, and their size in bytes, including their scans.
@@ -62,8 +62,8 @@ class Store {
   // Errors: kind input if `id` is not the name of a document; kind output.
   virtual Result<void> keep_document(const std::string&, std::string_view, bool /*is_moving*/) { return {}; }
 
-  // Stores the picture of a document as a data URL. Errors: those of keep_document().
-  virtual Result<void> keep_picture(const std::string& /*id*/, std::string_view) { return {}; }
+  // Stores the thumbnail of a document, a small picture, as a data URL. Errors: those of keep_document().
+  virtual Result<void> keep_thumbnail(const std::string& /*id*/, std::string_view) { return {}; }
 
   // Makes a document the newest in the list.
   virtual void touch(const std::string& /*id*/) {}

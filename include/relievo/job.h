@@ -53,7 +53,7 @@ Result<void> check(const RenderOptions& options);
 class LiveModel {
  public:
   // Shares ownership of the model. `notes` describe how the model's points were sampled.
-  explicit LiveModel(TurnedRelief shown, std::vector<SampleNote> notes = {});
+  explicit LiveModel(ShownModel shown, std::vector<SampleNote> notes = {});
   LiveModel(LiveModel&&) noexcept;
   ~LiveModel();
 

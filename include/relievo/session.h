@@ -80,7 +80,7 @@ class Session {
   // open() does not cancel turn(), because a call may come late, when the final view is already being
   // prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area; kind
   // cancelled.
-  Result<TurnedRelief> turn(const View& view);
+  Result<ShownModel> turn(const View& view);
 
   SessionStatus status() const;
   std::shared_ptr<const ReliefModel> model() const;  // the newest model; null before the first one

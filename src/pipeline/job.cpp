@@ -34,12 +34,12 @@ std::vector<double> plate_sizes(const ReliefOptions& options) {
 }  // namespace
 
 struct LiveModel::State {
-  State(TurnedRelief turned, std::vector<SampleNote> sampled)
-      : shown(std::move(turned)),
+  State(ShownModel model, std::vector<SampleNote> sampled)
+      : shown(std::move(model)),
         notes(std::move(sampled)),
         longer_side(Box::of(shown.model->surface().points).longer_side()) {}
 
-  TurnedRelief shown;
+  ShownModel shown;
   std::vector<SampleNote> notes;
   double longer_side;  // longer side of the surface, in its units
 
@@ -83,7 +83,7 @@ struct LiveModel::State {
   }
 };
 
-LiveModel::LiveModel(TurnedRelief shown, std::vector<SampleNote> notes)
+LiveModel::LiveModel(ShownModel shown, std::vector<SampleNote> notes)
     : state_(std::make_unique<State>(std::move(shown), std::move(notes))) {}
 LiveModel::LiveModel(LiveModel&&) noexcept = default;
 LiveModel::~LiveModel() = default;
@@ -227,7 +227,7 @@ Result<LiveModel> prepare(const Job& job, Progress* progress) {
     const View view = chosen_view(job.inputs, job.options.effective_view());
     RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
     RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.effective_model(), progress));
-    return LiveModel({std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1},
+    return LiveModel(ShownModel{std::make_shared<const ReliefModel>(std::move(model))},
                      std::move(sample.notes));
   });
 }

@@ -35,7 +35,7 @@ struct Shared {
   std::function<Preparation::Points(Progress&)> all_sides;
   std::shared_ptr<const Turntable> turntable;  // turntable of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // progress of the newest turn(), until that returns
-  std::optional<TurnedRelief> first;           // relief in first_view, until there is a model
+  std::optional<ShownModel> first;             // relief in first_view, until there is a model
   View first_view;
   // Not null while `first` is being made; meanwhile status() says that turn() is not possible.
   std::shared_ptr<Progress> making_first;
@@ -148,16 +148,16 @@ struct Session::State {
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
-    Result<TurnedRelief> made = turned(view, nullptr, progress);
+    Result<ShownModel> made = turned(view, nullptr, progress);
     shared.with([&](Shared& s) {
       s.making_first = nullptr;
       if (made) s.first = std::move(*made), s.first_view = view;
     });
   }
 
-  Result<TurnedRelief> turned(const View& view, const ReliefModel* like,
-                              const std::shared_ptr<Progress>& progress) {
-    Result<TurnedRelief> made = within_memory([&]() -> Result<TurnedRelief> {
+  Result<ShownModel> turned(const View& view, const ReliefModel* like,
+                            const std::shared_ptr<Progress>& progress) {
+    Result<ShownModel> made = within_memory([&]() -> Result<ShownModel> {
       RELIEVO_TRY(const auto table, turntable(view, *progress));
       return table->turn(view, like, progress.get());
     });
@@ -248,8 +248,8 @@ void Session::cancel() {
   });
 }
 
-Result<TurnedRelief> Session::turn(const View& view) {
-  return within_memory([&]() -> Result<TurnedRelief> {
+Result<ShownModel> Session::turn(const View& view) {
+  return within_memory([&]() -> Result<ShownModel> {
     const auto progress = std::make_shared<Progress>();
     const auto [like, first] = state_->shared.with([&](Shared& s) {
       s.cancel_turning();
@@ -307,12 +307,12 @@ struct Turntable::State {
 Turntable::Turntable(const MeasuredCloud& measured) : state_(std::make_unique<const State>(measured)) {}
 Turntable::~Turntable() = default;
 
-Result<TurnedRelief> Turntable::turn(const View& view, const ReliefModel* like, Progress* progress) const {
+Result<ShownModel> Turntable::turn(const View& view, const ReliefModel* like, Progress* progress) const {
   const bool leaves_plane_out = like && like->surface().plane && !view.has_plane;
   const auto without_plane = leaves_plane_out ? state_->without_plane(like->surface()) : nullptr;
   RELIEVO_TRY(TurnedSurface turned,
               turned_surface(without_plane ? *without_plane : state_->scan, view, points, progress));
-  TurnedRelief relief;
+  ShownModel relief;
   relief.detail = std::make_shared<const SurfaceDetail>(detail_of(turned));
   relief.spacing_ratio = state_->scan.rho / turned.surface.rho;
   RELIEVO_TRY(ReliefModel model, ReliefModel::prepare(std::move(turned.surface), progress));

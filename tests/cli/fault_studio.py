@@ -89,27 +89,27 @@ def start_without_reading(place, chance):
     place.faults.disarm()
 
 
-def frame_of(document):
+def picture_request(document):
     return {"document": document, "options": {"method": "paper", "resolution": 1}, "width": 60, "height": 40}
 
 
 def work(page, document, chance):
     """Sends one of the requests that users cause."""
-    frame = frame_of(document)
-    action = chance.choice(["open", "view", "frame", "turn", "piece", "export", "scan", "keep", "upload", "save", "recent", "remove"])
+    request = picture_request(document)
+    action = chance.choice(["open", "view", "picture", "turn", "piece", "export", "scan", "keep", "upload", "save", "recent", "remove"])
     if action == "open":
         page.open(chance.choice(["shell", "still_life", "green_man"]))
     elif action == "view":
         page.ask("view", {"document": document, "view": chance.choice(["front", "left", "top"])})
-    elif action == "frame":
-        page.ask("frame", {**frame, "options": {"height": chance.uniform(1, 3), "outline": chance.choice(["rectangle", "ellipse"])}})
+    elif action == "picture":
+        page.ask("picture", {**request, "options": {"height": chance.uniform(1, 3), "outline": chance.choice(["rectangle", "ellipse"])}})
     elif action == "turn":
-        page.ask("frame", {**frame, "turned": {"towards": [chance.uniform(-1, 1), 0, 1], "up": [0, 1, 0]}})
+        page.ask("picture", {**request, "turned": {"towards": [chance.uniform(-1, 1), 0, 1], "up": [0, 1, 0]}})
     elif action in ("piece", "export"):
         page.ask(action, {"document": document, "options": {"resolution": 1, "rim": chance.uniform(1, 3)},
                           "format": chance.choice(["stl", "3mf", "heightmap", "preview"]), "pixels": 64})
     elif action == "scan":
-        page.ask("scan", {**frame, "towards": [0, 0, 1], "up": [0, 1, 0]})
+        page.ask("scan", {**request, "towards": [0, 0, 1], "up": [0, 1, 0]})
     elif action == "keep":
         page.keep(document)
     elif action == "upload":
@@ -129,7 +129,7 @@ def send_slowly(page, chance, is_over):
     host, port = page.address.split(":")
     held = []
     for _ in range(chance.randint(1, 60)):
-        action = chance.choice(["upload?name=a.ply", "state", "project?name=a.relievo", "frame"])
+        action = chance.choice(["upload?name=a.ply", "state", "project?name=a.relievo", "picture"])
         head = f"POST /{page.token}/api/{action} HTTP/1.1\r\nHost: {page.address}\r\nContent-Length: 100000\r\n\r\n".encode()
         text = head + b"x" * chance.randint(0, 500)
         connection = socket.create_connection((host, int(port)), timeout=PATIENCE)
@@ -178,7 +178,7 @@ def fault_in_studio(page, kind, chance, document):
     return faults.disarm() or kind not in ("allocation", "write", "read")
 
 
-def check_studio(page, kind, document, frame):
+def check_studio(page, kind, document, picture):
     """Requires that a studio goes on after a fault as if nothing had happened."""
     if page.process.poll() is not None:
         raise Find(f"studio: ended with {page.process.poll()} {page.process.stderr.read()[:2000]}")
@@ -189,7 +189,7 @@ def check_studio(page, kind, document, frame):
         page.must("view", {"document": document, "view": "front"})
         error = page.wait(document)
     require(not error, "studio: cannot prepare the scan again:", error)
-    require(page.must("frame", frame_of(document)) == frame, "studio: another frame than before")
+    require(page.must("picture", picture_request(document)) == picture, "studio: another picture than before")
     if kind not in ("folder gone", "full disk"):
         status, content = page.keep(document)
         require(status == 200, "studio: cannot keep work:", status, content[:500])
@@ -203,11 +203,11 @@ def studio(workshop, kind, chance, number):
         page = Page(place)
         document = page.open("shell")
         page.wait(document)
-        frame = page.must("frame", frame_of(document))
+        picture = page.must("picture", picture_request(document))
         dropped = page.keep_a_scan() if kind != "full disk" else None
         has_hit = fault_in_studio(page, kind, chance, document)
         if kind != "kill":
-            check_studio(page, kind, document, frame)
+            check_studio(page, kind, document, picture)
         kept = page.kept
         page.process.send_signal(signal.SIGKILL if kind == "kill" else signal.SIGTERM)
         code, _, errors = finish(page.process)

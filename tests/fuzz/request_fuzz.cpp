@@ -23,10 +23,10 @@ using namespace relievo;
 using namespace relievo::app::studio;
 using Json = nlohmann::json;
 
-constexpr const char* action_names[] = {"frame",    "scan",   "profile", "export",       "view",
-                                        "reach",    "state",  "picture", "recent",       "leave",
-                                        "document", "status", "facts",   "pixels",       "views",
-                                        "check",    "piece",  "save",    "cancel_piece", "points"};
+constexpr const char* action_names[] = {"picture",  "scan",   "profile",   "export",       "view",
+                                        "reach",    "state",  "thumbnail", "recent",       "leave",
+                                        "document", "status", "facts",     "pixels",       "views",
+                                        "check",    "piece",  "save",      "cancel_piece", "points"};
 
 // A studio with an open sample.
 struct Studio {

@@ -215,12 +215,12 @@ TEST_P(StudioMemory, OpensAnotherScan) {
 
 TEST_P(StudioMemory, KeepsTheScanThatItHad) {
   const Json request = studio_.of_document(picture_request({}));
-  const Told picture = studio_.ask("frame", request);
+  const Told picture = studio_.ask("picture", request);
   ASSERT_EQ(picture.status, 200);
   for (const long n : {5, 50, 100, 200}) {
     const test::AllocationFault fault{n, 1000000, few_bytes};
     EXPECT_EQ(with_fault(fault, [&] { return studio_.open("still_life", 1); }), out_of_memory);
-    EXPECT_EQ(studio_.ask("frame", request), picture);
+    EXPECT_EQ(studio_.ask("picture", request), picture);
   }
 }
 
@@ -239,7 +239,7 @@ TEST_P(StudioMemory, Turns) {
   survives([&] {
     Json asked = request;
     asked["turned"]["towards"][0] = angle = angle > .35 ? .3 : angle + .01;
-    const Told told = ask("frame", asked);
+    const Told told = ask("picture", asked);
     return told.status == 200 ? Told{200, ""} : told;
   });
   EXPECT_GT(refused_, 0);
@@ -249,7 +249,7 @@ TEST_P(StudioMemory, DrawsFrames) {
   for (const char* kind : {"plain", "round", "original"}) {
     Json request = picture_request({{"height", 3}, {"outline", kind[0] == 'r' ? "ellipse" : "rectangle"}});
     request["original"] = kind[0] == 'o';
-    survives([&] { return ask("frame", request); });
+    survives([&] { return ask("picture", request); });
   }
   survives([&] {
     return ask("scan", {{"towards", {0, 0, 1}}, {"up", {0, 1, 0}}, {"width", 48}, {"height", 32}});
@@ -261,7 +261,7 @@ TEST_P(StudioMemory, DrawsAnotherFrameEachTime) {
   double height = 2;
   survives([&] {
     height = height > 2 ? 2 : 2.5;
-    const Told told = ask("frame", picture_request({{"height", height}}));
+    const Told told = ask("picture", picture_request({{"height", height}}));
     return told.status == 200 ? Told{200, ""} : told;
   });
 }

@@ -47,7 +47,7 @@ TEST(LiveModel, MakesTheFramesOfAFrameMaker) {
   options.tone = *parse_tone_curve("0,0.1;0.5,0.6;1,0.3");
   const LiveFrame made = *live.frame(options);
   Frame frame;
-  FrameMaker(live.model()).make({shape_of(options), 2 / live.mm_per_unit(options), nullptr}, frame);
+  FrameMaker(live.model()).make({shape_of(options), 2 / live.mm_per_unit(options)}, frame);
   EXPECT_EQ(made.frame->heights, frame.heights);
   EXPECT_TRUE(made.is_new);
   EXPECT_FALSE(live.frame(options)->is_new);

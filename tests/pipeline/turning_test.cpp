@@ -29,11 +29,11 @@ RenderOptions shown_at(double mm_per_unit) {
 }
 
 // Draws the relief as the studio does.
-Image8 picture_of(const TurnedRelief& relief) {
+Image8 picture_of(const ShownModel& relief) {
   ReliefOptions options;
   options.height_mm = height_mm;
   const double mm = mm_per_unit(relief.model->surface(), options);
-  FrameOptions wanted{shape_of(options), height_mm / mm, nullptr};
+  FrameOptions wanted{shape_of(options), height_mm / mm};
   wanted.shape.boundary_width *= relief.spacing_ratio;
   FrameMaker maker(*relief.model);
   Frame frame;
@@ -47,9 +47,9 @@ Image8 picture_of(const TurnedRelief& relief) {
   return std::move(picture.image);
 }
 
-TurnedRelief prepared(const MeasuredCloud& measured, const View& view) {
+ShownModel prepared(const MeasuredCloud& measured, const View& view) {
   auto model = ReliefModel::prepare(find_surface(measured, view).value()).value();
-  return {std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1};
+  return {std::make_shared<const ReliefModel>(std::move(model))};
 }
 
 // Similarities between the picture of a turned relief and that of the relief of all points, in the same view.
@@ -60,7 +60,7 @@ struct Similarities {
 
 Similarities similarities(const Cloud& cloud, const char* from, const char* to) {
   const auto measured = MeasuredCloud::measure(cloud, {}).value();
-  const TurnedRelief before = prepared(*measured, parse_view(from).value());
+  const ShownModel before = prepared(*measured, parse_view(from).value());
   const View view = parse_view(to).value();
   const Turntable table(*measured);
   const Image8 whole = picture_of(prepared(*measured, view));
@@ -98,7 +98,7 @@ TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
   const Turntable table(*measured);
   const View view = parse_view("1,1,1").value();
   test::expect_same_for_any_threads([&] {
-    const TurnedRelief turned = table.turn(view, nullptr).value();
+    const ShownModel turned = table.turn(view, nullptr).value();
     return std::pair(turned.model->surface().points, picture_of(turned).pixels);
   });
 }
@@ -106,7 +106,7 @@ TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
 TEST(Turntable, HasAboutAsManyPointsAsItSays) {
   for (const std::size_t points : {5'000, 50'000, 400'000}) {
     const auto measured = MeasuredCloud::measure(test::sphere(points, 1), {}).value();
-    const TurnedRelief relief = Turntable(*measured).turn({}, nullptr).value();
+    const ShownModel relief = Turntable(*measured).turn({}, nullptr).value();
     const std::size_t made = relief.model->surface().points.size();
     EXPECT_LT(made, Turntable::points * 7 / 5) << points;
     EXPECT_GT(2 * made, std::min(points / 2, Turntable::points)) << points;

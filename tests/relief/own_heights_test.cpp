@@ -174,7 +174,7 @@ TEST(OwnHeights, FramesHaveThemToo) {
   LiveModel live = prepared(letter_before_head(.3));
   FrameMaker maker(live.model());
   Frame frame;
-  maker.make({layered_shape(), height, nullptr}, frame);
+  maker.make({layered_shape(), height}, frame);
   const Relief relief = relief_of(live);
   double most = 0;
   for (std::size_t i = 0; i < relief.heights.size(); ++i)

@@ -133,7 +133,7 @@ TEST(Steps, AreNoDeeperThanInTheModel) {
   expect_error(model.make_at_height(.71, plain(), 10), "at most 7");
   FrameMaker maker(model);
   Frame frame;
-  maker.make({plain(), .71, nullptr}, frame);
+  maker.make({plain(), .71}, frame);
   EXPECT_FALSE(frame.is_height_met);
   EXPECT_NEAR(frame.height, .7, 1e-4);
 }
@@ -176,7 +176,7 @@ TEST(Steps, FramesAreTheRelief) {
     for (const double share : {0., .4}) {
       for (const double height : {.1, .3}) {
         const Relief relief = model.make_at_height(height, plain(share), 1).value();
-        maker.make({plain(share), height, nullptr}, frame);
+        maker.make({plain(share), height}, frame);
         EXPECT_TRUE(frame.is_height_met);
         EXPECT_NEAR(frame.height, height, 1e-3 * height);
         EXPECT_LT(test::largest_difference(frame.heights, relief.heights), 2e-3 * height)

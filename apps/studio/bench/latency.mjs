@@ -136,8 +136,8 @@ function listen(type) {
   const handle = document.querySelector(".letter-handle");
   if (handle && !handle.hidden)
     return new MutationObserver(() => drawn(performance.now())).observe(handle, {attributeFilter: ["style"]});
-  document.querySelector("#stage").addEventListener("picture", ({detail: {about, ms}}) => {
-    heard.pixels = about.width * about.height;
+  document.querySelector("#stage").addEventListener("picture", ({detail: {facts, ms}}) => {
+    heard.pixels = facts.width * facts.height;
     drawn(performance.now() - ms);
   });
 }

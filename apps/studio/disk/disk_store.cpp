@@ -159,9 +159,9 @@ Result<void> DiskStore::keep_document(const std::string& id, std::string_view st
   return {};
 }
 
-Result<void> DiskStore::keep_picture(const std::string& id, std::string_view picture) {
+Result<void> DiskStore::keep_thumbnail(const std::string& id, std::string_view thumbnail) {
   RELIEVO_CHECK(check_id(id));
-  return write(cat(documents, "/", id, ".picture"), picture, Durability::program);
+  return write(cat(documents, "/", id, ".picture"), thumbnail, Durability::program);
 }
 
 void DiskStore::touch(const std::string& id) {

@@ -31,7 +31,7 @@ class DiskStore final : public Store {
   std::string notice() const override { return notice_; }
   Result<std::string> document(const std::string& id) const override;
   Result<void> keep_document(const std::string& id, std::string_view state, bool is_moving) override;
-  Result<void> keep_picture(const std::string& id, std::string_view picture) override;
+  Result<void> keep_thumbnail(const std::string& id, std::string_view thumbnail) override;
   void touch(const std::string& id) override;
   std::vector<KeptDocument> recent(const std::string& after) const override;
   KeptAmount amount() const override;

@@ -13,7 +13,7 @@ export class AlphaRow {
     const {help, min, max} = optionOf("alpha");
     this.range = {label: "Flatness", unit: "", min, max};
     this.input = textField({id: "alpha", "data-option": "alpha", inputmode: "decimal", "aria-label": "Flatness",
-      placeholder: "no effect"}, {take: (text) => this.take(text), show: () => this.show(this.frame)});
+      placeholder: "no effect"}, {take: (text) => this.take(text), show: () => this.show(this.facts)});
     this.help = sentence(help);
     this.element = pair("Flatness", this.input);
     $("#tuning").before(this.element);
@@ -21,16 +21,16 @@ export class AlphaRow {
 
   take(text) {
     const alpha = typedNumber(text, this.range, this.say);
-    if (alpha === null) return this.show(this.frame);
+    if (alpha === null) return this.show(this.facts);
     this.doc.change({isHeightLocked: false, u: uOfAlpha(alpha, this.doc.now.options.saturation)});
   }
 
-  // Shows the alpha of a frame. At saturation 0 and with a tone curve, alpha has no effect.
-  show(frame) {
-    this.frame = frame;
-    this.input.disabled = frame.alpha === null;
+  // Shows the alpha of a picture. At saturation 0 and with a tone curve, alpha has no effect.
+  show(facts) {
+    this.facts = facts;
+    this.input.disabled = facts.alpha === null;
     this.element.title = this.input.disabled ? "Has no effect with a tone curve or with Edge emphasis 0" : this.help;
     if (!isUnfinished(this.input) || this.input.disabled)
-      this.input.value = frame.alpha === null ? "" : Number(frame.alpha.toPrecision(4));
+      this.input.value = facts.alpha === null ? "" : Number(facts.alpha.toPrecision(4));
   }
 }

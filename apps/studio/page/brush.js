@@ -28,9 +28,9 @@ function keptSettings() {
 }
 
 export class Brush {
-  // `facts` returns the facts of the shown model; `say` shows a line to the user.
-  constructor({engine, doc, facts, say}) {
-    Object.assign(this, {engine, doc, facts, say, settings: keptSettings(), at: null, painting: null});
+  // `modelFacts` returns the facts about the shown model; `say` shows a line to the user.
+  constructor({engine, doc, modelFacts, say}) {
+    Object.assign(this, {engine, doc, modelFacts, say, settings: keptSettings(), at: null, painting: null});
     this.kind = make("select", {"aria-label": "Brush"}, ...Object.entries(KINDS).map(([value, {label}]) =>
       make("option", {value}, label)));
     this.kind.onchange = () => this.set({kind: this.kind.value});
@@ -78,8 +78,8 @@ export class Brush {
   // -------------------------------------------------------------------------------------------------- the picture
 
   // Returns the longer side of the figure in the scan's units and in mm of the picture.
-  scaleOf({about: {relief_mm: [low, high]}}) {
-    return {longer: Math.max(...this.facts().size), longerMm: Math.max(high[0] - low[0], high[1] - low[1])};
+  scaleOf({facts: {relief_mm: [low, high]}}) {
+    return {longer: Math.max(...this.modelFacts().size), longerMm: Math.max(high[0] - low[0], high[1] - low[1])};
   }
 
   radiusIn = (stage) => this.scaleOf(stage).longerMm * this.settings.size / 200 * stage.pixelsPerMm;
@@ -91,25 +91,25 @@ export class Brush {
   // Returns the place of a pixel in shares of the figure's box, as the engine has it: in pieces that are mirrored, from
   // the right.
   shareOf(stage, [px, py]) {
-    const {relief_mm: [low, high]} = stage.about, place = stage.toPlace(px, py);
+    const {relief_mm: [low, high]} = stage.facts, place = stage.toPlace(px, py);
     const [u, v] = place.map((x, i) => (x - low[i]) / (high[i] - low[i]));
     return [this.isMirroredForm ? 1 - u : u, v];
   }
 
   // Returns why nothing can be painted now; an empty text if it can.
-  refusal({about, isAwaiting, turning}) {
+  refusal({facts, isAwaiting, turning}) {
     const {now} = this.doc;
-    if (isAwaiting || turning.shown || !this.facts())
+    if (isAwaiting || turning.shown || !this.modelFacts())
       return "Wait until the view is prepared: then the relief can be painted.";
     if (now.options.method === "paper")
       return "The method “All forms alike” takes no strokes: choose the other method to paint.";
     if (hasScale(now)) return "One vertical scale gives the heights: they cannot be painted.";
-    return about.relief_mm ? "" : "A piece that is bent cannot be painted: choose another kind, paint, and come back.";
+    return facts.relief_mm ? "" : "A piece that is bent cannot be painted: choose another kind, paint, and come back.";
   }
 
   // Returns the pixel of a point of the model in the picture from the front.
   pixelOf(stage, point) {
-    const {relief_mm: [low, high]} = stage.about, {rotation, origin, size} = this.facts();
+    const {relief_mm: [low, high]} = stage.facts, {rotation, origin, size} = this.modelFacts();
     const [u, v] = [0, 1].map((row) =>
       (point.reduce((sum, x, i) => sum + rotation[3 * row + i] * x, -origin[row])) / size[row]);
     return stage.toPixels([this.isMirroredForm ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
@@ -117,7 +117,7 @@ export class Brush {
 
   // Returns the point of the model's space at a place, as deep in the view as another point.
   pointAt(place, other) {
-    const {rotation, origin, size} = this.facts(), row = (i) => rotation.slice(3 * i, 3 * i + 3);
+    const {rotation, origin, size} = this.modelFacts(), row = (i) => rotation.slice(3 * i, 3 * i + 3);
     const depth = row(2).reduce((sum, x, i) => sum + x * other[i], 0);
     const seen = [...place.map((share, i) => origin[i] + share * size[i]), depth];
     return [0, 1, 2].map((axis) => seen.reduce((sum, x, i) => sum + x * row(i)[axis], 0));
@@ -125,7 +125,7 @@ export class Brush {
 
   // The direction towards the viewer in the scan's coordinates.
   get toViewer() {
-    return this.facts().rotation.slice(6, 9).map((x) => Number(x.toFixed(6)));
+    return this.modelFacts().rotation.slice(6, 9).map((x) => Number(x.toFixed(6)));
   }
 
   // Marks a stroke of the document on the picture, or none if that is null.
@@ -146,7 +146,7 @@ export class Brush {
   // Returns SVG elements: the highlighted stroke, the outline of the brush, and the part that it changes fully.
   marks(stage) {
     this.stage = stage;
-    if (!stage.about?.relief_mm || !this.facts() || stage.isAwaiting) return [];
+    if (!stage.facts?.relief_mm || !this.modelFacts() || stage.isAwaiting) return [];
     return [...this.strokeMarks(stage), ...(stage.tool === "brush" ? this.brushMarks(stage) : [])];
   }
 
@@ -205,7 +205,7 @@ export class Brush {
   toggle(stage) {
     if (this.painting) return this.end();
     const {width, height} = stage.size, [offsetX, offsetY] = this.at ?? [width / 2, height / 2];
-    this.doc.endStroke();
+    this.doc.endGesture();
     this.press(stage, {offsetX, offsetY});
     if (this.painting?.settings.area === "region") this.end();
   }

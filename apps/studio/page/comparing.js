@@ -61,7 +61,7 @@ export class Comparing {
 
   rivalRequest(isFine, isLast) {
     const {stage} = this, {light} = stage.doc.now;
-    return stage.request({...stage.pixels(isFine), fine: isFine, finished: isLast, light},
+    return stage.request({...stage.pictureSize(isFine), fine: isFine, finished: isLast, light},
       {...stage.doc.now, ...this.shownRival});
   }
 
@@ -69,7 +69,7 @@ export class Comparing {
   // the centre of the plate. If the figure is mirrored, camera and light are mirrored for the request, and paint()
   // mirrors the picture.
   request(isFine) {
-    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true,
+    const {stage} = this, request = stage.request({...stage.pictureSize(isFine), fine: isFine, original: true,
       attention: Boolean(this.hasAttention)});
     const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
     request.camera = {...camera, yaw: sign * camera.yaw, x: sign * (camera.x - x), y: camera.y - y};
@@ -85,7 +85,7 @@ export class Comparing {
   // `isLast` is true for the last picture of a state, which shows the finished piece.
   async draw(isFine, isLast) {
     const {stage, shownRival: rival} = this, request = rival ? this.rivalRequest(isFine, isLast) : this.request(isFine);
-    const {options, ...rest} = request, {margin, thickness, form} = options, {width_mm: width} = stage.about;
+    const {options, ...rest} = request, {margin, thickness, form} = options, {width_mm: width} = stage.facts;
     const wanted = rival ? [options] : [width, margin, thickness, form];
     const key = JSON.stringify([stage.model, stage.pixelsPerMm, Boolean(rival), wanted, rest]);
     if (key === this.drawn) return;
@@ -93,8 +93,8 @@ export class Comparing {
     const {zoom} = request.camera;
     for (let isAgain = false; ; isAgain = true) {
       request.camera.zoom = clamp(zoom * this.ratio, LEAST_ZOOM, MOST_ZOOM);
-      const {image, about} = await stage.engine.frame(request);
-      const wrong = stage.pixelsPerMm / (about.pixels_per_mm * stage.size.width / image.width);
+      const {image, facts} = await stage.engine.picture(request);
+      const wrong = stage.pixelsPerMm / (facts.pixels_per_mm * stage.size.width / image.width);
       if (isAgain || Math.abs(wrong - 1) < ALIKE) return this.paint(image, key);
       this.ratio *= wrong;
     }
@@ -118,7 +118,7 @@ export class Comparing {
   // In the front view, replaces the model's own rectangular plate by the plate of the piece, if the plate of the piece
   // is round or has a given size. `scale` is the number of the picture's pixels per pixel of the page.
   layOnPlate(context, scale) {
-    const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
+    const {stage} = this, {camera, facts: {relief_mm: figure, size_mm: size}} = stage;
     const {outline, plate, wrap, margin} = stage.doc.now.options, isEllipse = isRound(outline);
     if (!(isEllipse || plate) || wrap !== "none" || camera.yaw || camera.pitch || !figure) return;
     const at = (x, y) => stage.toPixels([x, y]).map((pixel) => pixel * scale);

@@ -3,7 +3,7 @@
 
 import {about} from "./about.js";
 import {$, ARROWS, Pause, clamp, make} from "./controls.js";
-import {REST_MS} from "./slider.js";
+import {GESTURE_END_MS} from "./slider.js";
 
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
 const AROUND = 9; // margin of the diagram in its units, so that handles at its ends are not cut off
@@ -25,7 +25,7 @@ export class CurveEditor {
   // Calls onChange(tone) while the user moves a point, and then onEnd(). onChange() returns the tone curve to show.
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
-    this.rest = new Pause(onEnd, REST_MS);
+    this.rest = new Pause(onEnd, GESTURE_END_MS);
     this.svg = make("svg", {
       viewBox: [-AROUND, -AROUND, WIDTH + 2 * AROUND, HEIGHT + 2 * AROUND].join(" "), role: "group", "aria-label": "Tone curve",
     });

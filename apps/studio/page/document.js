@@ -39,8 +39,8 @@ function unlessChanged({options = {}, ...part}, base, later) {
 }
 
 export class Document {
-  constructor(onChange, onStrokeEnd = () => {}) {
-    Object.assign(this, {onChange, onStrokeEnd});
+  constructor(onChange, onGestureEnd = () => {}) {
+    Object.assign(this, {onChange, onGestureEnd});
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // number of old steps that were dropped from the beginning of `steps`
@@ -60,13 +60,13 @@ export class Document {
     this.steps = [step];
     this.at = 0;
     this.changedAt = 0; // makes any stored state newer
-    this.stroke = null;
+    this.gesture = null;
   }
 
-  // Changes the document. Changes with the same `stroke`, such as those of one drag, are undone together.
-  change(part, stroke = null) {
+  // Changes the document. Changes with the same `gesture`, such as those of one drag, are undone together.
+  change(part, gesture = null) {
     const before = this.now;
-    if (this.append(part, stroke)) this.onChange(before);
+    if (this.append(part, gesture)) this.onChange(before);
   }
 
   // Returns the number of steps before the current one, dropped steps included.
@@ -87,27 +87,27 @@ export class Document {
     this.steps = [...this.steps.slice(0, at + 1), ...this.steps.slice(at, this.at + 1).map((step) =>
       withPart(step, unlessChanged(part, base, step)))];
     this.at = this.steps.length - 1;
-    if (this.stroke !== null)
-      this.beforeStroke = {steps: this.steps.slice(0, -1), at: this.at - 1, forgotten: this.forgotten};
+    if (this.gesture !== null)
+      this.beforeGesture = {steps: this.steps.slice(0, -1), at: this.at - 1, forgotten: this.forgotten};
     this.stamp();
     this.onChange(before);
   }
 
   // Makes the same change as change(), but does not call onChange(). Returns whether anything has changed.
-  append(part, stroke = null) {
-    if (stroke !== null && stroke === this.cancelled) return false;
+  append(part, gesture = null) {
+    if (gesture !== null && gesture === this.cancelled) return false;
     const next = withPart(this.now, part);
     if (isSameStep(next, this.now)) return false;
-    if (stroke !== null && stroke === this.stroke) {
+    if (gesture !== null && gesture === this.gesture) {
       this.steps[this.at] = next;
     } else {
       const {steps, at, forgotten} = this, excess = Math.max(0, at + 2 - MOST_STEPS);
-      this.beforeStroke = {steps, at, forgotten};
+      this.beforeGesture = {steps, at, forgotten};
       this.forgotten += excess;
       this.steps = [...steps.slice(excess, at + 1), next];
       this.at = this.steps.length - 1;
     }
-    this.stroke = stroke;
+    this.gesture = gesture;
     this.stamp();
     return true;
   }
@@ -117,21 +117,21 @@ export class Document {
     this.steps[this.at] = withPart(this.now, part);
   }
 
-  // Ends the running stroke. If `stroke` is given, ends only that stroke: the pause of a slider may end when the next
+  // Ends the running gesture. If `gesture` is given, ends only that one: the pause of a slider may end when the next
   // drag has already begun.
-  endStroke(stroke = null) {
-    if (stroke !== null && stroke !== (this.stroke ?? this.cancelled)) return;
-    this.stroke = this.cancelled = null;
-    this.onStrokeEnd();
+  endGesture(gesture = null) {
+    if (gesture !== null && gesture !== (this.gesture ?? this.cancelled)) return;
+    this.gesture = this.cancelled = null;
+    this.onGestureEnd();
   }
 
-  // Undoes the changes of the running stroke, and ignores its further changes. Returns whether a stroke was running.
-  cancelStroke() {
-    if (this.stroke === null) return false;
+  // Undoes the changes of the running gesture, and ignores its further changes. Returns whether a gesture was running.
+  cancelGesture() {
+    if (this.gesture === null) return false;
     const before = this.now;
-    this.cancelled = this.stroke;
-    this.stroke = null;
-    Object.assign(this, this.beforeStroke); // also restores the steps that redo needs
+    this.cancelled = this.gesture;
+    this.gesture = null;
+    Object.assign(this, this.beforeGesture); // also restores the steps that redo needs
     this.stamp();
     this.onChange(before);
     return true;
@@ -146,7 +146,7 @@ export class Document {
     if (!this.can(by)) return;
     const before = this.now;
     this.at += by;
-    this.stroke = null;
+    this.gesture = null;
     this.stamp();
     this.onChange(before);
   }
@@ -160,7 +160,7 @@ export class Document {
       ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
     this.at = kept.at;
     this.changedAt = kept.changed ?? 0;
-    this.stroke = null;
+    this.gesture = null;
     return true;
   }
 }

@@ -3,12 +3,13 @@
 //
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
-//                                  drawsMeanwhile: whether it draws pictures while a piece is made; canRemove: whether
-//                                  documents are stored until the user removes them; slowMs: if frames take longer,
-//                                  they get fewer pixels}. The Engine has the same traits
-//   call(name, request, {files, signal, onSolved}) -> {about, body}: the body is an object, a Blob, or the bytes of a
-//                                  picture; `about` has facts about the picture; the request is optional; onSolved is
-//                                  called when a frame only has to be drawn, if the next one can be solved meanwhile
+//                                  drawsMeanwhile: whether it draws pictures while a piece is made, and while the
+//                                  first view is prepared; canRemove: whether documents are stored until the user
+//                                  removes them; slowMs: if pictures take longer, they get fewer pixels}. The Engine
+//                                  has the same traits
+//   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
+//                                  picture; `facts` has facts about it; the request is optional; onSolved is
+//                                  called when a picture only has to be drawn, if the next one can be solved meanwhile
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
 //                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
@@ -46,9 +47,9 @@ export class Engine {
   }
 
   async #picture(name, request, options) {
-    const {about, body} = await this.#call(name, request, options);
+    const {facts, body} = await this.#call(name, request, options);
     const pixels = new Uint8ClampedArray(body.buffer, body.byteOffset, body.length);
-    return {image: new ImageData(pixels, about.width, about.height), about};
+    return {image: new ImageData(pixels, facts.width, facts.height), facts};
   }
 
   #make(name, request) {
@@ -76,12 +77,13 @@ export class Engine {
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
 
+  // Returns the facts about the shown model.
   facts = () => this.#ask("facts");
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, about}. `options.signal` can cancel the picture, options.onSolved is that of the transport.
-  frame = (request, options) => this.#picture("frame", request, options);
+  // Return {image: ImageData, facts}. `options.signal` can cancel the picture, options.onSolved is that of the transport.
+  picture = (request, options) => this.#picture("picture", request, options);
   scan = (request) => this.#picture("scan", request);
   // Returns a depth image, in which the pixels that were left out have the colours that its facts state.
   pixels = () => this.#picture("pixels");
@@ -109,14 +111,14 @@ export class Engine {
     return this.#ask("cancel_piece");
   }
 
-  // Returns {document, input, is_there, picture} of the most recently changed documents, or of those that follow the
+  // Returns {document, input, is_there, thumbnail} of the most recently changed documents, or of those that follow the
   // document `after`.
   recent = async (after = "") => (await this.#ask("recent", {after})).recent;
   // Returns {documents, bytes}: the number of stored documents and the size of all that is stored.
   kept = () => this.#ask("kept");
   remove = (document) => this.#ask("remove", {document, tab: TAB});
   keep = (document, state, isMoving) => this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
-  keepPicture = (document, picture) => this.#ask("picture", {document, picture});
+  keepThumbnail = (document, thumbnail) => this.#ask("thumbnail", {document, thumbnail});
   // Reports that the user leaves the page. Ignores errors.
   leave = () => this.#ask("leave", {tab: TAB}).catch(() => {});
 }

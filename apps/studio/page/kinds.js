@@ -148,7 +148,7 @@ export class KindCards {
   show() {
     const kind = kindOf(this.doc.now), isPending = this.entries.isPending("kind");
     for (const card of $("#kinds").children) card.ariaBusy = isPending ? "true" : null;
-    if (this.doc.stroke === null) this.showTitles();
+    if (this.doc.gesture === null) this.showTitles();
     if (kind === this.shown) return; // this method runs for each event of a drag
     this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
@@ -173,7 +173,7 @@ export class KindCards {
       const {options, ...step} = this.stepOf(kind), {material, light} = step;
       const request = {options: shownOptions({options}), material, light, width: WIDTH, height: HEIGHT,
         camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}, ...(!model && {turned})};
-      const made = await this.engine.frame(request).catch(() => null); // the kind may be impossible in this view
+      const made = await this.engine.picture(request).catch(() => null); // the kind may be impossible in this view
       if (!made || key !== this.model) continue;
       const card = $(`#kinds [data-kind="${kind}"]`);
       paint($("canvas", card), made.image);

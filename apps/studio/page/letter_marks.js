@@ -4,7 +4,7 @@
 import {ARROWS, Pause, make} from "./controls.js";
 import {degrees} from "./lights.js";
 import {angleOf, hasPlace, isOnArc, nameOf} from "./ornaments.js";
-import {REST_MS} from "./slider.js";
+import {GESTURE_END_MS} from "./slider.js";
 
 const BESIDE = 30; // pixels from the middle of letters to their handle
 
@@ -33,14 +33,14 @@ function extentOf(outlines) {
 }
 
 export class LetterMarks {
-  // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, stroke).
+  // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, gesture).
   constructor({stage, doc, panel}) {
     Object.assign(this, {stage, doc, panel, placed: [], drag: null});
-    this.rest = new Pause(() => doc.endStroke("letters"), REST_MS);
+    this.rest = new Pause(() => doc.endGesture("letters"), GESTURE_END_MS);
     this.handle = make("button", {type: "button", class: "letter-handle", hidden: true});
     this.listen();
     stage.element.append(this.handle);
-    stage.letterMarks = (about) => this.marks(about);
+    stage.letterMarks = (facts) => this.marks(facts);
   }
 
   // Takes the outlines of the list's ornaments, as the engine has placed them.
@@ -68,9 +68,9 @@ export class LetterMarks {
 
   // Returns the marks over a picture, and shows the handle at its place. There are none while the piece is seen
   // obliquely or is bent.
-  marks(about) {
+  marks(facts) {
     const {stage, panel} = this, {yaw, pitch} = stage.camera, {list, chosen} = panel;
-    const isFlat = about && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !about.isTurned;
+    const isFlat = facts && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !facts.isTurned;
     if (!isFlat || !panel.isShown) return this.showHandle(null), [];
     const [x, y] = stage.toPixels([0, 0]), scale = stage.pixelsPerMm;
     if (!this.placed[chosen]?.path || !list[chosen]) this.showHandle(null);
@@ -79,8 +79,8 @@ export class LetterMarks {
       if (!list[i] || !placed.path) return [];
       const {transform, handle} = this.movement(list[i], placed), isChosen = i === chosen;
       if (isChosen) this.showHandle(list[i], handle);
-      const isHidden = about.has_ornaments && !(isChosen && this.drag);
-      const look = about.ornament_error ? " refused" : "";
+      const isHidden = facts.has_ornaments && !(isChosen && this.drag);
+      const look = facts.ornament_error ? " refused" : "";
       return isHidden ? [] : [make("path", {class: `letter${look}`, d: placed.path, transform: base + transform})];
     });
   }
@@ -110,7 +110,7 @@ export class LetterMarks {
     handle.onpointerdown = (event) => {
       event.stopPropagation(); // the picture's tool must not take it
       handle.setPointerCapture(event.pointerId);
-      this.doc.endStroke();
+      this.doc.endGesture();
       const {list, chosen} = this.panel, at = list[chosen].at ?? this.placed[chosen]?.at ?? [0, 0];
       this.drag = {from: place(event), ornament: list[chosen], at};
     };
@@ -120,7 +120,7 @@ export class LetterMarks {
     };
     handle.onlostpointercapture = () => {
       this.drag = null;
-      this.doc.endStroke("letters");
+      this.doc.endGesture("letters");
       this.stage.drawOverlay();
       this.panel.refresh();
     };

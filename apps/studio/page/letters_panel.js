@@ -46,7 +46,7 @@ export class LettersPanel {
         ...(kind === "beads" && {"data-option": "ornaments"})}, `Add ${kind === "text" ? "a text" : kind === "line" ? "a line"
         : kind === "rope" ? "a rope" : kind}`)));
     this.takeFiles();
-    stage.element.addEventListener("picture", ({detail}) => this.pictured(detail.about));
+    stage.element.addEventListener("picture", ({detail}) => this.pictured(detail.facts));
   }
 
   // Adds the button for drawings, and makes the panel take fonts and drawings that are dropped on it.
@@ -91,7 +91,7 @@ export class LettersPanel {
 
   // Returns size and place of a new drawing: on the ground below the relief.
   roomForDrawing() {
-    const {size_mm: size, relief_mm: relief} = this.frame ?? {}, {margin} = this.doc.now.options;
+    const {size_mm: size, relief_mm: relief} = this.facts ?? {}, {margin} = this.doc.now.options;
     const low = size ? -size[1] / 2 : 0, high = relief ? relief[0][1] : low + (margin ?? 0);
     const rounded = (mm) => Math.round(mm * 100) / 100;
     return {size: Math.max(1, rounded(SHARE_OF_GROUND * (high - low))), at: [0, rounded((low + high) / 2)]};
@@ -125,8 +125,8 @@ export class LettersPanel {
   }
 
   // Changes an ornament. A key without a value gets the engine's default.
-  set(at, part, stroke = null) {
-    this.doc.change(partOf(this.list.map((each, i) => (i === at ? withoutEmpty({...each, ...part}) : each))), stroke);
+  set(at, part, gesture = null) {
+    this.doc.change(partOf(this.list.map((each, i) => (i === at ? withoutEmpty({...each, ...part}) : each))), gesture);
   }
 
   choose(at) {
@@ -181,8 +181,8 @@ export class LettersPanel {
   textRow(at) {
     const show = ({text}) => isUnfinished(input) || (input.value = text);
     const input = textField({"aria-label": "Text", maxlength: 500}, {
-      take: (text) => (text ? this.set(at, {text}, "letters") : 0, this.doc.endStroke("letters"), this.show()),
-      show: () => (this.doc.cancelStroke(), show(this.list[at]))});
+      take: (text) => (text ? this.set(at, {text}, "letters") : 0, this.doc.endGesture("letters"), this.show()),
+      show: () => (this.doc.cancelGesture(), show(this.list[at]))});
     input.oninput = () => input.value.trim() && this.set(at, {text: input.value.trim()}, "letters");
     return {row: pair("Text", input), show};
   }
@@ -205,14 +205,14 @@ export class LettersPanel {
   }
 
   numberRow(name, at) {
-    const about = NUMBERS[name], {label, unit} = about, isLength = unit === "mm";
+    const number = NUMBERS[name], {label, unit} = number, isLength = unit === "mm";
     const show = (ornament) => {
       const value = ornament[name] ?? "";
       if (!isUnfinished(input)) input.value = isLength && value !== "" ? shortLength(value) : value;
     };
     const input = textField({inputmode: "decimal", "aria-label": label, placeholder: "automatic"}, {
       take: (text) => {
-        const value = text === "" ? null : typedNumber(text, about, this.say);
+        const value = text === "" ? null : typedNumber(text, number, this.say);
         if (text === "" || value !== null) this.set(at, {[name]: value});
         this.show();
       }, show: () => show(this.list[at])});
@@ -227,8 +227,8 @@ export class LettersPanel {
   }
 
   // Takes the facts about the newest picture, which may say that ornaments have no room.
-  pictured(frame) {
-    this.frame = frame;
+  pictured(facts) {
+    this.facts = facts;
     this.refresh();
     this.tell();
   }
@@ -246,7 +246,7 @@ export class LettersPanel {
 
   // Shows why ornaments are not made.
   tell() {
-    const error = this.errors[0] ?? this.frame?.ornament_error, hasList = this.list.length > 0;
+    const error = this.errors[0] ?? this.facts?.ornament_error, hasList = this.list.length > 0;
     const noGround = "There is no ground around the relief for them.";
     const text = hasList && !this.isShown ? noGround : hasList && error ? inWords({...error, message: error.text}) : "";
     if ($("#ornaments-note").textContent !== text) $("#ornaments-note").textContent = text;

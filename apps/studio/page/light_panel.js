@@ -5,7 +5,7 @@ import {hasScale} from "./document.js";
 import {isUnfinished} from "./inputs.js";
 import {typedNumber} from "./lengths.js";
 import {angles, degrees, direction} from "./lights.js";
-import {REST_MS} from "./slider.js";
+import {GESTURE_END_MS} from "./slider.js";
 
 const LOWEST = 5, HIGHEST = 85; // degrees of elevation that the engine takes
 const RADIUS = 46; // of the dial, in its own units
@@ -29,7 +29,7 @@ const lightAt = (x, y) => ({azimuth: degrees(Math.atan2(-y, x)), elevation: 90 *
 export class LightPanel {
   // `sliders` has the elements of the sliders by the names of their options; `say` shows a line to the user.
   constructor({doc, sliders, say}) {
-    Object.assign(this, {doc, sliders, say, facts: null, rest: new Pause(() => doc.endStroke("aim"), REST_MS)});
+    Object.assign(this, {doc, sliders, say, facts: null, rest: new Pause(() => doc.endGesture("aim"), GESTURE_END_MS)});
     this.input = make("input", {type: "checkbox", id: "light", "data-option": "light", "aria-label": "Made for one light",
       onchange: ({target}) => doc.change({options: {light: target.checked ? textOf(angles(doc.now.light)) : ""}})});
     this.choice = pair("Made for one light", this.input);
@@ -66,11 +66,11 @@ export class LightPanel {
     };
     this.knob.onpointerdown = (event) => {
       this.knob.setPointerCapture(event.pointerId);
-      this.doc.endStroke();
+      this.doc.endGesture();
       move(event);
     };
     this.knob.onpointermove = (event) => this.knob.hasPointerCapture(event.pointerId) && move(event);
-    this.knob.onlostpointercapture = () => this.doc.endStroke("aim");
+    this.knob.onlostpointercapture = () => this.doc.endGesture("aim");
     this.knob.onkeydown = (event) => this.step(event);
     return this.knob;
   }
@@ -85,11 +85,11 @@ export class LightPanel {
   }
 
   // Makes the relief for a light, and shows it under that light.
-  aim(light, stroke = null) {
+  aim(light, gesture = null) {
     const text = textOf(light), {azimuth, elevation} = parse(text);
     const lamp = direction(azimuth, elevation).map((x) => Math.round(x * 1e4) / 1e4);
-    this.doc.change({light: lamp, options: {light: text}}, stroke);
-    if (stroke) this.show(); // other controls follow when the drag rests
+    this.doc.change({light: lamp, options: {light: text}}, gesture);
+    if (gesture) this.show(); // other controls follow when the drag rests
   }
 
   tell(facts) {

@@ -35,24 +35,24 @@ import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
 import {SnapshotPanel} from "./snapshot_panel.js";
 import {StrokePanel} from "./stroke_panel.js";
-import {START, Shelf, nameOf, showSamples, smallPicture} from "./start.js";
+import {START, Shelf, nameOf, showSamples, thumbnailOf} from "./start.js";
 import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
-const PICTURE_MS = 600; // time from the fine picture until the document's small picture is stored
+const THUMBNAIL_MS = 600; // time from the fine picture until the document's thumbnail is stored
 const SHOW_MS = 120; // pause in a drag until all controls are updated
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
 const entries = new Entries({engine, doc, changed: showEntries, refused});
-const sliders = new Sliders({doc, entries, frame: () => last, say: refuse});
+const sliders = new Sliders({doc, entries, facts: () => facts, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, entries, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
-const brush = new Brush({engine, doc, facts: () => facts, say: refuse});
+const brush = new Brush({engine, doc, modelFacts: () => modelFacts, say: refuse});
 const strokePanel = new StrokePanel({doc, brush});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, brush, viewRests: () => shownView.choose()});
-const curve = new CurveEditor(changeTone, () => doc.endStroke());
+const curve = new CurveEditor(changeTone, () => doc.endGesture());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const modes = new Modes({stage, doc, cropFrame, sliders: sliders.elements, compared: () => snapshotPanel.mark()});
 const snapshotPanel = new SnapshotPanel({doc, modes});
@@ -62,14 +62,14 @@ const lightPanel = new LightPanel({doc, sliders: sliders.elements, say: refuse})
 const letters = new LettersPanel({engine, doc, stage, say: refuse});
 const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
 const depthPanel = new DepthPanel({engine, doc, rows: pieces.elements});
-const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
+const outcome = new Outcome({doc, stage, entries, pieces, facts: () => facts});
 const exporting = new ExportDialog({engine, outcome, name: () => fileName(doc.now), heightText, say: toast});
-const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
+const isAtRest = () => !stage.isAsking && doc.gesture === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, entries, isAtRest, say: refuse});
 const kindPanel = new KindPanel({doc, entries, elements: {...pieces.elements, ...sliders.elements}});
 const tour = new Tour(() => {
-  if (facts && !$("#start").hidden) showStart(false);
-  return facts !== null;
+  if (modelFacts && !$("#start").hidden) showStart(false);
+  return modelFacts !== null;
 });
 const scenePanel = new ScenePanel({say: refuse, open: async (models) => {
   await outcome.entered();
@@ -92,8 +92,8 @@ const reach = new Reach({engine, doc, slider: () => sliders.all.height, chooseVi
 const projects = new Projects({engine, open: openInput, take, failed, rest: () => opened.id || showStart(true)});
 const shelf = new Shelf({engine, opened, keeper, open: openInput, failed});
 
-let facts = null; // facts about the shown model
-let last = null; // facts about the newest picture
+let modelFacts = null; // facts about the shown model
+let facts = null; // facts about the newest picture
 let isKept = !about.notice;
 
 // Sets the tone curve. Returns the curve of the document, which is the former one if the drag was cancelled.
@@ -108,7 +108,7 @@ function chooseUnit(unit) {
   sliders.showUnit();
   letters.show();
   pieces.show();
-  if (last) stage.invalidate();
+  if (facts) stage.invalidate();
 }
 
 // Shows why an entry was refused, until the user makes the next entry.
@@ -128,9 +128,9 @@ addEventListener("change", ({target}) => target.type !== "range" && takeRefusalB
 function changed(before) {
   const {now} = doc;
   if (doc.steps.includes(before)) takeRefusalBack(); // not for the later changes of a drag
-  opened.keep(doc.stroke !== null);
+  opened.keep(doc.gesture !== null);
   tour.takeBack();
-  doc.stroke === null ? showDocument() : showing.begin();
+  doc.gesture === null ? showDocument() : showing.begin();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
     shownView.choose();
@@ -167,7 +167,7 @@ function showDocument() {
   strokePanel.show();
   snapshotPanel.show();
   entries.show();
-  views.tell(doc.now, facts !== null);
+  views.tell(doc.now, modelFacts !== null);
   modes.showMaterial(material);
   $("#title").textContent = nameOf(input);
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
@@ -187,42 +187,42 @@ addEventListener("pagehide", () => engine.leave());
 
 // --------------------------------------------------------------------------------------------------- pictures
 
-const pictureRests = new Pause(keepPicture, PICTURE_MS);
-async function keepPicture() {
-  const {id} = opened, small = opened.isReady ? smallPicture($("#picture")) : "";
-  if (small) await engine.keepPicture(id, small).catch(() => {}); // documents need no picture
+const pictureRests = new Pause(keepThumbnail, THUMBNAIL_MS);
+async function keepThumbnail() {
+  const {id} = opened, thumbnail = opened.isReady ? thumbnailOf($("#picture")) : "";
+  if (thumbnail) await engine.keepThumbnail(id, thumbnail).catch(() => {}); // documents need no thumbnail
 }
 
-function pictured(frame, ms, isFine) {
-  last = frame;
-  const isOfView = !frame.isTurned && !opened.asked && !opened.status.busy; // other views have other heights
-  if (isOfView && frame.options["height-of-diagonal"]) {
-    doc.note({options: {height: frame.height_mm, "height-of-diagonal": null}});
-    sliders.all.height.show(frame.height_mm);
+function pictured(newest, ms, isFine) {
+  facts = newest;
+  const isOfView = !facts.isTurned && !opened.asked && !opened.status.busy; // other views have other heights
+  if (isOfView && facts.options["height-of-diagonal"]) {
+    doc.note({options: {height: facts.height_mm, "height-of-diagonal": null}});
+    sliders.all.height.show(facts.height_mm);
   }
   const {u, options} = doc.now; // u or the height may have changed since the picture was requested
-  const isNewest = u === null ? frame.options.height === options.height : frame.u === u;
+  const isNewest = u === null ? facts.options.height === options.height : facts.u === u;
   if (!doc.now.isHeightLocked && isOfView && isNewest && !hasScale(doc.now)) {
-    const slider = sliders.all.height, rounded = slider.rounded(frame.height_mm);
+    const slider = sliders.all.height, rounded = slider.rounded(facts.height_mm);
     // A computed height is rounded to the slider's decimals. A very low height is not, since rounding would change it
     // much.
-    const height = rounded < 0.1 ? frame.height_mm : rounded;
-    doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
+    const height = rounded < 0.1 ? facts.height_mm : rounded;
+    doc.note({u: facts.u, options: {height: clamp(height, 1e-3, 1e5)}});
     slider.show(doc.now.options.height);
   }
   sliders.showWidth();
   sliders.showScaled();
   if (opened.status.busy) showProgress(opened.status, false);
-  alphaRow.show(frame);
+  alphaRow.show(facts);
   isFine ? pictureRests.begin() : pictureRests.end();
-  curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
-  if (opened.isReady) reach.pictured(frame, isFine, stage.model);
+  curve.show({samples: facts.curve, histogram: modelFacts?.histogram ?? []});
+  if (opened.isReady) reach.pictured(facts, isFine, stage.model);
   if (isFine) kinds.pictured(opened.isReady ? stage.model : 0, stage.turning.shown);
-  if (isFine) showToolReach(frame.tool);
-  if (isFine) kindPanel.pictured(frame);
-  sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
-  showNumbers({about: frame, ms, isFine, facts, height: heightText(frame.relief_height_mm)});
-  stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
+  if (isFine) showToolReach(facts.tool);
+  if (isFine) kindPanel.pictured(facts);
+  sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(facts, doc.now.options.detail)}`;
+  showNumbers({facts, ms, isFine, modelFacts, height: heightText(facts.relief_height_mm)});
+  stage.element.dispatchEvent(new CustomEvent("picture", {detail: {facts, ms, isFine}}));
 }
 
 // Returns a height as its field shows it.
@@ -233,7 +233,7 @@ function heightText(mm) {
 // --------------------------------------------------------------------------------------------------- documents
 
 function progress(status) {
-  showProgress(status, last === null);
+  showProgress(status, facts === null);
   exporting.progress(status);
   if (stage.isReady && stage.model === status.model) shownView.settle(status);
 }
@@ -242,7 +242,7 @@ function progress(status) {
 function begun(former) {
   if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
   $(".inspector").scrollTop = 0;
-  facts = last = null;
+  modelFacts = facts = null;
   shownView.clear();
   $("#picture").width = $("#before").width = 1;
   scanPanel.tell(null);
@@ -261,9 +261,9 @@ function begun(former) {
 }
 
 // Shows a turned relief while the first view is being prepared.
-function measured({shown}) {
+function measured({requested}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
-  doc.note({options: optionsOf(opened.wantedView(shown), doc.now)});
+  doc.note({options: optionsOf(opened.wantedView(requested), doc.now)});
   showDocument();
   $("#choose-view").disabled = false;
   stage.isReady = true;
@@ -276,7 +276,7 @@ async function arrived(status) {
   try {
     const found = await engine.facts();
     if (id !== opened.id || status.model !== opened.model) return; // another model has arrived meanwhile
-    facts = found;
+    modelFacts = found;
   } catch (error) {
     return failed(error);
   }
@@ -285,11 +285,11 @@ async function arrived(status) {
   shownView.arrived(status);
   showDocument();
   stage.share = 1;
-  scanPanel.tell(facts);
-  depthPanel.tell(facts.depth_image).catch(failed);
-  lightPanel.tell(facts);
+  scanPanel.tell(modelFacts);
+  depthPanel.tell(modelFacts.depth_image).catch(failed);
+  lightPanel.tell(modelFacts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : facts.models); // a new scene file would not find the models' files
+  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models); // a new scene file would not find the models' files
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
@@ -299,7 +299,7 @@ const reopening = new Pause(() => opened.closed().catch(failed), 200);
 function failed(error) {
   const isReady = opened.isReady && !opened.status.busy;
   if (error.kind === "geometry" && !isReady) return; // the next status will report this error
-  if (placing.fit(error, last)) return opened.keep(), stateCame();
+  if (placing.fit(error, facts)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error));
   reopening.begin();
@@ -340,7 +340,7 @@ function showStart(isShown) {
   else stage.invalidate();
 }
 
-const showRecentNow = () => keepPicture().then(() => shelf.show());
+const showRecentNow = () => keepThumbnail().then(() => shelf.show());
 
 // ------------------------------------------------------------------------------------------------------- start
 
@@ -356,7 +356,7 @@ async function resume({first, recent}) {
 
 async function start() {
   takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, brush, opened, tour, save: saveProject, openFiles,
-    isThere: () => facts !== null, showStart, chooseUnit, failed});
+    isThere: () => modelFacts !== null, showStart, chooseUnit, failed});
   document.body.inert = false; // clicks before this would be lost
   $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";
   chooseUnit($("#unit").value);

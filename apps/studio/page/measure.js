@@ -102,7 +102,7 @@ export class Measure {
   // ------------------------------------------------------------------------------------------------- the section
 
   middleLine() {
-    const half = this.stage.about.size_mm[0] / 2;
+    const half = this.stage.facts.size_mm[0] / 2;
     return {from: [-half, 0], to: [half, 0]};
   }
 
@@ -110,7 +110,7 @@ export class Measure {
   async cut(line) {
     const {stage} = this, {outline, wrap} = stage.doc.now.options;
     const isEllipse = isRound(outline) && wrap === "none";
-    const {from, to} = onPlate(line, stage.about.size_mm, isEllipse) ?? {};
+    const {from, to} = onPlate(line, stage.facts.size_mm, isEllipse) ?? {};
     stage.on.section(from ? await stage.heights(from, to) : [], from, to);
   }
 
@@ -133,9 +133,9 @@ export class Measure {
   // --------------------------------------------------------------------------------------------------- dimensions
 
   dimensionMarks() {
-    const {about, size: picture} = this.stage;
-    if (!about) return [];
-    const [width, height, thickness] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
+    const {facts, size: picture} = this.stage;
+    if (!facts) return [];
+    const [width, height, thickness] = facts.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
     const below = besideEnd(bottom, picture.height), aside = besideEnd(right, picture.width);
     const side = (from, to, mm, isRight) => dimension(from, to, withUnit(mm), picture,
@@ -143,8 +143,8 @@ export class Measure {
     const marks = [...dimension([left, below], [right, below], withUnit(width), picture),
       ...side([aside, bottom], [aside, top], height, true),
       ...labelled([left + 60, below], [left + 60, below], `${withUnit(thickness)} thick`, "none", picture)];
-    if (!about.relief_mm) return marks;
-    const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
+    if (!facts.relief_mm) return marks;
+    const [low, high] = facts.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
     if (x1 - left < 2 && right - x2 < 2) return marks; // the relief reaches the plate's edges
     return [make("rect", {class: "bounds", x: x1, y: y2, width: x2 - x1, height: y1 - y2}),
       ...side([x1, y2 - 8], [x2, y2 - 8], high[0] - low[0]),

@@ -136,21 +136,21 @@ export class OpenDocument {
   take(status) {
     const before = this.status;
     this.status = status;
-    if (this.asked && isSameView(withSide(this.asked, status.shown), status.shown)) this.asked = null;
+    if (this.asked && isSameView(withSide(this.asked, status.requested), status.requested)) this.asked = null;
     this.on.progress(status);
-    if (!this.isReady && status.busy && status.can_turn && status.shown.view !== "auto") this.on.measured(status);
+    if (!this.isReady && status.busy && status.can_turn && status.requested.view !== "auto") this.on.measured(status);
     if (status.model > 0 && status.model !== this.model && this.isWanted(status)) this.arrive(status);
     else if (status.error && JSON.stringify(status.error) !== JSON.stringify(before.error)) this.complain(status);
     if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);
   }
 
   // Returns the view of the document. If its side is not chosen yet, it has the side that the engine chose.
-  wantedView = (shown) => withSide(viewOf(this.doc.now), shown);
+  wantedView = (requested) => withSide(viewOf(this.doc.now), requested);
 
   // Returns whether the model may be shown. The first model of a document must have the requested view, unless that
   // view failed.
-  isWanted({busy, error, shown}) {
-    return this.model > 0 || (!busy && (error || isSameView(shown, this.wantedView(shown))));
+  isWanted({busy, error, requested}) {
+    return this.model > 0 || (!busy && (error || isSameView(requested, this.wantedView(requested))));
   }
 
   arrive(status) {

@@ -6,9 +6,9 @@ import {fileName} from "./kinds.js";
 import {withUnit} from "./lengths.js";
 
 export class Outcome {
-  // `frame` returns the facts of the newest picture.
-  constructor({doc, stage, entries, pieces, frame}) {
-    Object.assign(this, {doc, stage, entries, pieces, frame});
+  // `facts` returns the facts of the newest picture.
+  constructor({doc, stage, entries, pieces, facts}) {
+    Object.assign(this, {doc, stage, entries, pieces, facts});
   }
 
   // Waits until all entries are settled, including typed texts that Enter has not confirmed.
@@ -22,9 +22,9 @@ export class Outcome {
   // have the height of the picture.
   async known() {
     await this.entered();
-    const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), frame = this.frame();
-    const isMissed = Boolean(isShown && frame && !frame.is_height_met), asked = options.height;
-    if (isMissed) options.height = frame.height_mm;
+    const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), facts = this.facts();
+    const isMissed = Boolean(isShown && facts && !facts.is_height_met), asked = options.height;
+    if (isMissed) options.height = facts.height_mm;
     const note = isMissed && now.isHeightLocked ? `A height of ${withUnit(asked)} is out of reach here.` : "";
     return {options, note, name: fileName(now), material: now.material, step: now};
   }

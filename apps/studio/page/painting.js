@@ -60,7 +60,7 @@ export class Painting {
     }
     if (!this.isOver || this.waiting.length > 0) return;
     if (this.isLasso) this.show();
-    this.doc.endStroke(this.id);
+    this.doc.endGesture(this.id);
   }
 
   get isLasso() {
@@ -101,10 +101,10 @@ export class Painting {
 
   // Changes the document, unless another change came between.
   show() {
-    const isOther = this.isBegun ? this.doc.stroke !== this.id : this.doc.now.options.strokes !== textOf(this.before);
+    const isOther = this.isBegun ? this.doc.gesture !== this.id : this.doc.now.options.strokes !== textOf(this.before);
     if (isOther || this.document !== this.brush.engine.document) this.isGivenUp = true;
     if (this.isGivenUp || this.lines.every((line) => line.length < (this.isLasso ? 3 : 1))) return;
     this.doc.change({options: {strokes: textOf(this.strokes())}}, this.id);
-    this.isBegun = this.doc.stroke === this.id;
+    this.isBegun = this.doc.gesture === this.id;
   }
 }

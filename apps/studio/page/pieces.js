@@ -9,7 +9,7 @@ import {isUnfinished} from "./inputs.js";
 import {FREE_OUTLINES, KINDS} from "./kinds.js";
 import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 import {SHAPES, ShapeRow} from "./shapes.js";
-import {REST_MS, UPWARDS, nextValue} from "./slider.js";
+import {GESTURE_END_MS, UPWARDS, nextValue} from "./slider.js";
 
 const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   shift: "Moved by", rim: "Rim width",
@@ -140,7 +140,7 @@ export class PieceRows {
       });
     const label = UNITS[unit] === "°" ? `${LABELS[name]} (°)` : LABELS[name];
     const element = pair(label, input, {title: sentence(help)});
-    const rest = new Pause(() => input.dispatchEvent(new Event("change")), REST_MS);
+    const rest = new Pause(() => input.dispatchEvent(new Event("change")), GESTURE_END_MS);
     input.onchange = () => this.take(name);
     input.oninput = ({isTrusted}) => isTrusted && rest.end(); // the user is typing after using the arrow keys
     input.onkeydown = (event) => {
@@ -151,7 +151,7 @@ export class PieceRows {
   }
 
   // Changes a number by the up and down keys to the next round number, or by smaller steps with Shift. The document
-  // takes the number when no such key was pressed for REST_MS, or when takeSteps() is called.
+  // takes the number when no such key was pressed for GESTURE_END_MS, or when takeSteps() is called.
   step(event, name) {
     const row = this.rows[name], {input, isNumber, unit, min, max} = row, isLength = unit === "mm";
     const scale = isLength ? millimetresPerUnit() : 1, value = parseLength(input.value, isLength, scale) / scale;

@@ -43,12 +43,12 @@ function takePinches(element, {begin, move, end}) {
 
 // Scales the figure at once. The rotation follows when the fingers are lifted, in the same step of the document.
 function placeFigure(stage, ratio, turn) {
-  const {drag, about} = stage, {placing} = stage.on;
+  const {drag, facts} = stage, {placing} = stage.on;
   if (drag?.tool !== "place") return; // placing is impossible, or Escape has ended the drag
   drag.ratio *= ratio;
   drag.turned += turn;
   drag.angle = Math.abs(drag.turned) > SLACK ? drag.turned : 0;
-  placing.scale(drag.ratio, about.size_mm, drag.width);
+  placing.scale(drag.ratio, facts.size_mm, drag.width);
   stage.drawOverlay();
 }
 
@@ -58,7 +58,7 @@ export function takeFingers(stage) {
       stage.takeBack(); // undoes the drag of the first finger
       stage.release();
       const {placing} = stage.on;
-      if (stage.tool === "place" && stage.about && placing.begin(stage.about.size_mm))
+      if (stage.tool === "place" && stage.facts && placing.begin(stage.facts.size_mm))
         stage.drag = {tool: "place", ratio: 1, turned: 0, angle: 0, width: placing.shownWidth()};
     },
     move([fromX, fromY], [x, y], ratio, turn) {

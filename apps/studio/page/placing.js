@@ -46,7 +46,7 @@ export class Placing {
   scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
     if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");
-    this.setWidth(clamp(width * factor, LEAST, MOST)); // belongs to the same stroke
+    this.setWidth(clamp(width * factor, LEAST, MOST)); // belongs to the same gesture
   }
 
   // Turns the figure in the picture by degrees, counterclockwise if positive.
@@ -54,7 +54,7 @@ export class Placing {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
     if (angle === 0) return;
     const {options} = this.doc.now;
-    this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)}, this.doc.stroke);
+    this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)}, this.doc.gesture);
     if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 

@@ -29,11 +29,11 @@ export class Reach {
 
   // Must be called with each picture of a model; a fine picture comes when nothing moves. The largest height does not
   // depend on the wanted height, so it is requested again only when something else changes.
-  async pictured(frame, isFine, model) {
-    const isMissed = this.doc.now.isHeightLocked && !frame.is_height_met;
-    this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(frame.height_mm)} high` : "");
+  async pictured(facts, isFine, model) {
+    const isMissed = this.doc.now.isHeightLocked && !facts.is_height_met;
+    this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(facts.height_mm)} high` : "");
     if (!isFine) return;
-    if (frame.is_height_met) $("#reach").replaceChildren();
+    if (facts.is_height_met) $("#reach").replaceChildren();
     if (this.doc.now.options.form === "lithophane") return this.clear(); // a lithophane can have any height
     const {height, ...rest} = shownOptions(this.doc.now), key = `${model} ${JSON.stringify(rest)}`;
     const turn = ++this.turn; // answers that arrive after the next picture are ignored
@@ -47,8 +47,8 @@ export class Reach {
     if (turn !== this.turn) return;
     // With a draft angle the picture may be too high, because it does not wait until the largest height under that
     // angle is known. The mark then shows that height, which steps at depth jumps cannot raise.
-    const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
-    const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
+    const isTooHigh = rest.draft && facts.height_mm > this.reach, isMet = facts.is_height_met && !isTooHigh;
+    const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, facts.height_mm) : facts.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
     this.slider().showMark(most, `${name}: ${withUnit(most)}`);
     if (isMet) return;

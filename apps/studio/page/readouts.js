@@ -10,22 +10,22 @@ let times = []; // times of the pictures in the last second
 // Returns the size of the piece in a picture as text. It is approximate until the piece is finished.
 const pieceText = ({size_mm: size, is_size_exact: isExact}) => `piece ${isExact ? "" : "≈ "}${sizeText(size)}`;
 
-// Shows the numbers that come with a picture. `height` is a text, and `facts` has the facts about the model.
-export function showNumbers({about, ms, isFine, height, facts}) {
+// Shows the numbers that come with a picture. `height` is a text, and `modelFacts` has facts about the model.
+export function showNumbers({facts, ms, isFine, height, modelFacts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const parts = [
-    [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points visible`, "minor"],
-    [`height ${height} ${shown.unit}`], [pieceText(about)],
+    [modelFacts && `${count(modelFacts.visible_points)} of ${count(modelFacts.input_points)} points visible`, "minor"],
+    [`height ${height} ${shown.unit}`], [pieceText(facts)],
     [times.length >= FEWEST && `${times.length} frames/s`, "minor"],
     [!isFine && ms && `${ms.toFixed(0)} ms`, "minor"]];
   $("#numbers").replaceChildren(...parts.filter(([text]) => text).map(([text, kind]) =>
     make("span", {class: kind}, text)));
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
-  const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
-  const spent = [...solves, time("detail or correction", about.after_solve_ms), time("normals", about.normals_ms),
-    time("picture", about.drawing_ms)];
-  $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
+  const solves = facts.solves > 0 ? [`${time("heights", facts.heights_ms)} in ${facts.solves} solves`] : [];
+  const spent = [...solves, time("detail or correction", facts.after_solve_ms), time("normals", facts.normals_ms),
+    time("picture", facts.drawing_ms)];
+  $("#numbers").title = `height reached ${facts.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
 // Returns the parameters of a picture, named by the paper's symbols.

@@ -33,7 +33,7 @@ function strokes({pixelsPerMm}, zero, sign, pixels) {
 
 // Returns the marks of the two rulers. The numbers do not cover the piece, unless it fills the picture.
 function rulers(stage) {
-  const {size: {width, height}, about: {size_mm: [wide, high]}, camera} = stage, type = scaleOfType();
+  const {size: {width, height}, facts: {size_mm: [wide, high]}, camera} = stage, type = scaleOfType();
   const [left, bottom] = stage.toPixels([-wide / 2, -high / 2]), [, top] = stage.toPixels([0, high / 2]);
   const size = ({number}) => (number === null ? STROKE : 2 * STROKE);
   const across = strokes(stage, left, 1, width), upwards = strokes(stage, bottom, -1, height);
@@ -50,6 +50,6 @@ function rulers(stage) {
 
 // Returns the marks that show the size of the piece; none if there is no piece yet.
 export function scaleMarks(stage) {
-  if (!stage.about) return [];
+  if (!stage.facts) return [];
   return ["section", "measure", "place"].includes(stage.tool) ? rulers(stage) : scaleBar(stage);
 }

@@ -77,25 +77,25 @@ export class ShapeRow {
 
   showFields() {
     for (const {input} of this.fields) input.closest("label").remove();
-    this.fields = [...parametersOf(this.option, this.shown.name)].map(([name, about]) => this.field(name, about));
+    this.fields = [...parametersOf(this.option, this.shown.name)].map((entry) => this.field(...entry));
   }
 
-  field(name, about) {
-    const kind = about.isWord ? {type: "checkbox"}
-      : {inputmode: "decimal", placeholder: about.otherwise ?? "automatic"};
-    const input = textField({"aria-label": `${this.label}: ${about.label}`, ...kind},
-      {take: () => this.changed(name, about, input), show: () => this.show(this.shown.text)});
-    const label = about.isWord ? about.label : `${about.label} (${shownUnit(about.unit)})`;
+  field(name, parameter) {
+    const kind = parameter.isWord ? {type: "checkbox"}
+      : {inputmode: "decimal", placeholder: parameter.otherwise ?? "automatic"};
+    const input = textField({"aria-label": `${this.label}: ${parameter.label}`, ...kind},
+      {take: () => this.changed(name, parameter, input), show: () => this.show(this.shown.text)});
+    const label = parameter.isWord ? parameter.label : `${parameter.label} (${shownUnit(parameter.unit)})`;
     this.element.append(pair(label, input, {class: "pair parameter"}));
-    return {name, about, input};
+    return {name, parameter, input};
   }
 
   // Takes the value of a field, unless it is invalid or the user has chosen another shape meanwhile.
-  changed(name, about, input) {
+  changed(name, parameter, input) {
     const {name: shape, text: shown} = this.shown, typed = input.value.trim(), {checked} = input;
-    const value = about.isWord || typed === "" ? "" : typedNumber(typed, about, this.say);
+    const value = parameter.isWord || typed === "" ? "" : typedNumber(typed, parameter, this.say);
     if (value === null) return this.show(shown);
-    const isThere = about.isWord ? checked : typed !== "";
+    const isThere = parameter.isWord ? checked : typed !== "";
     this.take((text) => (parseShape(this.option, text).name !== shape ? text
       : withParameter(this.option, text, name, isThere ? String(value) : null)));
   }
@@ -112,9 +112,9 @@ function withParameter(option, text, parameter, value) {
   return shapeText(option, {name, values});
 }
 
-function showValue({about, input}, text) {
-  if (about.isWord) input.checked = text !== undefined;
-  else if (!isUnfinished(input)) input.value = text === undefined ? "" : valueText(about, text);
+function showValue({parameter, input}, text) {
+  if (parameter.isWord) input.checked = text !== undefined;
+  else if (!isUnfinished(input)) input.value = text === undefined ? "" : valueText(parameter, text);
 }
 
 // Returns the text that a parameter's field shows for its value. Lengths are converted to the page's unit.

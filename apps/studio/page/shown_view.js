@@ -37,17 +37,17 @@ export class ShownView {
   // statuses since.
   arrived(status) {
     const newest = this.opened.status;
-    if (!status.busy && !status.error) this.view ??= status.shown;
+    if (!status.busy && !status.error) this.view ??= status.requested;
     this.settle(newest);
     if (newest.error && !newest.busy) this.restore();
   }
 
   // Ends the wait when the model has the view that any tab requested last.
-  settle({busy, error, shown}) {
+  settle({busy, error, requested}) {
     if (busy || error || this.opened.asked) return;
-    this.view = shown;
-    if (!isSameView(shown, viewOf(this.doc.now))) {
-      this.doc.note({options: optionsOf(shown, this.doc.now)});
+    this.view = requested;
+    if (!isSameView(requested, viewOf(this.doc.now))) {
+      this.doc.note({options: optionsOf(requested, this.doc.now)});
       this.showDocument();
     }
     if (this.stage.isAwaiting) this.stage.await(false);
@@ -55,7 +55,7 @@ export class ShownView {
 
   // Restores the former view after another one was cancelled or could not be prepared.
   restore() {
-    const former = this.view ?? this.opened.status.shown;
+    const former = this.view ?? this.opened.status.requested;
     this.stage.await(false);
     const {now} = this.doc;
     if (former?.view && !isSameView(former, viewOf(now))) this.doc.change({options: optionsOf(former, now)});

@@ -12,7 +12,7 @@ export const spread = {
 };
 
 const STEPS = 1000, MOST_DECIMALS = 4;
-export const REST_MS = 400; // pause after which a movement by keys or the wheel has ended
+export const GESTURE_END_MS = 400; // pause after which a movement by keys or the wheel has ended
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 
@@ -39,7 +39,7 @@ export class Slider {
   constructor(field, onInput, onEnd, say) {
     Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});
     this.value = this.otherwise;
-    this.rest = new Pause(onEnd, REST_MS);
+    this.rest = new Pause(onEnd, GESTURE_END_MS);
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
     // The field does not have the type "number": browsers would read "1/8in" as 18, and could not read "2,5".
     this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});

@@ -18,13 +18,13 @@ const PLATE = namesOf("plate");
 const partOf = (name, value) => ({options: {[name]: value}, ...(name === "height" ? {u: null} : {})});
 
 export class Sliders {
-  // `frame` returns the facts of the newest picture, or null. `say` shows a line to the user.
-  constructor({doc, entries, frame, say}) {
-    Object.assign(this, {doc, entries, frame, say});
+  // `facts` returns the facts of the newest picture, or null. `say` shows a line to the user.
+  constructor({doc, entries, facts, say}) {
+    Object.assign(this, {doc, entries, facts, say});
     this.lock = lockButton(() => this.toggleLock());
     const sliderOf = ([name, field]) => new Slider(
       {...field, extra: name === "height" ? this.lock : null, otherwise: FIRST.options[name]},
-      (...moved) => this.slide(name, ...moved), () => doc.endStroke(name), say);
+      (...moved) => this.slide(name, ...moved), () => doc.endGesture(name), say);
     this.all = Object.fromEntries(Object.entries(FIELDS).map((field) => [field[0], sliderOf(field)]));
     for (const [name, slider] of Object.entries(this.all)) {
       slider.number.dataset.option = name;
@@ -39,18 +39,18 @@ export class Sliders {
     return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
   }
 
-  shownWidth = () => Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
+  shownWidth = () => Number((this.doc.now.options.width ?? this.facts()?.width_mm ?? defaultOf("width")).toFixed(4));
 
   // Shows the width, and marks the largest width that fits a plate of given size.
   showWidth() {
-    const most = this.frame()?.most_width_mm ?? null;
+    const most = this.facts()?.most_width_mm ?? null;
     const {width} = this.all;
     if (!this.entries.isPending("width")) width.show(this.doc.now.options.width ?? width.rounded(this.shownWidth()));
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
   showScaled() {
-    if (hasScale(this.doc.now) && this.frame()) this.all.height.show(this.frame().height_mm);
+    if (hasScale(this.doc.now) && this.facts()) this.all.height.show(this.facts().height_mm);
   }
 
   slide(name, value, isTyped = false) {
@@ -66,7 +66,7 @@ export class Sliders {
   // Returns the largest width that fits the plate; null if the plate has no given size, or if the plate was changed
   // after the newest picture.
   mostWidth() {
-    const {options: shown, most_width_mm: most} = this.frame() ?? {}, {options} = this.doc.now;
+    const {options: shown, most_width_mm: most} = this.facts() ?? {}, {options} = this.doc.now;
     return most && PLATE.every((name) => shown[name] === options[name]) ? most : null;
   }
 
@@ -86,7 +86,7 @@ export class Sliders {
 
   toggleLock() {
     const {isHeightLocked} = this.doc.now;
-    this.doc.change({isHeightLocked: !isHeightLocked, u: isHeightLocked ? this.frame()?.u ?? null : null});
+    this.doc.change({isHeightLocked: !isHeightLocked, u: isHeightLocked ? this.facts()?.u ?? null : null});
   }
 
   showUnit() {

@@ -12,12 +12,12 @@ import {TOOLS, takeKey} from "./tools.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
-const REST_MS = 160; // time without changes until the fine picture is requested
-const FINISH_MS = 500; // time without changes until the finished piece is requested
+const FINE_AFTER_MS = 160; // time without changes until the fine picture is requested
+const FINISHED_AFTER_MS = 500; // time without changes until the finished piece is requested
 const MOST_PIXELS = 7.9e6; // just below the engine's limit; a window on a screen of 5,120 x 2,880 has more
 
 export class Stage {
-  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
+  // Calls on.picture(facts, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
   // view of the document has to be prepared again.
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
@@ -64,7 +64,7 @@ export class Stage {
 
   // Prepares for another scan, which has no pictures yet, and removes all marks of the former one.
   clear() {
-    Object.assign(this, {isReady: false, model: 0, about: null, line: null});
+    Object.assign(this, {isReady: false, model: 0, facts: null, line: null});
     this.measure.clear();
     this.drawOverlay();
   }
@@ -93,15 +93,16 @@ export class Stage {
 
   // Requests the next picture of the relief. There is one request at a time, always for the newest state.
   async pump() {
-    if (this.isBusy || !this.isReady) return;
+    if (this.isAsking || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
     if (this.finished === this.wanted) return;
-    const pause = this.fine === this.wanted ? FINISH_MS : REST_MS, rest = this.changedAt + pause - performance.now();
+    const pause = this.fine === this.wanted ? FINISHED_AFTER_MS : FINE_AFTER_MS;
+    const rest = this.changedAt + pause - performance.now();
     rest > 0 ? this.pause.begin(rest) : this.draw(true);
   }
 
   async draw(isFine) {
-    this.isBusy = true;
+    this.isAsking = true;
     const start = performance.now(), isLast = this.fine === this.wanted;
     this.unwanted = isFine ? new AbortController() : null;
     const asked = this.ahead?.model === this.model ? this.ahead : this.ask(isFine, isLast), {number} = asked;
@@ -119,19 +120,19 @@ export class Stage {
       if (!isCancelled && isNewest) this.on.failed(error); // errors of older states do not matter
       if (isCancelled && isNewest) this.changedAt = performance.now(); // try again after a pause
     }
-    this.isBusy = false;
+    this.isAsking = false;
     this.unwanted = null;
     this.showBusy();
     this.pump();
   }
 
-  // Returns whether the picture shows the piece as it is exported. A frame of a plain piece also counts if other
+  // Returns whether the picture shows the piece as it is exported. A picture of a plain piece also counts if other
   // pictures would have to wait while the piece is made.
   get isLikeFile() {
-    return this.about?.is_finished || (this.about?.is_plain && !this.engine.drawsMeanwhile);
+    return this.facts?.is_finished || (this.facts?.is_plain && !this.engine.drawsMeanwhile);
   }
 
-  pixels(isFine) {
+  pictureSize(isFine) {
     const {width, height} = this.size, most = Math.sqrt(MOST_PIXELS / (width * height));
     const scale = Math.min(isFine ? Math.min(window.devicePixelRatio, 2) : this.share, most);
     return {width: Math.round(width * scale), height: Math.round(height * scale)};
@@ -139,13 +140,13 @@ export class Stage {
 
   // Requests a picture of the newest state. The last picture of a state shows the piece as it is exported.
   ask(isFine, isLast) {
-    const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
+    const request = this.request({...this.pictureSize(isFine), fine: isFine, finished: isLast});
     const asked = {number: this.wanted, model: this.model, changedAt: this.changedAt, isFine, isLast};
     const onSolved = () => {
       asked.isSolved = true;
       if (this.drawing === asked) this.askAhead(asked);
     };
-    if (!this.isTable) asked.frame = this.frame(request, {signal: this.unwanted?.signal, onSolved});
+    if (!this.isTable) asked.picture = this.requestPicture(request, {signal: this.unwanted?.signal, onSolved});
     return asked;
   }
 
@@ -153,33 +154,33 @@ export class Stage {
   askAhead({isFine, number}) {
     if (isFine || this.ahead || number === this.wanted || this.isTable || this.waitsForPicture) return;
     this.ahead = this.ask(false, false);
-    this.ahead.frame.catch(() => {}); // reported when this picture is drawn
+    this.ahead.picture.catch(() => {}); // reported when this picture is drawn
   }
 
   // Returns a picture of the newest state. Its facts also have the document's options and `isTurned`: whether it shows
   // the turned relief of a view that is not prepared yet. Such a relief has another size.
-  async frame(request, calling) {
-    const {options} = this.doc.now, {image, about} = await this.engine.frame(request, calling);
-    return {image, about: {...about, options, isTurned: Boolean(request.turned)}};
+  async requestPicture(request, calling) {
+    const {options} = this.doc.now, {image, facts} = await this.engine.picture(request, calling);
+    return {image, facts: {...facts, options, isTurned: Boolean(request.turned)}};
   }
 
   // Draws the relief that was asked for.
   async drawRelief(asked) {
-    const {model, changedAt, isFine, isLast, frame} = asked;
+    const {model, changedAt, isFine, isLast, picture} = asked;
     this.drawing = asked;
     if (asked.isSolved) this.askAhead(asked);
-    const {image, about} = await frame;
+    const {image, facts} = await picture;
     if (!this.isReady || model !== this.model) return; // another document or view was opened meanwhile
     this.askAhead(asked);
     paint(this.picture, image);
-    this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
-    this.about = about;
+    this.pixelsPerMm = facts.pixels_per_mm * this.size.width / image.width;
+    this.facts = facts;
     if (this.tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
-    this.on.picture(about, performance.now() - changedAt, isFine);
+    this.on.picture(facts, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine, isLast);
     // The tool and the document may have changed meanwhile. The next picture will show that.
-    if (this.tool === "section" && this.line && this.about) await this.measure.cut(this.line);
+    if (this.tool === "section" && this.line && this.facts) await this.measure.cut(this.line);
     if (this.tool === "measure") this.measure.pictured();
   }
 
@@ -190,18 +191,18 @@ export class Stage {
 
   async drawTable(isFine) {
     const half = (n) => Math.max(1, Math.round(n / 2));
-    const {width, height} = this.pixels(isFine), {model} = this;
+    const {width, height} = this.pictureSize(isFine), {model} = this;
     for (const [i, {light}] of TABLE_LIGHTS.entries()) {
       const cell = $(`#table [data-cell="${i}"] canvas`);
-      const {image, about} = await this.frame(
+      const {image, facts} = await this.requestPicture(
         this.request({width: half(width), height: half(height), fine: isFine, light}), {signal: this.unwanted?.signal});
       if (!this.isReady || model !== this.model) return;
       paint(cell, image);
-      if (i === 0) this.on.picture(about, 0, isFine);
+      if (i === 0) this.on.picture(facts, 0, isFine);
     }
   }
 
-  // Reduces the number of pixels of later frames if frames are slow, and increases it if they are fast.
+  // Reduces the number of pixels of later pictures if pictures are slow, and increases it if they are fast.
   adapt(ms) {
     const {slowMs} = this.engine;
     this.mean = this.mean ? 0.7 * this.mean + 0.3 * ms : ms;
@@ -253,7 +254,7 @@ export class Stage {
   drawOverlay() {
     const {width, height} = this.size, marks = [...scaleMarks(this), ...this.comparing.marks(this.size)];
     this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    marks.push(...this.letterMarks?.(this.about) ?? []);
+    marks.push(...this.letterMarks?.(this.facts) ?? []);
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
     marks.push(...this.on.brush.marks(this));
@@ -286,13 +287,13 @@ export class Stage {
 
   press(event) {
     const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
-    if (isOther || this.drag || !this.about) return;
-    this.doc.endStroke(); // earlier changes by keys or the wheel are a separate step
+    if (isOther || this.drag || !this.facts) return;
+    this.doc.endGesture(); // earlier changes by keys or the wheel are a separate step
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const isDivider = event.button === 0 && this.comparing.isAt(event.offsetX);
     const tool = event.button === 1 ? "pan" : isDivider ? "divider" : this.tool;
-    if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
+    if (tool === "place" && !this.on.placing.begin(this.facts.size_mm)) return this.release();
     const {offsetX: x, offsetY: y, pointerId} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {pointerId, tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     TOOLS[tool].press?.(this, event);
@@ -318,12 +319,12 @@ export class Stage {
     this.drag = this.sun = null;
     TOOLS[drag?.tool]?.release?.(this, drag);
     this.element.classList.remove("dragging");
-    if (drag?.tool !== "brush") this.doc.endStroke(); // the brush ends its stroke when all points of it are found
+    if (drag?.tool !== "brush") this.doc.endGesture(); // the brush ends its gesture when all points of it are found
     this.drawOverlay();
   }
 
   figureMiddle() {
-    const [low, high] = this.about?.relief_mm ?? [[0, 0], [0, 0]];
+    const [low, high] = this.facts?.relief_mm ?? [[0, 0], [0, 0]];
     return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
   }
 
@@ -350,13 +351,13 @@ export class Stage {
       this.invalidate();
     }
     const isLifted = this.on.brush.cancel();
-    return this.doc.cancelStroke() || isEnded || isLifted;
+    return this.doc.cancelGesture() || isEnded || isLifted;
   }
 
   zoom(event) {
     event.preventDefault();
-    if (this.tool === "place" && !this.about) return; // there is no figure yet
-    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
+    if (this.tool === "place" && !this.facts) return; // there is no figure yet
+    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.facts.size_mm);
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }
 

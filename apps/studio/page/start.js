@@ -1,4 +1,4 @@
-// Shows the start page: the samples, and the documents that were changed last, with their pictures.
+// Shows the start page: the samples, and the documents that were changed last, with their thumbnails.
 
 import {about, engine} from "./about.js";
 import {$, fileSize, make, sentence} from "./controls.js";
@@ -18,10 +18,10 @@ export function showSamples(open) {
 
 export const START = "#start"; // ends an address of the page that shows the start page first
 
-// Shows the picture of a document, or an icon if it has none. Returns the image element.
-function showPicture(image, picture) {
-  const source = picture || engine.addressOf("icon.svg");
-  if (image.getAttribute("src") !== source) Object.assign(image, {src: source, className: picture ? "" : "none"});
+// Shows the thumbnail of a document, or an icon if it has none. Returns the image element.
+function showThumbnail(image, thumbnail) {
+  const source = thumbnail || engine.addressOf("icon.svg");
+  if (image.getAttribute("src") !== source) Object.assign(image, {src: source, className: thumbnail ? "" : "none"});
   return image;
 }
 
@@ -36,7 +36,7 @@ export class Shelf {
     $("#recent-shelf").hidden = recent.length === 0;
     const names = recent.map(({document, is_there: isThere}) => `${document} ${isThere}`).join();
     if (names === this.names) // a card that is replaced while the mouse button is down gets no click
-      recent.forEach(({picture}, i) => showPicture($("#recent").children[i].querySelector("img"), picture));
+      recent.forEach(({thumbnail}, i) => showThumbnail($("#recent").children[i].querySelector("img"), thumbnail));
     else
       $("#recent").replaceChildren();
     this.add(names === this.names ? [] : recent, kept);
@@ -52,9 +52,9 @@ export class Shelf {
     if (last) $("#older").onclick = async () => this.add(await this.engine.recent(last), kept);
   }
 
-  card({document, input, picture, is_there: isThere}) {
+  card({document, input, thumbnail, is_there: isThere}) {
     const open = make("button", {title: input.path ?? `Sample ${input.name}`, onclick: () => this.open(input)},
-      showPicture(make("img", {alt: "", width: 320, height: 200}), picture),
+      showThumbnail(make("img", {alt: "", width: 320, height: 200}), thumbnail),
       make("span", {}, nameOf(input), make("small", {}, isThere ? "" : "Scan not found")));
     const ask = () => offer(`Remove your work on ${nameOf(input)} for good, with the scan if it was dropped here?`, "Remove",
       () => this.remove(document).catch(this.failed));
@@ -91,8 +91,8 @@ function inTotal({documents, bytes}, shown) {
 
 const WIDTH = 320, HEIGHT = 200;
 
-// Returns a small picture of a canvas as a data URL; "" if the canvas is empty.
-export function smallPicture(canvas) {
+// Returns the thumbnail of a canvas, a small picture, as a data URL; "" if the canvas is empty.
+export function thumbnailOf(canvas) {
   if (canvas.width < 2) return "";
   const small = make("canvas"), context = small.getContext("2d");
   [small.width, small.height] = [WIDTH, HEIGHT];

@@ -67,8 +67,8 @@ export const TOOLS = {
   place: {
     does: "move the figure on its plate", isLevel: true, move: place,
     release: ({on: {placing}}, {angle}) => angle && placing.turn(angle),
-    step({about, on: {placing}}, x, y) {
-      if (about && placing.begin(about.size_mm)) placing.move(x, y);
+    step({facts, on: {placing}}, x, y) {
+      if (facts && placing.begin(facts.size_mm)) placing.move(x, y);
     },
   },
   brush: {

@@ -36,9 +36,9 @@ export class Transport {
     const body = file ?? JSON.stringify(request), keepalive = name === "leave";
     const response = await send(path, request ? {method: "POST", body, signal, keepalive} : {});
     if (response.headers.get("Content-Type") === "application/json") return {body: await response.json()};
-    const about = response.headers.get("X-Relievo");
-    if (!about) return {body: await response.blob()};
-    return {about: JSON.parse(about), body: new Uint8Array(await response.arrayBuffer())};
+    const facts = response.headers.get("X-Relievo");
+    if (!facts) return {body: await response.blob()};
+    return {facts: JSON.parse(facts), body: new Uint8Array(await response.arrayBuffer())};
   }
 
   addressOf = (file) => file;

@@ -25,10 +25,10 @@ export async function zipOf(files, name) {
   let offset = 0, directorySize = 0;
   for (const file of files) {
     const path = new TextEncoder().encode(file.name), sum = checksum(new Uint8Array(await file.arrayBuffer()));
-    const about = [[VERSION, 2], [UTF8, 2], [0, 2], [0, 2], [FIRST_DAY, 2], [sum, 4], [file.size, 4], [file.size, 4],
+    const common = [[VERSION, 2], [UTF8, 2], [0, 2], [0, 2], [FIRST_DAY, 2], [sum, 4], [file.size, 4], [file.size, 4],
       [path.length, 2], [0, 2]];
-    const head = packed([[LOCAL, 4], ...about]);
-    const entry = packed([[CENTRAL, 4], [VERSION, 2], ...about, [0, 2], [0, 2], [0, 2], [0, 4], [offset, 4]]);
+    const head = packed([[LOCAL, 4], ...common]);
+    const entry = packed([[CENTRAL, 4], [VERSION, 2], ...common, [0, 2], [0, 2], [0, 2], [0, 4], [offset, 4]]);
     parts.push(head, path, file);
     directory.push(entry, path);
     offset += head.length + path.length + file.size;

@@ -21,7 +21,7 @@ async function listen(of) {
   const tell = () => {
     const {fetch} = window;
     window.fetch = (url, options) => {
-      if (url === "api/frame") window.tellRequest(options.body);
+      if (url === "api/picture") window.tellRequest(options.body);
       return fetch(url, options);
     };
   };

@@ -36,12 +36,12 @@ test("keeps a document for each scan, and the newer state of each", async () => 
     assert.equal(document, ids[i]);
     assert.equal(kept.steps[0].options.height, i + 1);
   }
-  const picture = "data:image/jpeg;base64,AAAA";
-  assert.equal((await engine.post("picture", {document: ids[0], picture})).status, 200);
-  assert.equal((await engine.post("picture", {document: ids[0], picture: "javascript:alert()"})).status, 400);
+  const thumbnail = "data:image/jpeg;base64,AAAA";
+  assert.equal((await engine.post("thumbnail", {document: ids[0], thumbnail})).status, 200);
+  assert.equal((await engine.post("thumbnail", {document: ids[0], thumbnail: "javascript:alert()"})).status, 400);
   const {recent} = await engine.json("recent");
   assert.deepEqual(recent.map((entry) => entry.document), [...ids].reverse());
-  assert.equal(recent[2].picture, picture);
+  assert.equal(recent[2].thumbnail, thumbnail);
   for (let round = 0; round < 50; round++) {
     for (const i of [2, 0, 1]) await keep(engine, ids[i], stateOf(inputs[i], i + 1, 101 + round));
     const order = (await engine.json("recent")).recent.map((entry) => entry.document);
@@ -333,7 +333,7 @@ test("keeps every document with its scan until it is removed, and says how much 
 });
 
 test("keeps nothing of a document that has no scan and was not opened", async () => {
-  const other = await studioIn("unknown"), document = "0123456789abcdef", picture = "data:image/jpeg;base64,AAAA";
+  const other = await studioIn("unknown"), document = "0123456789abcdef", thumbnail = "data:image/jpeg;base64,AAAA";
   const before = filesIn(path.join(folder, "unknown"));
   const isRefused = ({status, body}, why) => {
     assert.equal(status, 400);
@@ -341,11 +341,11 @@ test("keeps nothing of a document that has no scan and was not opened", async ()
   };
   for (const state of [{changed: 5}, {changed: 5, at: 1, steps: [{input: {sample: "shell"}}]}])
     isRefused(await keep(other, document, state), "expected the state of a document with a scan");
-  isRefused(await other.post("picture", {document, picture}), "expected the picture of a kept document");
+  isRefused(await other.post("thumbnail", {document, thumbnail}), "expected the thumbnail of a kept document");
   assert.deepEqual(filesIn(path.join(folder, "unknown")), before);
   assert.deepEqual(await other.json("kept"), {documents: 0, bytes: 0});
   await keep(other, document, stateOf({sample: "shell"}, 3, 5));
-  assert.equal((await other.post("picture", {document, picture})).status, 200);
+  assert.equal((await other.post("thumbnail", {document, thumbnail})).status, 200);
   assert.equal((await other.json("kept")).documents, (await other.json("recent")).recent.length);
   await other.stop();
 });
@@ -389,8 +389,8 @@ int fsync(int file) { while (access(getenv("GO"), F_OK)) usleep(5000); return sy
 });
 
 test("shows several documents at once, each with its own scan, settings and files", async () => {
-  const options = {width: 60, height: 2, view: "front"}, frame = (document) =>
-    engine.post("frame", {document, options, width: 60, height: 40});
+  const options = {width: 60, height: 2, view: "front"}, picture = (document) =>
+    engine.post("picture", {document, options, width: 60, height: 40});
   const inputs = [{path: scan}, {sample: "shell"}], ids = [];
   for (const [i, input] of inputs.entries()) {
     ids.push((await engine.json("open", {input, tab: `tab${i}`})).document);
@@ -401,11 +401,11 @@ test("shows several documents at once, each with its own scan, settings and file
     (await engine.json("facts", {document})).input_points));
   assert.equal(points, 5000);
   assert.notEqual(others, points);
-  for (const document of ids) assert.equal((await frame(document)).status, 200);
+  for (const document of ids) assert.equal((await picture(document)).status, 200);
   await engine.post("leave", {tab: "tab0"});
   for (const sample of ["still_life"]) await engine.post("open", {input: {sample}, tab: "tab1"});
-  assert.equal((await frame(ids[1])).status, 200); // the newest document without a tab stays open
-  const closed = await frame(ids[0]);
+  assert.equal((await picture(ids[1])).status, 200); // the newest document without a tab stays open
+  const closed = await picture(ids[0]);
   assert.equal(closed.status, 409);
   assert.equal(JSON.parse(closed.body).error.kind, "closed");
 });

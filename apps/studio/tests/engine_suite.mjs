@@ -9,7 +9,7 @@ export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), s
 export let engine;
 
 export const OPTIONS = {width: 60, height: 2, view: "front"};
-export const FRAME = {options: OPTIONS, width: 200, height: 150};
+export const PICTURE = {options: OPTIONS, width: 200, height: 150};
 
 // Gives the suite an engine and a scan, which is a sample of `points` points. `begin` prepares everything else for the
 // tests; by default it opens the scan.
@@ -35,4 +35,4 @@ export function connect() {
 export const head = (place, method = "POST", {pathname, host} = engine.url) =>
   `${method} ${pathname}${place} HTTP/1.1\r\nHost: ${host}\r\n`;
 
-export const stillWorks = async () => assert.equal((await engine.post("frame", FRAME)).status, 200);
+export const stillWorks = async () => assert.equal((await engine.post("picture", PICTURE)).status, 200);

@@ -159,11 +159,11 @@ test("takes back the newest entry that is waiting, and redoes nothing over it", 
 test("keeps a height that is typed while the picture of the one before is drawn, also without a lock", async () => {
   await button("Lock the height").click();
   await untilReady(page);
-  const letGo = await holdRequests(page, "**/api/frame"), asked = page.waitForRequest("**/api/frame");
+  const letGo = await holdRequests(page, "**/api/picture"), asked = page.waitForRequest("**/api/picture");
   await enter(option("detail"), "0.1");
   await asked;
   await enter(option("height"), "4");
-  const next = page.waitForRequest("**/api/frame");
+  const next = page.waitForRequest("**/api/picture");
   await letGo();
   assert.equal((await next).postDataJSON().options.height, 4);
   await untilReady(page);

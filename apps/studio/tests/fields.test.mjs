@@ -418,14 +418,14 @@ test("can redo after a drag that was taken back, and ends none after another sli
     doc.undo();
     for (const height of [8, 9]) doc.change({options: {height}}, "height");
     see();
-    doc.cancelStroke();
+    doc.cancelGesture();
     see();
     doc.redo();
     see();
     for (const [height, ended] of [[6, "width"], [7, "height"], [8, null]]) {
       other.change({options: {height}}, "height");
       counts.push(other.steps.length);
-      other.endStroke(ended);
+      other.endGesture(ended);
     }
     return [seen, counts];
   });

@@ -10,8 +10,8 @@ withPage("still_life", 5000, async () => {
   await enter(labelled("Margin in mm"), "9");
   await enter(labelled("Resolution"), "0.6"); // such a coarse piece is made quickly
   await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail}) => {
-    window.shown = detail.about;
-    window.scale = document.querySelector("#stage").clientWidth / detail.about.width * detail.about.pixels_per_mm;
+    window.shown = detail.facts;
+    window.scale = document.querySelector("#stage").clientWidth / detail.facts.width * detail.facts.pixels_per_mm;
   }));
   await untilReady(page);
 });

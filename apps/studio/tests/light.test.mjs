@@ -114,7 +114,7 @@ test("offers the depth of dark lines for scans with colours alone, and sinks the
 test("shows the attention on the model, beside the relief", async () => {
   const shown = labelled("Show it on the model"), isComparing = (is) =>
     page.getByRole("button", {name: "Compare", pressed: is}).waitFor();
-  const asked = page.waitForRequest((request) => request.url().endsWith("/api/frame") &&
+  const asked = page.waitForRequest((request) => request.url().endsWith("/api/picture") &&
     request.postDataJSON().attention === true);
   await shown.check();
   await isComparing(true);

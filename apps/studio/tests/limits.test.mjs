@@ -4,7 +4,7 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, readdirSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {test} from "node:test";
-import {FRAME, OPTIONS, connect, engine, folder, head, scan, state, stillWorks, studioIn,
+import {PICTURE, OPTIONS, connect, engine, folder, head, scan, state, stillWorks, studioIn,
   withEngine} from "./engine_suite.mjs";
 import {EngineProcess, sleep} from "./support.mjs";
 
@@ -42,13 +42,13 @@ test("takes huge, tiny and negative numbers, or says what was expected", async (
     ...["height", "width", "margin", "steps"].map((name) => ({options: {...OPTIONS, [name]: v}}))];
   const isFine = ({status}, what) => assert.ok([200, 400, 422].includes(status), `${status} ${JSON.stringify(what)}`);
   for (const v of values) {
-    for (const part of parts(v)) isFine(await engine.post("frame", {...FRAME, ...part}), part);
-    isFine(await engine.post("scan", {...FRAME, towards: [v, 0, v], up: [0, v, 0]}), `scan ${v}`);
-    isFine(await engine.post("profile", {...FRAME, from: [v, v], to: [0, 0]}), `profile ${v}`);
+    for (const part of parts(v)) isFine(await engine.post("picture", {...PICTURE, ...part}), part);
+    isFine(await engine.post("scan", {...PICTURE, towards: [v, 0, v], up: [0, v, 0]}), `scan ${v}`);
+    isFine(await engine.post("profile", {...PICTURE, from: [v, v], to: [0, 0]}), `profile ${v}`);
   }
-  assert.equal((await engine.post("frame", {...FRAME, light: [1e300, 1e300, 1e300]})).status, 200);
+  assert.equal((await engine.post("picture", {...PICTURE, light: [1e300, 1e300, 1e300]})).status, 200);
   for (const light of [[0, 0, 0], [1, 2], "left", [1, 2, null]])
-    assert.match(String((await engine.post("frame", {...FRAME, light})).body), /light: expected three numbers/);
+    assert.match(String((await engine.post("picture", {...PICTURE, light})).body), /light: expected three numbers/);
   for (const pixels of [1e300, -5, "many"])
     assert.equal((await engine.post("export", {options: OPTIONS, format: "heightmap", pixels})).status, 400);
   await stillWorks();
@@ -83,7 +83,7 @@ test("says what is there in place of a scan", async () => {
 test("does not read what it refuses", async () => {
   const before = mostMemory(), {host} = engine.url, length = `Content-Length: ${600 * MIB}\r\n\r\n`;
   const heads = [[`POST /wrong/api/upload HTTP/1.1\r\nHost: ${host}\r\n${length}`, /403/],
-    [`${head("api/frame")}${length}`, /413/], ["GET /", /431/],
+    [`${head("api/picture")}${length}`, /413/], ["GET /", /431/],
     [`${head("api/gone")}Expect: 100-continue\r\n${length}`, /404/]];
   for (const [head, status] of heads) assert.match(await pour(head, 600 * MIB), status);
   assert.ok(mostMemory() - before < 50, `${mostMemory() - before} MiB for refused bodies`);
@@ -137,19 +137,19 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
     await stillWorks();
   }
   slow.forEach((socket) => socket.destroy());
-  const refused = await engine.post("picture", {document, picture: "data:image/jpeg;base64,AAAA"});
+  const refused = await engine.post("thumbnail", {document, thumbnail: "data:image/jpeg;base64,AAAA"});
   assert.equal(refused.status, 200);
   await engine.post("remove", {document});
 });
 
 // A connection cannot buffer the 7 MB of an answer. So a thread is blocked until the server closes the connection.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
-  const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
+  const deaf = [], body = JSON.stringify({...PICTURE, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {
     const first = Array.from({length: 10}, () => new Promise((resolve) => {
       const socket = connect();
       socket.once("readable", () => resolve(socket.read(1)?.toString())); // reads one byte and no more
-      socket.write(`${head("api/frame")}Content-Length: ${body.length}\r\n\r\n${body}`);
+      socket.write(`${head("api/picture")}Content-Length: ${body.length}\r\n\r\n${body}`);
       deaf.push(socket);
     }));
     assert.ok((await Promise.all(first)).every((byte) => byte === "H"));
@@ -202,7 +202,7 @@ test("says when nothing can be kept, and works all the same", async () => {
   assert.equal(notice, "Your work is not kept, as the studio's folder cannot be written to.");
   assert.ok(other.errors.includes(`${notice} ${path.join(file, "state")}: Not a directory`), other.errors);
   await other.open({path: scan});
-  assert.equal((await other.post("frame", FRAME)).status, 200);
+  assert.equal((await other.post("picture", PICTURE)).status, 200);
   const {status, body} = await other.post("state", {state: {}});
   assert.equal(status, 500);
   assert.match(String(body), /expected a folder of the studio that can be written to: Not a directory/);

@@ -21,7 +21,7 @@ withBrowser(async () => {
   await first.addInitScript(() => { // Firefox's driver does not report the bodies of requests
     const {fetch} = window;
     window.fetch = (url, options) => {
-      if (url === "api/frame") window.frame = JSON.parse(options.body);
+      if (url === "api/picture") window.request = JSON.parse(options.body);
       return fetch(url, options);
     };
   });
@@ -89,11 +89,11 @@ async function set(name, value) {
   await (kind === "range" ? it.fill(String(value)) : enter(it, String(value)));
 }
 
-const sent = () => page.evaluate(() => window.frame);
+const sent = () => page.evaluate(() => window.request);
 
 const reaches = (check) => eventually(async () => {
-  const frame = await sent();
-  assert.ok(check(frame), JSON.stringify(frame));
+  const request = await sent();
+  assert.ok(check(request), JSON.stringify(request));
 });
 
 test("has a control for each option of the table", async () => {
@@ -125,13 +125,13 @@ for (const [name, {value, first = {}, kind, isDepth, isColoured}] of cases)
     if (kind) await page.locator(`[data-kind="${kind}"]`).click();
     for (const [other, set_to] of Object.entries(first)) {
       await set(other, set_to);
-      await reaches((frame) => frame.options[other] === set_to);
+      await reaches((request) => request.options[other] === set_to);
     }
     await soon.notEqual(async () => (await sent()).options[name], value);
     await set(name, value);
-    if (name === "alpha") await reaches((frame) => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
-    else if (name === "tone") await reaches((frame) => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
-    else await reaches((frame) => frame.options[name] === value);
+    if (name === "alpha") await reaches((request) => Math.abs(request.u / value ** -first.saturation - 1) < 1e-9);
+    else if (name === "tone") await reaches((request) => /^0,[\d.]+;/.test(request.options.tone ?? ""));
+    else await reaches((request) => request.options[name] === value);
     await undoAll(); // restores the defaults
     await untilReady(page);
   });
@@ -290,7 +290,7 @@ test("opens a project whose light is as far as numbers go", async () => {
   const file = path.join(folder, "light.relievo"), pixels = async (light) => {
     writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: {}, studio: {light}}));
     await page.locator("#file").setInputFiles(file);
-    await reaches((frame) => JSON.stringify(frame.light) === JSON.stringify(light));
+    await reaches((request) => JSON.stringify(request.light) === JSON.stringify(light));
     await untilReady(page);
     return page.locator("#picture").evaluate((canvas) => canvas.toDataURL());
   };

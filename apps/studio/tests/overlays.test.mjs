@@ -148,9 +148,9 @@ const plateOpacity = () => page.evaluate(() => {
 
 test("lays the model over the relief, wherever that stands on its plate, and mirrored", async () => {
   await page.setViewportSize(SCREENS[0]);
-  await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {about}}) => {
-    const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = about;
-    window.piece = about.size_mm.map((mm) => mm * scale);
+  await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {facts}}) => {
+    const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = facts;
+    window.piece = facts.size_mm.map((mm) => mm * scale);
     window.figure = [[left, -top], [right, -bottom]]
       .map(([x, y]) => [Math.round(width / 2 + x * scale), Math.round(height / 2 + y * scale)]);
   }));
@@ -195,7 +195,7 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", async 
   await pen("mouseReleased", middle[0] + 80, middle[1] - 50, {buttons: 0});
   await soon.equal(() => tablet.locator("#overlay .sun").count(), 0);
   await undo(1, tablet);
-  await soon.ok(() => button("Undo", tablet).isDisabled(), "one stroke is one step");
+  await soon.ok(() => button("Undo", tablet).isDisabled(), "one gesture is one step");
   await radio("Crop", tablet).click();
   const frame = tablet.locator("#crop-frame .frame"), whole = await frame.boundingBox();
   await pen("mousePressed", whole.x + whole.width, whole.y + whole.height / 2);

@@ -43,7 +43,7 @@ async function picture() {
 }
 
 // Returns the mean difference between the red values of two pictures, from 0 to 255. Pictures of a locked height may
-// differ a little, since the height of frames is exact only to a thousandth.
+// differ a little, since the height of pictures is exact only to a thousandth.
 function difference(a, b) {
   if (a.length !== b.length) return 255;
   let sum = 0;
@@ -58,7 +58,7 @@ const becomes = (other, isSame) => eventually(async () => {
 });
 const becomesSame = (other) => becomes(other, true), becomesOther = (other) => becomes(other, false);
 
-// Returns the height of the newest frame, which may differ from the requested height.
+// Returns the height of the newest picture, which may differ from the requested height.
 async function heightShown() {
   const title = await numbers().getAttribute("title");
   return Number(title.match(/reached ([\d.]+)/)[1]);
@@ -257,7 +257,7 @@ const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAtt
 test("draws the curve that the engine has sampled", async () => {
   let sampled = null;
   const listen = (response) => {
-    const text = response.url().endsWith("api/frame") && response.headers()["x-relievo"];
+    const text = response.url().endsWith("api/picture") && response.headers()["x-relievo"];
     if (text) sampled = JSON.parse(text).curve;
   };
   page.on("response", listen);

@@ -6,7 +6,7 @@ import net from "node:net";
 import path from "node:path";
 import {test} from "node:test";
 import {fileURLToPath} from "node:url";
-import {FRAME, OPTIONS, connect, engine, folder, head, scan, stillWorks, studioIn,
+import {PICTURE, OPTIONS, connect, engine, folder, head, scan, stillWorks, studioIn,
   withEngine} from "./engine_suite.mjs";
 import {PROGRAM, readStl, run, sleep, temporaryFolder, writeSample} from "./support.mjs";
 
@@ -16,8 +16,8 @@ const status = async (answer) => (await answer).status;
 const facts = () => engine.json("facts");
 
 // Returns the facts that come with a picture. `part` replaces parts of the usual request.
-async function frame(part = {}) {
-  const answer = await engine.post("frame", {...FRAME, ...part});
+async function picture(part = {}) {
+  const answer = await engine.post("picture", {...PICTURE, ...part});
   assert.equal(answer.status, 200, String(answer.body));
   return JSON.parse(answer.headers["x-relievo"]);
 }
@@ -50,7 +50,7 @@ test("wants its token", async () => {
     `/x/${token}/`, "//", "*"];
   for (const target of targets)
     assert.ok([400, 403].includes(await status(engine.request(target))), target);
-  assert.equal(await status(engine.request(`/${wrong}/api/frame`, {method: "POST", body: "{}"})), 403);
+  assert.equal(await status(engine.request(`/${wrong}/api/picture`, {method: "POST", body: "{}"})), 403);
   assert.equal(await status(engine.request(`/${token}`)), 308);
 });
 
@@ -63,12 +63,12 @@ test("refuses other hosts and origins", async () => {
   const origins = ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`,
     `http://127.0.0.1:${port}.evil.example`];
   for (const Origin of origins)
-    assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin}})), 403, Origin);
-  assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
+    assert.equal(await status(engine.post("picture", PICTURE, {headers: {Origin}})), 403, Origin);
+  assert.equal(await status(engine.post("picture", PICTURE, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
   assert.equal(await status(engine.request(pathname, {headers: {Host: `localhost:${port}`}})), 200);
   const tunnel = {Host: "localhost:9000", Origin: "http://localhost:9000"}; // a tunnel has another port
-  assert.equal(await status(engine.post("frame", FRAME, {headers: tunnel})), 200);
-  assert.equal(await status(engine.post("frame", FRAME, {headers: {...tunnel, Origin: "http://localhost:9001"}})), 403);
+  assert.equal(await status(engine.post("picture", PICTURE, {headers: tunnel})), 200);
+  assert.equal(await status(engine.post("picture", PICTURE, {headers: {...tunnel, Origin: "http://localhost:9001"}})), 403);
   const foreign = await engine.request(pathname, {headers: {Host: "evil.example"}});
   assert.ok(!foreign.body.toString().includes(pathname), "the token must not leak");
 });
@@ -95,19 +95,19 @@ test("is not reached from other machines", async () => {
 
 test("refuses what is too large", async () => {
   const huge = {method: "POST", headers: {"Content-Length": String(5 * 2 ** 30)}};
-  for (const action of ["frame", "upload"]) assert.equal(await rawStatus(action, huge.headers, ""), 413, action);
-  assert.equal(await rawStatus("frame", {"Content-Length": String(5 * 2 ** 20)}, ""), 413);
-  assert.ok([400, 413].includes(await rawStatus("frame", {"Transfer-Encoding": "chunked"}, chunks(5 * 2 ** 20))));
+  for (const action of ["picture", "upload"]) assert.equal(await rawStatus(action, huge.headers, ""), 413, action);
+  assert.equal(await rawStatus("picture", {"Content-Length": String(5 * 2 ** 20)}, ""), 413);
+  assert.ok([400, 413].includes(await rawStatus("picture", {"Transfer-Encoding": "chunked"}, chunks(5 * 2 ** 20))));
   assert.equal(await status(engine.request(engine.url.pathname + "x".repeat(600))), 414);
   assert.ok((await status(engine.request(engine.url.pathname + "x".repeat(20000)))) >= 400);
-  assert.equal(await status(engine.post("frame", {...FRAME, width: 8192, height: 8192})), 400);
+  assert.equal(await status(engine.post("picture", {...PICTURE, width: 8192, height: 8192})), 400);
   await stillWorks();
 });
 
 test("refuses malformed requests and says what was expected", async () => {
   const bodies = ["", "{", "[]", "null", "\"x\"", "{\"options\":", "\xff\xfe", "[".repeat(100000), "{\"options\": 3}"];
   for (const body of bodies)
-    for (const action of ["frame", "export", "open", "document", "state", "project", "save", "profile", "scan"]) {
+    for (const action of ["picture", "export", "open", "document", "state", "project", "save", "profile", "scan"]) {
       const answer = await engine.post(action, Buffer.from(body, "latin1"));
       const isRefused = answer.status >= 400 && answer.status < 500;
       assert.ok(isRefused, `${action} ${body.slice(0, 20)} ${answer.status}`);
@@ -117,7 +117,7 @@ test("refuses malformed requests and says what was expected", async () => {
     {camera: {zoom: 0}}, {options: {heigth: 2}}, {options: {height: "2"}}, {options: {height: -1}},
     {options: {tone: "x"}}, {options: {view: 3}}, {u: -1}];
   for (const part of wrong) {
-    const answer = await status(engine.post("frame", {...FRAME, ...part}));
+    const answer = await status(engine.post("picture", {...PICTURE, ...part}));
     assert.ok([400, 422].includes(answer), `${JSON.stringify(part)} ${answer}`);
   }
   assert.equal(await status(engine.post("export", {options: OPTIONS, format: "exe"})), 422);
@@ -129,12 +129,12 @@ test("refuses malformed requests and says what was expected", async () => {
 
 test("says what it expected in each field", async () => {
   const camera = {zoom: 0}, far = [1e9, 0], wrong = [
-    ["frame", {camera}, "zoom: expected 0.05 to 100"], ["frame", {camera: {x: "far"}}, "x: expected a number"],
-    ["frame", {camera: {y: 1e7}}, "x: expected x and y within a million mm"],
-    ["frame", {width: 8192, height: 8192}, "width: expected a picture of at most eight million pixels"],
-    ["frame", {light: [0, 0, 0]}, "light: expected three numbers, not all of them 0"],
-    ["frame", {material: "cheese"}, "material: expected one of plaster, silver, bronze, walnut or porcelain, found"],
-    ["frame", {u: -1}, "u: expected a number that is not negative"],
+    ["picture", {camera}, "zoom: expected 0.05 to 100"], ["picture", {camera: {x: "far"}}, "x: expected a number"],
+    ["picture", {camera: {y: 1e7}}, "x: expected x and y within a million mm"],
+    ["picture", {width: 8192, height: 8192}, "width: expected a picture of at most eight million pixels"],
+    ["picture", {light: [0, 0, 0]}, "light: expected three numbers, not all of them 0"],
+    ["picture", {material: "cheese"}, "material: expected one of plaster, silver, bronze, walnut or porcelain, found"],
+    ["picture", {u: -1}, "u: expected a number that is not negative"],
     ["profile", {from: 3}, "from: expected two numbers"],
     ["profile", {from: far, to: far}, "from: expected a place on the plate"],
     ["points", {places: 3}, "places: expected at most 1000 places"],
@@ -146,13 +146,13 @@ test("says what it expected in each field", async () => {
     ["export", {format: "heightmap", "heightmap-bits": "32"}, "heightmap-bits: expected 8 or 16 for a .png, found 32"],
     ["state", {state: 3}, "expected a state"],
     ["state", {document: "x", state: {}}, "document: expected the name of a document"],
-    ["picture", {picture: "x"}, "expected a small picture"], ["frame", "[]", "body: expected an object in JSON"],
-    ...["", "0".repeat(16), "../../etc/passwd"].map((document) => ["frame", {document}, "expected a document that is open"]),
-    ["frame", {document: 3}, "expected fields of their types"],
+    ["thumbnail", {thumbnail: "x"}, "expected a thumbnail"], ["picture", "[]", "body: expected an object in JSON"],
+    ...["", "0".repeat(16), "../../etc/passwd"].map((document) => ["picture", {document}, "expected a document that is open"]),
+    ["picture", {document: 3}, "expected fields of their types"],
     ["open", {input: {path: scan}, tab: 3}, "expected fields of their types"],
     ["save", {project: {input: {sample: "shell"}, options: {}}}, "expected a scan of one file"]];
   for (const [action, part, text] of wrong) {
-    const answer = await engine.post(action, typeof part === "string" ? part : {...FRAME, ...part});
+    const answer = await engine.post(action, typeof part === "string" ? part : {...PICTURE, ...part});
     assert.ok(JSON.parse(answer.body).error.text.includes(text), `${action}: ${text}, not ${answer.body}`);
   }
   const multipart = {"Content-Type": "multipart/form-data; boundary=x"};
@@ -189,9 +189,9 @@ test("takes everything that the page offers to choose", async () => {
   for (const {name, choices} of options) if (["outline", "form"].includes(name)) offered[name] = choices;
   for (const [name, values] of Object.entries(offered)) {
     assert.ok(values.length >= 2, name);
-    for (const value of values) await frame({options: {...OPTIONS, [name]: value}});
+    for (const value of values) await picture({options: {...OPTIONS, [name]: value}});
   }
-  for (const {id} of materials) await frame({material: id});
+  for (const {id} of materials) await picture({material: id});
 });
 
 test("sends the views as it turns the model", async () => {
@@ -227,9 +227,9 @@ test("finds the points of the model under places of its picture, in the coordina
 test("samples the tone curve and the paper's formula", async () => {
   const {delta} = await facts(), last = 80;
   const near = (found, wanted) => assert.ok(Math.abs(found - wanted) < 6e-4, `${found} is not ${wanted}`);
-  const paper = await frame({options: {...OPTIONS, method: "paper", saturation: 0.5}});
-  const even = await frame({options: {...OPTIONS, saturation: 0}});
-  const drawn = await frame({options: {...OPTIONS, tone: "0,0.2;0.5,0.4;1,0.9"}});
+  const paper = await picture({options: {...OPTIONS, method: "paper", saturation: 0.5}});
+  const even = await picture({options: {...OPTIONS, saturation: 0}});
+  const drawn = await picture({options: {...OPTIONS, tone: "0,0.2;0.5,0.4;1,0.9"}});
   for (let i = 0; i <= last; ++i) {
     const power = Math.sqrt((i / last) ** 2 / delta);
     near(paper.curve.share[i], 1 - Math.exp(-power));
@@ -242,46 +242,46 @@ test("samples the tone curve and the paper's formula", async () => {
 });
 
 test("tells the size of the piece, and cuts the piece that the file will be", async () => {
-  const plain = await frame();
+  const plain = await picture();
   assert.deepEqual(plain.size_mm.map((mm) => mm.toFixed(1)), ["70.0", (60 * (await shape()) + 10).toFixed(1), "5.0"]);
   assert.equal(plain.most_width_mm, null);
   const coin = {height: 2, view: "front", outline: "circle", diameter: 80, rim: 3, "rim-height": 1.5};
   const {size_mm: size, width_mm: width, most_width_mm: most, relief_mm: relief} =
-    await frame({options: coin, fine: true});
+    await picture({options: coin, fine: true});
   assert.deepEqual(size.slice(0, 2).map((mm) => mm.toFixed(6)), ["80.000000", "80.000000"]);
   assert.equal(width, most);
   for (const [x, y] of [relief[0], relief[1]]) assert.ok(Math.hypot(x, y) < 40 * Math.SQRT2, `${x} ${y}`);
   assert.ok(Math.abs(Math.max(relief[1][0] - relief[0][0], relief[1][1] - relief[0][1]) - width) < 0.01);
   const line = {from: [-40.5, 0], to: [40.5, 0]};
-  const {heights_mm: heights} = await engine.json("profile", {...FRAME, options: coin, ...line});
+  const {heights_mm: heights} = await engine.json("profile", {...PICTURE, options: coin, ...line});
   assert.equal(heights.length, 400);
   const at = (mm) => heights[Math.round((mm + 40.5) / 81 * 399)];
   for (const mm of [-39, 39]) assert.ok(Math.abs(at(mm) - 1.5) < 1e-3, `rim ${at(mm)}`);
   for (const mm of [-36, 36]) assert.ok(Math.abs(at(mm)) < 1e-3, `ground ${at(mm)}`);
   for (const mm of [-40.5, 40.5]) assert.ok(at(mm) <= -3 + 1e-3, `beside the coin ${at(mm)}`);
   assert.ok(Math.max(...heights) <= 2.01 && Math.max(...heights) > 1.6, `${Math.max(...heights)}`);
-  const wide = await engine.post("frame", {...FRAME, options: {...coin, width: most + 1}});
+  const wide = await engine.post("picture", {...PICTURE, options: {...coin, width: most + 1}});
   assert.equal(wide.status, 422);
   assert.match(String(wide.body), /width: expected at most [\d.]+ mm, which the plate leaves/);
 });
 
-test("makes a frame once", async () => {
+test("makes a picture once", async () => {
   const options = {...OPTIONS, saturation: 0.7};
-  assert.ok((await frame({options, fine: true})).solves >= 1);
-  assert.equal((await frame({options, fine: true})).solves, 0);
-  assert.equal((await frame({options, light: [1, 0, 1]})).solves, 0);
-  assert.equal((await frame({options: {...options, height: 2.1}})).solves, 1);
+  assert.ok((await picture({options, fine: true})).solves >= 1);
+  assert.equal((await picture({options, fine: true})).solves, 0);
+  assert.equal((await picture({options, light: [1, 0, 1]})).solves, 0);
+  assert.equal((await picture({options: {...options, height: 2.1}})).solves, 1);
 });
 
 test("gives up a fine picture when another is asked for", async () => {
-  const large = {...FRAME, width: 1600, height: 1500, fine: true};
-  assert.equal((await engine.post("frame", large)).status, 200);
-  const fine = engine.post("frame", {...large, light: [1, 0, 1]});
+  const large = {...PICTURE, width: 1600, height: 1500, fine: true};
+  assert.equal((await engine.post("picture", large)).status, 200);
+  const fine = engine.post("picture", {...large, light: [1, 0, 1]});
   await sleep(50); // drawing takes several times longer
-  assert.equal((await engine.post("frame", FRAME)).status, 200);
+  assert.equal((await engine.post("picture", PICTURE)).status, 200);
   const {status, body} = await fine; // not the status of an error, since browsers log errors in their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);
-  assert.equal((await engine.post("frame", large)).status, 200);
+  assert.equal((await engine.post("picture", large)).status, 200);
 });
 
 test("takes a view that is chosen while the scan is read", async () => {
@@ -290,15 +290,15 @@ test("takes a view that is chosen while the scan is read", async () => {
   engine.document = document;
   const status = await engine.untilIdle();
   assert.equal(status.input.sample, "still_life");
-  assert.equal(status.shown.view, "left");
+  assert.equal(status.requested.view, "left");
   assert.equal((await facts()).rotation[6], -1);
   await engine.open({path: scan});
 });
 
 test("crops a scan as seen", async () => {
   const crop = "0,0,0.5,1", before = await facts();
-  const {shown} = await engine.prepare({view: "front", crop}), {size} = await facts();
-  assert.equal(shown.crop, crop);
+  const {requested} = await engine.prepare({view: "front", crop}), {size} = await facts();
+  assert.equal(requested.crop, crop);
   assert.ok(Math.abs(size[0] / before.size[0] - 0.5) < 0.1, `${size} of ${before.size}`);
   const wrong = await engine.post("view", {view: "front", crop: "0,0,1"});
   assert.equal(wrong.status, 422);
@@ -315,7 +315,7 @@ test("shows the pixels of a depth image, and no other scan", async () => {
 
 test("removes as much noise as is measured or asked for", async () => {
   const measured = (await facts()).noise;
-  assert.equal((await engine.prepare({view: "front", denoise: "0.6"})).shown.denoise, "0.6");
+  assert.equal((await engine.prepare({view: "front", denoise: "0.6"})).requested.denoise, "0.6");
   assert.equal((await facts()).noise, 0.6);
   assert.equal((await engine.post("view", {view: "front", denoise: "much"})).status, 422);
   await engine.prepare({view: "front"});
@@ -356,7 +356,7 @@ test("finds the face of a scan, and sets it upright, whichever way the scanner h
   for (const scan of [face, turned]) {
     const {document} = await engine.json("open", {input: {path: scan}, view: "auto"});
     engine.document = document;
-    found.push({view: (await engine.untilIdle()).shown.view, ...await facts()});
+    found.push({view: (await engine.untilIdle()).requested.view, ...await facts()});
   }
   assert.equal(found[0].view, "front");
   assert.equal(found[1].view, "bottom");
@@ -405,7 +405,7 @@ test("keeps dropped files inside its folder", async () => {
 });
 
 test("answers a thousand requests at once", async () => {
-  const ask = (_, i) => status(i % 2 ? engine.post("frame", FRAME) : engine.get("api/about"));
+  const ask = (_, i) => status(i % 2 ? engine.post("picture", PICTURE) : engine.get("api/about"));
   const answers = await Promise.all(Array.from({length: 1000}, ask));
   assert.ok(answers.every((answer) => answer === 200 || answer === 503), [...new Set(answers)].join());
   assert.ok(answers.filter((answer) => answer === 200).length >= 500);
@@ -546,7 +546,7 @@ test("draws while the model is turned, and gives up a turn when another comes", 
   await engine.post("view", {document, view: "left", points: 20000}); // the first turn must sample points on all sides
   await untilIdle();
   const order = [], ask = async (name, part) => {
-    const answer = await engine.post("frame", {...FRAME, document, ...part});
+    const answer = await engine.post("picture", {...PICTURE, document, ...part});
     order.push(name);
     return answer.status;
   };

@@ -4,7 +4,7 @@ import {test} from "node:test";
 import {engine, scan, withEngine} from "./engine_suite.mjs";
 import {readStl} from "./support.mjs";
 
-const FRAME = {width: 200, height: 150, light: [-1, 1, 1], material: "plaster", camera: {}};
+const PICTURE = {width: 200, height: 150, light: [-1, 1, 1], material: "plaster", camera: {}};
 const VIEW = {view: "front", height: 2, width: 40, margin: 2, thickness: 2, mode: "auto", method: "layered",
   resolution: 0.5};
 const COIN = {...VIEW, outline: "circle", diameter: 40, width: 20, height: 1.6, rim: 1.5};
@@ -33,8 +33,8 @@ withEngine("still_life", 6000, async () => {
   await engine.prepare({view: "front"});
 });
 
-async function frame(request) {
-  const {status, headers, body} = await engine.post("frame", {...FRAME, ...request});
+async function picture(request) {
+  const {status, headers, body} = await engine.post("picture", {...PICTURE, ...request});
   assert.equal(status, 200, String(body));
   return JSON.parse(headers["x-relievo"]);
 }
@@ -46,8 +46,8 @@ const near = (a, b, within, text) =>
 const LEVEL = ["plaque", "round corners", "circle without a rim", "plate with a size", "lithophane", "height out of reach"];
 
 async function compare(name, options, extra = {}) {
-  const quick = await frame({options, ...extra}), fine = await frame({options, fine: true, ...extra});
-  const last = await frame({options, fine: true, finished: true, ...extra});
+  const quick = await picture({options, ...extra}), fine = await picture({options, fine: true, ...extra});
+  const last = await picture({options, fine: true, finished: true, ...extra});
   assert.ok(last.is_finished && last.is_size_exact);
   const wanted = {...options, height: last.height_mm}; // the page requests the file in this way
   const piece = await engine.json("piece", {options: wanted});
@@ -69,6 +69,6 @@ test("tells one size of a relief whose height is not locked", async () => {
 });
 
 test("makes a lithophane of any height", async () => {
-  const options = PIECES["thick lithophane"], {is_height_met: isMet, height_mm: height} = await frame({options});
+  const options = PIECES["thick lithophane"], {is_height_met: isMet, height_mm: height} = await picture({options});
   assert.deepEqual([isMet, height], [true, 60]);
 });

@@ -84,8 +84,10 @@ Result<MakeOrder> order_from(const Json& json) {
   order.base_image_path = text(json, "base_image");
   order.scan_path = text(json, "scan");
   if (json.contains("stream_above_mb"))
-    order.in.most_points = std::numeric_limits<double>::infinity();  // the caller knows how many fit
-  order.in.stream_above_mb = number(json, "stream_above_mb", order.in.stream_above_mb);
+    order.input_arguments.most_points =
+        std::numeric_limits<double>::infinity();  // the caller knows how many fit
+  order.input_arguments.stream_above_mb =
+      number(json, "stream_above_mb", order.input_arguments.stream_above_mb);
   if (const auto inputs = json.find("inputs"); inputs != json.end() && inputs->is_array())
     for (const Json& path : *inputs)
       if (path.is_string()) order.inputs.push_back(path.get<std::string>());

@@ -42,14 +42,14 @@ export class EngineWorker {
     for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
   }
 
-  #take({id, statuses, error, isOver, status, about, type, body}) {
+  #take({id, statuses, error, isOver, status, facts, type, body}) {
     if (statuses) return this.#on.statuses(statuses);
     const waiting = this.#waiting.get(id);
     this.#waiting.delete(id);
     if (isOver) this.#on.over(new EngineError(error));
     const refusal = error ?? (status >= 400 || status === CANCELLED ? body.error : null);
     if (refusal) return waiting?.reject(new EngineError(refusal));
-    const isFile = body instanceof Uint8Array && !about;
-    waiting?.resolve({about, body: isFile ? new Blob([body], {type}) : body});
+    const isFile = body instanceof Uint8Array && !facts;
+    waiting?.resolve({facts, body: isFile ? new Blob([body], {type}) : body});
   }
 }

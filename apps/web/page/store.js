@@ -72,7 +72,7 @@ export class BrowserStore {
     }
   }
 
-  // Returns {id, state, picture, touched} of a document; nothing if it is not stored.
+  // Returns {id, state, picture, touched} of a document, `picture` being its thumbnail; nothing if it is not stored.
   document = (id) => this.#get("documents", id);
 
   // Stores the state of a document. Throws an error of kind "older" if a newer state is already stored, and of kind
@@ -84,7 +84,7 @@ export class BrowserStore {
     });
   }
 
-  keepPicture = (id, picture) => this.#change("documents", id, (kept) => ({...kept, id, picture}));
+  keepThumbnail = (id, picture) => this.#change("documents", id, (kept) => ({...kept, id, picture}));
 
   touch = (id) => this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
 

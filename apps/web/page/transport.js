@@ -21,7 +21,7 @@ const LIMITS = [
 ];
 
 export class Transport {
-  // slowMs: a slower frame misses the aim of 30 frames per second.
+  // slowMs: a slower picture misses the aim of 30 pictures per second.
   traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
@@ -42,12 +42,12 @@ export class Transport {
     view: (request) => this.#chooseView(request), cancel: () => this.#cancel(), cancel_piece: () => this.#cancelPiece(),
     save: ({project}) => this.#packProject(project), recent: async () => ({recent: await this.#recent()}),
     state: ({document, state}) => this.#keep(document, state), leave: () => {},
-    picture: ({document, picture}) => this.#store.keepPicture(document, picture),
+    thumbnail: ({document, thumbnail}) => this.#store.keepThumbnail(document, thumbnail),
   };
 
   async call(name, request = {}, {files = [], onSolved} = {}) {
     const own = this.#own[name];
-    if (name === "frame") return this.#frame(request, onSolved);
+    if (name === "picture") return this.#picture(request, onSolved);
     return own ? {body: await own(request, files)} : this.#ask(name, request);
   }
 
@@ -110,14 +110,14 @@ export class Transport {
 
   // Returns a picture. A frame of a plate is solved in the worker and drawn in another one, so that the next frame is
   // solved meanwhile. Calls onSolved when the worker can solve the next frame.
-  async #frame(request, onSolved) {
-    const {about, body} = await this.#ask("frame", {...request, apart: true});
+  async #picture(request, onSolved) {
+    const {facts, body} = await this.#ask("picture", {...request, apart: true});
     onSolved?.();
-    if (!about.is_undrawn) return {about, body};
+    if (!facts.is_undrawn) return {facts, body};
     this.#drawer ??= this.#newWorker(await this.#module);
     const {options: _, ...picture} = request;
     const drawn = await this.#drawer.send("draw", picture, [["frame", body]], [body.buffer]);
-    return {about: {...about, ...drawn.about}, body: drawn.body};
+    return {facts: {...facts, ...drawn.facts}, body: drawn.body};
   }
 
   // Ends the worker after the engine ran out of memory or failed, and reports the error as the document's status.
@@ -138,7 +138,7 @@ export class Transport {
 
   #status() {
     const {document} = this.#opened;
-    return this.#statuses.get(document) ?? {document, model: 0, input: null, shown: {}, making: {}};
+    return this.#statuses.get(document) ?? {document, model: 0, input: null, requested: {}, making: {}};
   }
 
   #tell(status) {
@@ -243,9 +243,9 @@ export class Transport {
 
   async #recent() {
     const documents = await this.#store.recent();
-    return Promise.all(documents.map(async ({id, state, picture = ""}) => {
-      const input = inputOf(state);
-      return {document: id, input, is_there: Boolean(input.sample || (await this.#store.scan(scanOf(input)))), picture};
+    return Promise.all(documents.map(async ({id, state, picture: thumbnail = ""}) => {
+      const input = inputOf(state), isThere = Boolean(input.sample || (await this.#store.scan(scanOf(input))));
+      return {document: id, input, is_there: isThere, thumbnail};
     }));
   }
 

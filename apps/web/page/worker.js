@@ -1,5 +1,5 @@
 // The worker that runs the WebAssembly engine for the page. It receives {id, call, request, files}, and answers {id,
-// status, type, about, body} or {id, error}, or {id, error, isOver} if the engine cannot continue. It also sends
+// status, type, facts, body} or {id, error}, or {id, error, isOver} if the engine cannot continue. It also sends
 // {statuses} when a status has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
@@ -40,9 +40,9 @@ function addFiles(files) {
 function answer({ id, call, request, files = [] }) {
   try {
     addFiles(files);
-    const { json: { about, status = 200, ...json }, bytes } = engine.call(call, request);
+    const { json: { facts, status = 200, ...json }, bytes } = engine.call(call, request);
     const body = json.type ? bodyOf(json, bytes) : bytes.length > 0 ? bytes : json;
-    postMessage({ id, status, type: json.type, about, body }, body.buffer ? [body.buffer] : []);
+    postMessage({ id, status, type: json.type, facts, body }, body.buffer ? [body.buffer] : []);
   } catch (error) {
     fail(id, error);
   }

@@ -141,10 +141,10 @@ Answer undrawn_frame(studio::Engine& engine, const Json& json) {
   request->is_drawn_apart = !request->turned;  // turned reliefs have another surface in each view
   const Result<studio::PictureAnswer> made = engine.picture(*std::move(request));
   if (!made) return studio::answer_of(made.error());
-  Json about = studio::to_json(*made);
-  if (!made->undrawn) return studio::answer_of(made->picture, about);
-  about["is_undrawn"] = true;
-  Answer answer = studio::answer_of(Picture(), about);
+  Json facts = studio::to_json(*made);
+  if (!made->undrawn) return studio::answer_of(made->picture, facts);
+  facts["is_undrawn"] = true;
+  Answer answer = studio::answer_of(Picture(), facts);
   answer.body = packed(*made->undrawn, sent);
   sent = {made->undrawn->model, made->undrawn->number};
   return answer;

@@ -8,7 +8,7 @@
 
 namespace relievo::app::web {
 
-// Does the action "frame". If another instance can draw the frame, the facts about it have `is_undrawn`, and
+// Does the action "picture". If another instance can draw the frame, the facts have `is_undrawn`, and
 // the body is the file "frame" for draw(). It has a surface or heights only if they are not those of the last
 // such body.
 studio::Answer undrawn_frame(studio::Engine& engine, const nlohmann::json& request);

@@ -38,12 +38,12 @@ void tell_statuses() {
   relievo_host_statuses(text.data(), text.size());
 }
 
-CallAnswer call_answer(const studio::Answer& from, Json about) {
-  for (const auto& [name, value] : from.headers) about["about"] = Json::parse(value, nullptr, false);
-  about["status"] = from.status;
-  about["type"] = from.type;
+CallAnswer call_answer(const studio::Answer& from, Json json) {
+  for (const auto& [name, value] : from.headers) json["facts"] = Json::parse(value, nullptr, false);
+  json["status"] = from.status;
+  json["type"] = from.type;
   const auto bytes = std::as_bytes(std::span(from.body));
-  return {std::move(about), {bytes.begin(), bytes.end()}};
+  return {std::move(json), {bytes.begin(), bytes.end()}};
 }
 
 // Reads a project file that the page has added under a path. Later, the call "unpacked" returns the bytes of
@@ -73,13 +73,13 @@ Result<CallAnswer> call(std::string_view name, const Json& json) {
     RELIEVO_TRY(const studio::Answer drawn, draw(json));
     return call_answer(drawn, Json::object());
   }
-  if (name == "frame" && json.value("apart", false))
+  if (name == "picture" && json.value("apart", false))
     if (const auto engine = studio.documents.find(json.value("document", "")))
       return call_answer(undrawn_frame(*engine, json), Json::object());
   if (!studio.actions.has(name))
     return option_error("call", cat("expected the name of a function, found '", name, "'"));
   const studio::Answer made = studio.actions.run(name, json);
-  if (name != "frame") tell_statuses();
+  if (name != "picture") tell_statuses();
   return call_answer(made, Json::object());
 }
 

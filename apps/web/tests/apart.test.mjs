@@ -27,18 +27,18 @@ before(async () => {
 
 // Returns the facts and the bytes of a frame that may be drawn apart.
 function undrawn(request) {
-  const {json, bytes} = solver.call("frame", {...request, apart: true});
-  return {about: json.about, bytes};
+  const {json, bytes} = solver.call("picture", {...request, apart: true});
+  return {facts: json.facts, bytes};
 }
 
 function assertDrawnAlike(request) {
-  const alone = solver.call("frame", request), apart = undrawn(request);
-  assert.equal(apart.about.is_undrawn, true);
+  const alone = solver.call("picture", request), apart = undrawn(request);
+  assert.equal(apart.facts.is_undrawn, true);
   drawer.addFile("frame", apart.bytes);
   const {options: _, ...picture} = request, drawn = drawer.call("draw", picture);
   assert.ok(Buffer.from(drawn.bytes).equals(Buffer.from(alone.bytes)), JSON.stringify(request));
-  for (const fact of ["width", "height", "pixels_per_mm"]) assert.equal(drawn.json.about[fact], alone.json.about[fact]);
-  assert.equal(apart.about.height_mm, alone.json.about.height_mm);
+  for (const fact of ["width", "height", "pixels_per_mm"]) assert.equal(drawn.json.facts[fact], alone.json.facts[fact]);
+  assert.equal(apart.facts.height_mm, alone.json.facts.height_mm);
   return drawn.bytes;
 }
 
@@ -63,8 +63,8 @@ test("surface and heights are sent only if the other instance does not have them
 test("pictures that are no frames of a plate are drawn where they are solved", async () => {
   const document = await open("shell");
   for (const other of [{original: true}, {options: {rim: 1.5, outline: "circle"}}]) {
-    const {about, bytes} = undrawn({...SIZE, document, ...other});
-    assert.equal(about.is_undrawn, undefined);
+    const {facts, bytes} = undrawn({...SIZE, document, ...other});
+    assert.equal(facts.is_undrawn, undefined);
     assert.equal(bytes.length, 4 * SIZE.width * SIZE.height);
   }
 });

@@ -70,7 +70,7 @@ Result<Answer> views(Engine& engine, const Json&) {
   return answer_of(Json{{"views", sides}});
 }
 
-Result<Answer> frame(Engine& engine, const Json& json) {
+Result<Answer> picture(Engine& engine, const Json& json) {
   RELIEVO_TRY(PictureRequest request, picture_request(json));
   RELIEVO_TRY(const PictureAnswer made, engine.picture(std::move(request)));
   return answer_of(made.picture, to_json(made));
@@ -164,7 +164,7 @@ EngineAction find_engine_action(std::string_view name) {
                                                                           {"cancel", cancel},
                                                                           {"facts", facts},
                                                                           {"views", views},
-                                                                          {"frame", frame},
+                                                                          {"picture", picture},
                                                                           {"scan", scan},
                                                                           {"pixels", pixels},
                                                                           {"profile", profile},
