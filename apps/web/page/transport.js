@@ -1,8 +1,8 @@
-// Sends requests to the WebAssembly engine, which runs in a worker, and to the browser's store of documents. Replaces
+// Sends requests to the WebAssembly engine, which runs in workers, and to the browser's store of documents. Replaces
 // apps/studio/page/transport.js; apps/studio/page/engine.js describes transports.
 import {compile} from "../../../npm/src/compile.js";
 import {EngineError, TAB, cancelled} from "../../studio/page/engine.js";
-import {EngineWorker} from "./engine_worker.js";
+import {EngineWorkers} from "./engine_workers.js";
 import {bytesOf, documentOf, inputOf, mainOf, optionsIn, pathsIn, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
@@ -26,10 +26,9 @@ export class Transport {
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // addresses of the page's pictures by name
-  #worker = null; // prepares and solves
-  #drawer = null; // draws the frames of #worker
+  #workers = null;
   #opened = {document: "", input: null}; // the document that was opened last
-  #isOpen = new Set(); // documents that the worker has open
+  #isOpen = new Set(); // documents that the workers have open
   #statuses = new Map(); // the last reported status of each document
   #kept = new Map(); // per document, when it was stored last, and by which tab
   #onStatus = () => {};
@@ -47,57 +46,53 @@ export class Transport {
 
   async call(name, request = {}, {files = [], onSolved} = {}) {
     const own = this.#own[name];
-    if (name === "picture") return this.#picture(request, onSolved);
-    return own ? {body: await own(request, files)} : this.#ask(name, request);
+    return own ? {body: await own(request, files)} : this.#ask(name, request, onSolved);
   }
 
-  // ------------------------------------------------------------------------------------------------- the worker
+  // ------------------------------------------------------------------------------------------------ the workers
 
-  // Starts the worker that prepares and solves, unless it runs.
+  // Starts the workers, unless they run.
   async #start() {
     const module = await (this.#module ??= compile(content("engine")));
-    this.#worker ??= this.#newWorker(module);
-  }
-
-  #newWorker(module) {
+    if (this.#workers) return;
     const address = URL.createObjectURL(new Blob([content("worker")], {type: "text/javascript"}));
-    return new EngineWorker(address, module, {
+    this.#workers = new EngineWorkers(address, module, {
       statuses: (statuses) => statuses.forEach((each) => this.#tell(each)), over: (error) => this.#failed(error)});
   }
 
   // Ends the workers. Rejects unanswered requests: those for pieces and files with `error`, all others with `others`.
-  // The next request starts a new worker.
+  // The next request starts new workers.
   #end(error, others = error) {
     this.#isOpen.clear();
-    for (const worker of [this.#worker, this.#drawer]) worker?.end(error, others);
-    this.#worker = this.#drawer = null;
+    this.#workers?.end(error, others);
+    this.#workers = null;
   }
 
-  // Ends the worker if it is still preparing the document that was opened last.
+  // Ends the workers if they are still preparing the document that was opened last.
   #endPreparation() {
-    if (this.#worker && this.#status().busy) this.#end(cancelled(), closed());
+    if (this.#workers && this.#status().busy) this.#end(cancelled(), closed());
   }
 
   // In WebKit the worker of a page that was opened from disk cannot read files. Then the page reads each file as a
   // whole.
-  async #work(call, request, files = []) {
+  async #work(call, request, files = [], onSolved) {
     try {
-      return await this.#send(call, request, files);
+      return await this.#send(call, request, files, onSolved);
     } catch (error) {
       if (error.kind !== "unreadable") throw error;
-      return this.#send(call, request, await bytesOf(files));
+      return this.#send(call, request, await bytesOf(files), onSolved);
     }
   }
 
-  async #send(call, request, files) {
+  async #send(...call) {
     await this.#start();
-    return this.#worker.send(call, request, files);
+    return this.#workers.send(...call);
   }
 
-  // Sends a call for a document. Throws if the worker does not have that document open.
-  async #ask(call, request) {
+  // Sends a call for a document. Throws if the workers do not have that document open.
+  async #ask(call, request, onSolved) {
     if (!this.#isOpen.has(request.document)) throw closed();
-    return this.#work(call, request, await this.#filesIn(request.options));
+    return this.#work(call, request, await this.#filesIn(request.options), onSolved);
   }
 
   async #filesIn(options) {
@@ -108,32 +103,20 @@ export class Transport {
     return (await this.#store.scan(scanOf(input)))?.files ?? [];
   }
 
-  // Returns a picture. A frame of a plate is solved in the worker and drawn in another one, so that the next frame is
-  // solved meanwhile. Calls onSolved when the worker can solve the next frame.
-  async #picture(request, onSolved) {
-    const {facts, body} = await this.#ask("picture", {...request, apart: true});
-    onSolved?.();
-    if (!facts.is_undrawn) return {facts, body};
-    this.#drawer ??= this.#newWorker(await this.#module);
-    const {options: _, ...picture} = request;
-    const drawn = await this.#drawer.send("draw", picture, [["frame", body]], [body.buffer]);
-    return {facts: {...facts, ...drawn.facts}, body: drawn.body};
-  }
-
-  // Ends the worker after the engine ran out of memory or failed, and reports the error as the document's status.
+  // Ends the workers after the engine ran out of memory or failed, and reports the error as the document's status.
   #failed(error) {
     this.#end(error, closed());
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
-  // Ends the worker, because it handles no messages while it computes.
+  // Ends the workers, because they handle no messages while they compute.
   #cancel() {
     this.#end(cancelled(), closed());
     this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});
   }
 
   #cancelPiece() {
-    if (this.#worker?.isMaking) this.#end(cancelled(), closed());
+    if (this.#workers?.isMaking) this.#end(cancelled(), closed());
   }
 
   #status() {

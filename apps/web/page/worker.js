@@ -1,12 +1,14 @@
-// The worker that runs the WebAssembly engine for the page. It receives {id, call, request, files}, and answers {id,
-// status, type, facts, body} or {id, error}, or {id, error, isOver} if the engine cannot continue. It also sends
-// {statuses} when a status has changed.
+// A worker that runs the WebAssembly engine for the page. There are two: one solves, and draws what is no frame of a
+// plate; the other one draws such frames, while the first one can solve the next. Both receive {module, port} first,
+// where the port leads from one to the other. The one that solves then receives {id, call, request, files}. Either one
+// answers {id, status, type, facts, body} or {id, error}, or {id, error, isOver} if the engine cannot continue. The one
+// that solves also sends {id, isSolved} when the other one draws a frame, and {statuses} when a status has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
 
 const BEGINS_WORK = new Set(["open", "view"]);
 
-let engine, timer;
+let engine, port, timer;
 let isDue = false; // whether a preparation was requested and has not begun
 
 // Prepares the view that was requested last. It first lets waiting messages be handled, as they may request another
@@ -42,6 +44,7 @@ function answer({ id, call, request, files = [] }) {
     addFiles(files);
     const { json: { facts, status = 200, ...json }, bytes } = engine.call(call, request);
     const body = json.type ? bodyOf(json, bytes) : bytes.length > 0 ? bytes : json;
+    if (facts?.is_undrawn) return handOver({ id, request, facts, frame: body });
     postMessage({ id, status, type: json.type, facts, body }, body.buffer ? [body.buffer] : []);
   } catch (error) {
     fail(id, error);
@@ -51,10 +54,29 @@ function answer({ id, call, request, files = [] }) {
   if (isDue) timer = setTimeout(work);
 }
 
+// Hands a frame over to the worker that draws.
+function handOver({ id, request: { options, ...picture }, facts, frame }) {
+  port.postMessage({ id, picture, facts, frame }, [frame.buffer]);
+  postMessage({ id, isSolved: true });
+}
+
+// Draws a frame that the other worker has solved.
+function draw({ id, picture, facts, frame }) {
+  try {
+    engine.addFile("frame", frame);
+    const { json, bytes } = engine.call("draw", picture);
+    postMessage({ id, status: json.status, facts: { ...facts, ...json.facts }, body: bytes }, [bytes.buffer]);
+  } catch (error) {
+    fail(id, error);
+  }
+}
+
 const started = new Promise((resolve) => {
-  addEventListener("message", ({ data }) => resolve(data.module), { once: true });
-}).then(async (module) => {
-  engine = await Engine.create(module, (text) => postMessage({ statuses: JSON.parse(text) }));
+  addEventListener("message", ({ data }) => resolve(data), { once: true });
+}).then(async (data) => {
+  engine = await Engine.create(data.module, (text) => postMessage({ statuses: JSON.parse(text) }));
+  port = data.port;
+  port.onmessage = ({ data: frame }) => draw(frame);
 }).catch((error) => fail(undefined, error));
 
 addEventListener("message", ({ data }) => data.call && started.then(() => answer(data)));

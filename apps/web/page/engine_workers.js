@@ -1,50 +1,58 @@
-// A worker that has an instance of the engine, and the requests that it has not answered yet.
+// The two workers that have an instance of the engine (worker.js), and the requests that they have not answered yet.
 import {CANCELLED, EngineError} from "../../studio/page/engine.js";
 
-export class EngineWorker {
-  #worker;
+export class EngineWorkers {
+  #workers; // the one that solves, and the one that draws
   #on;
   #waiting = new Map(); // unanswered requests by the number of their message
   #last = 0;
 
   // Calls on.statuses(statuses) when a status has changed, and on.over(error) when the engine cannot continue.
   constructor(address, module, on) {
-    this.#worker = new Worker(address);
     this.#on = on;
-    this.#worker.onmessage = ({data}) => this.#take(data);
-    this.#worker.onerror = (event) => {
+    const {port1, port2} = new MessageChannel();
+    this.#workers = [port1, port2].map((port) => this.#start(new Worker(address), {module, port}));
+  }
+
+  #start(worker, first) {
+    worker.onmessage = ({data}) => this.#take(data);
+    worker.onerror = (event) => {
       event.preventDefault();
       const text = `The engine cannot run here: ${event.message ?? "workers are forbidden"}.`;
-      on.over(new EngineError({kind: "failure", text}));
+      this.#on.over(new EngineError({kind: "failure", text}));
     };
-    this.#worker.postMessage({module});
+    worker.postMessage(first, [first.port]);
+    return worker;
   }
 
   get isMaking() {
     return [...this.#waiting.values()].some(({isMaking}) => isMaking);
   }
 
-  // Sends a call. The buffers in `transfer` belong to the worker afterwards.
-  send(call, request = {}, files = [], transfer = []) {
+  // Sends a call. Calls onSolved when the frame of a picture only has to be drawn, so that the next one can be solved.
+  send(call, request = {}, files = [], onSolved = () => {}) {
     const id = ++this.#last, isMaking = call === "piece" || call === "export";
     return new Promise((resolve, reject) => {
-      this.#waiting.set(id, {isMaking, resolve, reject});
-      this.#worker.postMessage({id, call, request, files}, transfer);
+      this.#waiting.set(id, {isMaking, onSolved, resolve, reject});
+      this.#workers[0].postMessage({id, call, request: {...request, apart: true}, files});
     });
   }
 
-  // Ends the worker. Rejects unanswered requests: those for pieces and files with `error`, all others with `others`.
+  // Ends the workers. Rejects unanswered requests: those for pieces and files with `error`, all others with `others`.
   end(error, others = error) {
-    this.#worker.terminate();
-    this.#worker.onmessage = this.#worker.onerror = null;
+    for (const worker of this.#workers) {
+      worker.terminate();
+      worker.onmessage = worker.onerror = null;
+    }
     const waiting = [...this.#waiting.values()];
     this.#waiting.clear();
     for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
   }
 
-  #take({id, statuses, error, isOver, status, facts, type, body}) {
+  #take({id, statuses, isSolved, error, isOver, status, facts, type, body}) {
     if (statuses) return this.#on.statuses(statuses);
     const waiting = this.#waiting.get(id);
+    if (isSolved) return waiting?.onSolved();
     this.#waiting.delete(id);
     if (isOver) this.#on.over(new EngineError(error));
     const refusal = error ?? (status >= 400 || status === CANCELLED ? body.error : null);
