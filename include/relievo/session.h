@@ -21,7 +21,8 @@ struct SessionStatus {
   // Error of the last preparation, if it failed or was cancelled; empty during a preparation.
   std::optional<Error> error;
   // Whether the points are measured and the first coarse relief, if wanted, is made. This is long before the
-  // first model of the points is ready.
+  // first model of the points is ready. Of a large cloud, that relief is made before all points are measured;
+  // until then turn() to another view is cancelled.
   bool can_turn = false;
 };
 
@@ -45,7 +46,8 @@ struct Preparation {
   std::function<Points(Progress&)> all_sides = {};
 
   // Whether to make the coarse relief of this view as soon as the points are measured, if there is no model
-  // yet. It is made in the session's thread, and turn() returns it.
+  // yet; of a part of the points, if the cloud is large, before all of them are measured. It is made in the
+  // session's thread, and turn() returns it.
   bool makes_first_relief = false;
 
   // Called with the model just before status() reports that the model is ready. During the call the session

@@ -1,8 +1,11 @@
 #include "relievo/session.h"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 
+#include "core/lists.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/relief/layers.h"
@@ -12,6 +15,19 @@
 
 namespace relievo {
 namespace {
+
+// The first coarse relief of a larger cloud is made of about this many points.
+constexpr std::size_t early_points = 150'000;
+
+// Returns about `most` of the cloud's points, distributed evenly over their order.
+Cloud thinned(const Cloud& cloud, std::size_t most) {
+  const double share = static_cast<double>(most) / static_cast<double>(cloud.size());
+  const std::vector<Index> erased = indices_where(cloud.size(), [&](Index i) {
+    double whole = 0;
+    return std::modf(std::numbers::phi * i, &whole) >= share;  // multiples of phi are evenly spread modulo 1
+  });
+  return erase_points(cloud, erased);
+}
 
 // The last points that were measured, and their measurements.
 struct Measured {
@@ -105,7 +121,8 @@ struct Session::State {
       if (made && wanted.ready) made = within_memory([&] { return wanted.ready(*made), made; });
       if (!made) {
         const bool is_short_of_memory = made.error().kind == ErrorKind::memory;
-        if (is_short_of_memory && s.measured.of != s.of_model.lock()) s.forget_points();
+        if (!s.measured.cloud || (is_short_of_memory && s.measured.of != s.of_model.lock()))
+          s.forget_points();
         s.status.error = std::move(made).error();
         return;
       }
@@ -124,6 +141,7 @@ struct Session::State {
   Result<Preparation::Model> prepare(const std::shared_ptr<const Cloud>& cloud, const Preparation& wanted,
                                      Progress& progress) {
     const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
+    const bool is_early = make_early(*cloud, view, wanted.makes_first_relief);
     RELIEVO_TRY(const auto measured, measure(cloud, view, progress));
     auto all_sides = wanted.all_sides;
     shared.with([&](Shared& s) {
@@ -132,7 +150,7 @@ struct Session::State {
         s.measured = {cloud, measured};
         s.all_sides = std::move(all_sides);
         s.turntable = nullptr;
-        s.first.reset();
+        if (!is_early) s.first.reset();
       }
       const bool has_first = s.first && s.first_view == view;
       if (wanted.makes_first_relief && !s.model && !has_first) s.making_first = std::make_shared<Progress>();
@@ -148,10 +166,31 @@ struct Session::State {
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
-    Result<ShownModel> made = turned(view, nullptr, progress);
-    shared.with([&](Shared& s) {
+    keep_first(turned(view, nullptr, progress), view);
+  }
+
+  // Makes the first coarse relief of a large cloud, if wanted, before all its points are measured. Returns
+  // whether it did.
+  bool make_early(const Cloud& cloud, const View& view, bool is_wanted) {
+    if (!is_wanted || cloud.size() < 2 * early_points) return false;
+    const auto progress = shared.with([](Shared& s) -> std::shared_ptr<Progress> {
+      if (s.model || s.measured.cloud || s.progress->is_cancelled()) return nullptr;
+      return s.making_first = std::make_shared<Progress>();
+    });
+    if (!progress) return false;
+    return keep_first(within_memory([&]() -> Result<ShownModel> {
+                        const Cloud part = thinned(cloud, early_points);
+                        RELIEVO_TRY(const auto measured, MeasuredCloud::measure(part, view, progress.get()));
+                        return Turntable(*measured).turn(view, nullptr, progress.get());
+                      }),
+                      view);
+  }
+
+  bool keep_first(Result<ShownModel> made, const View& view) {
+    return shared.with([&](Shared& s) {
       s.making_first = nullptr;
       if (made) s.first = std::move(*made), s.first_view = view;
+      return made.has_value();
     });
   }
 
@@ -179,8 +218,10 @@ struct Session::State {
   // Returns the turntable of the points that were measured last. If these are visible in one view only, the
   // points of all sides are measured first.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
-    const auto [known, last, all_sides] =
-        shared.with([](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides); });
+    const auto [known, last, all_sides, has_first] = shared.with([](const Shared& s) {
+      return std::tuple(s.turntable, s.measured, s.all_sides, s.first.has_value());
+    });
+    if (!last.cloud && has_first) return cancelled_error();  // the caller asks again
     if (!last.cloud)
       return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected points that were prepared"});
     if (known) return known;
@@ -265,7 +306,7 @@ Result<ShownModel> Session::turn(const View& view) {
 SessionStatus Session::status() const {
   return state_->shared.with([](const Shared& s) {
     SessionStatus status = s.status;
-    status.can_turn = s.measured.cloud && !s.making_first;
+    status.can_turn = (s.measured.cloud || s.first) && !s.making_first;
     return status;
   });
 }

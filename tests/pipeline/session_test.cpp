@@ -122,6 +122,31 @@ TEST(Session, SaysAtOnceThatItIsCancelled) {
   EXPECT_EQ(session.status().error->kind, ErrorKind::cancelled);
 }
 
+TEST(Session, ShowsALargeCloudBeforeAllItsPointsAreMeasured) {
+  Session session;
+  Preparation preparation = preparation_of(310'000);
+  preparation.makes_first_relief = true;
+  std::optional<Result<ShownModel>> first, other;
+  preparation.changed = [&] {
+    if (first || session.status().stage != "spacing") return;
+    EXPECT_TRUE(session.status().can_turn);
+    first = session.turn(preparation.view);
+    other = session.turn(*view_towards(Vec3::UnitX(), Vec3::UnitY()));
+  };
+  session.open(preparation);
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  ASSERT_TRUE(first && *first);
+  const Surface& early = (*first)->model->surface();
+  EXPECT_NEAR(static_cast<double>(early.input_points), 150'000, 1500);
+  EXPECT_FALSE(*other);
+  EXPECT_EQ(other->error().kind, ErrorKind::cancelled);
+  const Box part = Box::of(early.points), whole = Box::of(session.model()->surface().points);
+  EXPECT_LT((part.size() - whole.size()).norm(), .01 * whole.diagonal());
+  const auto turned = session.turn(*view_towards(Vec3::UnitX(), Vec3::UnitY()));
+  ASSERT_TRUE(turned);
+  EXPECT_GT(turned->model->surface().input_points, 150'000U);
+}
+
 TEST(Session, LetsGoOfPointsOfWhichNoModelCame) {
   Session session;
   std::weak_ptr<const Cloud> read;
