@@ -1,4 +1,5 @@
-// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names.
+// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names, which
+// scripts/fuzz reads, too, by the word before the colon.
 // The first byte of an input chooses one of these names, the rest is the file. In texts of meshes a zero byte ends the
 // file, and the files beside it follow: materials or a buffer up to another zero byte, then a picture.
 #include <array>
@@ -17,16 +18,16 @@ namespace {
 using namespace relievo;
 
 #if RELIEVO_FUZZ_FAMILY == 0
-constexpr std::array names = {"a.obj", "a.stl", "a.off", "a.ply", "a.model"};  // meshes
+constexpr std::array names = {"a.obj", "a.stl", "a.off", "a.ply", "a.model"};  // mesh: meshes
 #elif RELIEVO_FUZZ_FAMILY == 1
-constexpr std::array names = {"a.gltf", "a.glb"};
+constexpr std::array names = {"a.gltf", "a.glb"};  // gltf: scenes with the files beside them
 #elif RELIEVO_FUZZ_FAMILY == 2
-constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv", "a.ptx", "a.splat"};  // clouds
+constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv", "a.ptx", "a.splat"};  // cloud: clouds
 #elif RELIEVO_FUZZ_FAMILY == 3
-constexpr std::array names = {"a.las", "a.laz", "a.e57"};  // terrestrial and airborne scanners
+constexpr std::array names = {"a.las", "a.laz", "a.e57"};  // scanner: terrestrial and airborne scanners
 #else
 constexpr std::array names = {"a.png", "a.tif", "a.npy", "a.pfm",
-                              "a.bmp", "a.asc", "a.dat", "a.jpg"};  // pictures
+                              "a.bmp", "a.asc", "a.dat", "a.jpg"};  // picture: pictures
 #endif
 
 // Returns the file with correct checksums, because the reader of E57 rejects all others.

@@ -61,6 +61,15 @@ test("ends the engine's work when it is cancelled, and saves no file of it", asy
   assert.ok(saved[0] < 2e6, `${saved} bytes, and the other has many times as many`);
 });
 
+test("says of each format how large its file becomes", async () => {
+  await open();
+  await dialog().getByText(/triangles/).waitFor();
+  const {formats} = await engine.about();
+  assert.ok(formats.length > 5, `${formats.length} formats`);
+  for (const {name} of formats) assert.match(await page.locator(`#size-${name}`).textContent(), /\d.* [kM]?(B|bytes)$/, name);
+  await cancel();
+});
+
 test("exports nothing whose piece cannot be made, and says why", async () => {
   const error = {kind: "option", input: "rim-bevel", text: "rim-bevel: expected 1 mm"};
   const refuse = (route) => route.fulfill({status: 400, json: {error}});
