@@ -66,13 +66,18 @@ double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
-// Returns whether the options ask only for a relief on a rectangular plate. FrameRenderer can draw such a
-// plate without making a piece.
-bool is_plain(const ReliefOptions& options) {
-  return options.outline == Outline::rectangle && !options.rim_mm && options.base.kind == BaseKind::plane &&
+// Returns whether FrameRenderer can draw the piece of the options, without ornaments, while only its heights
+// change.
+bool is_frame_on_plate(const ReliefOptions& options) {
+  return options.outline != Outline::none && options.base.kind == BaseKind::plane &&
          options.wrap.kind == WrapKind::none && options.form == Form::relief && !options.draft_deg &&
-         !options.tolerance_mm && !options.triangles && !options.tool && !options.plate_mm &&
-         !options.mm_per_value;
+         !options.tolerance_mm && !options.triangles && !options.tool && !options.mm_per_value;
+}
+
+// Returns whether the options ask only for a relief on a rectangular plate.
+bool is_plain(const ReliefOptions& options) {
+  return is_frame_on_plate(options) && options.outline == Outline::rectangle && !options.rim_mm &&
+         !options.plate_mm;
 }
 
 ReliefOptions coarse(ReliefOptions options) {
@@ -203,14 +208,21 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
                            PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
   const ReliefOptions wanted = piece_options(request, made);
-  const bool is_frame = is_plain(request.options), has_ornaments = !wanted.all_ornaments().empty();
-  answer.is_plain = is_frame && !has_ornaments;
+  const bool is_frame = is_frame_on_plate(request.options), has_ornaments = !wanted.all_ornaments().empty();
+  answer.is_plain = is_plain(request.options) && !has_ornaments;
   answer.is_finished = (!answer.is_plain || request.is_finished) && is_finished(wanted);
   answer.has_ornaments = answer.is_finished && has_ornaments;
   answer.ornament_error = request.ornament_error;
   answer.is_size_exact = answer.is_finished || is_level(request.options);
   answer.relief_height_mm = answer.height_mm;
-  if (is_frame && !answer.is_finished) {
+  if (is_frame && !answer.is_finished && !is_plain(request.options)) {
+    RELIEVO_TRY(const PlacedRelief placed,
+                live_.draw_on_plate(made, without_ornaments(request.options), render, answer.picture,
+                                    request.progress.get()));
+    answer.size_mm = placed.size_mm;
+    const Vec2 half = facts_.size * render.mm_per_unit / 2;
+    answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
+  } else if (is_frame && !answer.is_finished) {
     if (request.is_drawn_apart)
       answer.undrawn = {model_, frames_made_, live_.shown(made), render};
     else
@@ -256,7 +268,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
     return answer;
   }
   // The height of a piece is taken from the frame, so the frame's height must then be exact.
-  const LiveFrame made = this->frame(request, options.is_fine || !is_plain(request.options));
+  const LiveFrame made = this->frame(request, options.is_fine || !is_frame_on_plate(request.options));
   const Frame& frame = *made.frame;
   answer.compression = frame.options.shape.compression;
   const PieceHeight height = height_of(request, made);

@@ -36,8 +36,8 @@ struct LiveFrame {
   bool is_new = false;  // false if the frame is the same as the previous one
 };
 
-// The requirements for a frame of given options. A quick frame takes one or two solves and may miss a requested
-// height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
+// The requirements for a frame of given options. A quick frame takes one or two solves and may miss a
+// requested height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
 struct FrameWish {
   std::optional<double> u;  // the compression's u, replaces a requested height
   bool is_quick = false;
@@ -94,6 +94,10 @@ class LiveModel {
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
+  // Draws the frame on the plate of the options, which has ground on a plane base, no wrap and, here, no
+  // ornaments. Errors: those of check(), check_model() and make_plate().
+  Result<PlacedRelief> draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
+                                     const RenderOptions& render, Picture& picture, const Progress* progress);
   RenderOptions with_lengths(RenderOptions render, const ReliefOptions& options) const;
   FrameRenderer& renderer();
 

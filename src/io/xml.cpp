@@ -68,8 +68,16 @@ class XmlParser {
     }
     if (rest.starts_with("<?")) return skip("?>");
     if (rest.starts_with("<!--")) return skip("-->");
+    if (rest.starts_with("<!DOCTYPE") && elements_.empty()) return skip_document_type();
     if (rest.starts_with("<!")) return error("expected an element, found a document type");
     return rest.starts_with("</") ? take_end_tag() : take_start_tag();
+  }
+
+  // Skips a document type with the declarations in it, as programs for drawings write it.
+  Result<void> skip_document_type() {
+    const std::size_t next = text_.find_first_of("[>", at_);
+    if (next != std::string_view::npos && text_[next] == '[') RELIEVO_CHECK(skip("]"));
+    return skip(">");
   }
 
   Result<void> skip(std::string_view mark) {

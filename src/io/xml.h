@@ -1,5 +1,5 @@
-// Reads the XML in E57 and 3MF files: elements, attributes and texts, as views of the given bytes. Document
-// types and entities are not supported, because the data of these files does not need them.
+// Reads the XML in E57, 3MF and SVG files: elements, attributes and texts, as views of the given bytes. A
+// document type is skipped, and entities are not replaced.
 #pragma once
 
 #include <cstddef>

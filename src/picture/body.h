@@ -56,6 +56,7 @@ struct DrawnBody {
   // Whether no point of the front hides another in the view from above. Then rendering that view does not
   // need the heights.
   bool is_height_field = false;
+  bool is_rectangle = false;  // whether the front covers its box
 
   Vec3 point(Index i) const {
     if (i >= places.size()) return box_corners[i - places.size()];

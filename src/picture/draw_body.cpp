@@ -306,7 +306,7 @@ HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisib
     const VisiblePoint& seen = visible.pixels[i];
     field.z.pixels[i] = seen.part == Part::nothing ? 0 : height_mm(body, seen) - body.lowest_mm();
   });
-  if (body.is_height_field) return field;  // its plate is a rectangle that covers all pixels
+  if (body.is_rectangle) return field;  // the front covers all pixels
   field.is_beside.resize(field.z.width, field.z.height);
   std::ranges::transform(visible.pixels, field.is_beside.pixels.begin(),
                          [](const VisiblePoint& seen) { return seen.part == Part::nothing; });

@@ -27,6 +27,16 @@ Vec2 half_plate(const PlateMesh& mesh, const RenderOptions& options) {
 
 }  // namespace
 
+PlateParts parts_of_frames(const Solid& level, const Surface& surface) {
+  PlateParts parts = plate_parts(level);
+  // A thin triangle on the hull may have been flipped together with a triangle of the ground. Then one of its
+  // corners is a corner of the plate.
+  const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
+  for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
+    if (surface.boundary.is_inside[t] && is_of_points(level.triangles[t])) parts.parts[t] = Part::relief;
+  return parts;
+}
+
 PlateMesh plate_mesh(const Surface& surface) {
   PlateMesh mesh;
   const Box box = Box::of(surface.points);
@@ -41,13 +51,7 @@ PlateMesh plate_mesh(const Surface& surface) {
   }
   Result<Solid> solid = make_plate(front, {});
   if (!solid) return mesh;
-  mesh.parts = plate_parts(*solid);
-  // A thin triangle on the hull may have been flipped together with a triangle of the ground. Then one of its
-  // corners is a corner of the plate.
-  const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
-  for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
-    if (surface.boundary.is_inside[t] && is_of_points(solid->triangles[t]))
-      mesh.parts.parts[t] = Part::relief;
+  mesh.parts = parts_of_frames(*solid, surface);
   mesh.triangles = std::move(solid->triangles);
   return mesh;
 }
@@ -56,7 +60,7 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   const float scale = static_cast<float>(options.mm_per_unit) * shown.stretch;
   DrawnBody body{mesh.triangles, mesh.parts, mesh.places,   options.mm_per_unit,
                  shown.heights,  scale,      shown.normals, shown.stretch};
-  body.is_height_field = true;
+  body.is_height_field = body.is_rectangle = true;
   body.detail = shown.detail;
   body.gains = shown.gains;
   body.tint = shown.tint;

@@ -20,6 +20,9 @@ struct PlateMesh {
 
 PlateMesh plate_mesh(const Surface& surface);
 
+// Returns the parts of a plate whose relief will have other heights than the solid, in which they are 0.
+PlateParts parts_of_frames(const Solid& level, const Surface& surface);
+
 // Returns the body of a frame on its plate. It refers to the mesh and to `shown`.
 DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options);
 

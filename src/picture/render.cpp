@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "picture/draw_body.h"
+#include "picture/live_plate.h"
 #include "picture/plate_mesh.h"
 #include "picture/shading.h"
 #include "relievo/core/parallel.h"
@@ -111,6 +112,7 @@ struct FrameRenderer::State {
   float deepest = std::ranges::max(depths);
   DrawCache cache = {};
   CachedVisibility profile = {};
+  std::optional<LivePlate> plate = {};  // of the last render_on()
 };
 
 FrameRenderer::FrameRenderer(std::shared_ptr<const Surface> surface)
@@ -136,6 +138,24 @@ void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Pic
   DrawParams params{options.material, options.light, options.has_shadows, options.is_fine};
   params.progress = progress;
   draw_body(body, transform, params, state_->cache, picture.image);
+}
+
+Result<PlacedRelief> FrameRenderer::render_on(const PlateOptions& plate, const Shown& shown,
+                                              const RenderOptions& options, Picture& picture,
+                                              const Progress* progress) {
+  std::optional<LivePlate>& live = state_->plate;
+  if (!live || !live->serves(plate, options.mm_per_unit, options.is_fine)) {
+    live.reset();
+    RELIEVO_TRY(live, LivePlate::make(*state_->surface, plate, options.mm_per_unit));
+  }
+  const DrawnBody body = live->body(shown, plate.rim.height_mm);
+  if (!options.has_size()) return picture = {}, live->placed();
+  const ScreenTransform transform = camera_transform(live->size_around_ground(), options);
+  picture.pixels_per_mm = transform.pixels_per_mm;
+  DrawParams params{options.material, options.light, options.has_shadows, options.is_fine};
+  params.progress = progress;
+  draw_body(body, transform, params, live->cache, picture.image);
+  return live->placed();
 }
 
 std::vector<float> FrameRenderer::profile(const Shown& shown, const RenderOptions& options, const Vec2& from,

@@ -188,6 +188,17 @@ Shown LiveModel::shown(const LiveFrame& made) const {
           made.gains};
 }
 
+Result<PlacedRelief> LiveModel::draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
+                                              const RenderOptions& render, Picture& picture,
+                                              const Progress* progress) {
+  RELIEVO_CHECK(relievo::check(options));
+  if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
+  const double height_mm = made.frame->height * made.mm_per_unit * made.stretch;
+  PlateOptions plate = plate_of(options, height_mm);
+  plate.ornaments.clear();
+  return renderer().render_on(plate, shown(made), render, picture, progress);
+}
+
 RenderOptions LiveModel::with_lengths(RenderOptions render, const ReliefOptions& options) const {
   render.mm_per_unit = mm_per_unit(options);
   render.margin_mm = options.effective_margin_mm();

@@ -80,6 +80,18 @@ TEST(ReadSvg, ALineAfterAClosedOutlineBeginsWhereThatBegan) {
   expect_same("M1 1H5V5ZL1 9L0 9Z", "M1 1H5V5ZM1 1L1 9L0 9Z");
 }
 
+// Illustrator, older versions of Inkscape, and potrace write document types.
+TEST(ReadSvg, SkipsADocumentType) {
+  const std::string plain = svg_of("M0 0h4v4h-4z"), head = "<?xml version=\"1.0\"?>\n<!DOCTYPE svg ";
+  const std::string by_name =
+      "PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\"";
+  for (const std::string& type :
+       {by_name + ">\n", by_name + " [\n<!ENTITY ns \"http://x\">\n<!ENTITY b \"1\">\n]>"})
+    EXPECT_EQ(area_of(head + type + plain), 16) << type;
+  EXPECT_FALSE(read_svg(head + by_name, "a.svg"));
+  EXPECT_FALSE(read_svg(plain + "<!DOCTYPE svg>", "a.svg"));
+}
+
 TEST(ReadSvg, RefusesWhatItDoesNotRead) {
   expect_error(read_svg("<html/>", "a.svg"), "expected svg, found html");
   expect_error(read_svg("<svg><rect/></svg>", "a.svg"), "expected paths alone, found rect");

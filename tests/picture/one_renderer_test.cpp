@@ -93,6 +93,65 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
       }
 }
 
+// A coin whose rim has a bevel.
+PlateOptions coin_of(double rim_mm) {
+  PlateOptions plate;
+  plate.outline = Outline::circle;
+  plate.rim = {3, rim_mm, .3 * rim_mm};
+  return plate;
+}
+
+Solid solid_on(const PlateOptions& plate) {
+  const Surface& surface = bodies().model->surface();
+  HeightFieldMesh front{{}, surface.triangulation.triangles, surface.triangulation.hull};
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    front.points.push_back(mm_per_unit * Vec3(p.x(), p.y(), static_cast<double>(bodies().heights[i])));
+  }
+  return *make_plate(front, plate);
+}
+
+TEST(OneRenderer, DrawsAFrameOnACoinAsTheSolidThatIsMadeOfIt) {
+  const Solid solid = solid_on(coin_of(2));
+  const Vec3 size = Box::of(solid.points).size();
+  FrameRenderer renderer(bodies().model);
+  SolidRenderer of_solid(std::make_shared<const Solid>(solid));
+  for (const bool is_fine : {false, true})
+    for (const double yaw_deg : {0., 30., -55.}) {
+      const RenderOptions options = options_for(Material::plaster, is_fine, yaw_deg);
+      Picture live, finished;
+      const auto placed = renderer.render_on(coin_of(2), bodies().shown(), options, live);
+      ASSERT_TRUE(placed);
+      EXPECT_LT((placed->size_mm - size).norm(), 1e-4);
+      EXPECT_LT(placed->middle_mm.norm(), 1e-3);
+      of_solid.render(options, finished);
+      EXPECT_EQ(live.pixels_per_mm, finished.pixels_per_mm);
+      EXPECT_LT(different_values(live.image, finished.image), live.image.pixels.size() / 1000)
+          << "fine " << is_fine << ", yaw " << yaw_deg;
+    }
+}
+
+// While the rim rises, a quick picture shows its height, and a fine one its bevel, too.
+TEST(OneRenderer, FollowsTheHeightOfARim) {
+  FrameRenderer used(bodies().model), fresh(bodies().model);
+  const RenderOptions quick = options_for(Material::plaster, false, 40),
+                      fine = options_for(Material::plaster, true, 40);
+  Picture first, second, other;
+  ASSERT_TRUE(used.render_on(coin_of(1), bodies().shown(), quick, first));
+  const auto placed = used.render_on(coin_of(8), bodies().shown(), quick, second);
+  ASSERT_TRUE(placed);
+  EXPECT_NEAR(placed->size_mm.z(), 3 + 8, 1e-6);
+  EXPECT_GT(different_values(first.image, second.image), first.image.pixels.size() / 100);
+  ASSERT_TRUE(used.render_on(coin_of(8), bodies().shown(), fine, second));
+  ASSERT_TRUE(fresh.render_on(coin_of(8), bodies().shown(), fine, other));
+  EXPECT_EQ(different_values(second.image, other.image), 0U);
+  PlateOptions broken = coin_of(1);
+  broken.rim.bevel_mm = 5;
+  const auto refused = used.render_on(broken, bodies().shown(), fine, other);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().input, "rim-bevel");
+}
+
 // The renderer's cache must not change pictures. An impossible size gives no picture.
 TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   SolidRenderer renderer(std::make_shared<const Solid>(bodies().solid));

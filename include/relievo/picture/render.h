@@ -12,6 +12,7 @@
 #include "relievo/core/image.h"
 #include "relievo/core/progress.h"
 #include "relievo/picture/material.h"
+#include "relievo/plate/solid.h"
 #include "relievo/relief/frame.h"
 #include "relievo/scan/surface.h"
 
@@ -72,10 +73,17 @@ struct Shown {
   std::span<const float> tint = {};
 };
 
-// Draws frames of one model on a rectangular plate. The background is transparent (opacity 0) except for the
-// plate's soft shadow. For the front view the visible triangle of each pixel is cached. So if only heights or
-// light change, a picture takes one look-up per pixel, about 10 ms for 500,000 pixels on two cores. Other
-// views take three times as long. Not for concurrent use.
+// The size of a piece, and where the middle of its relief lies from the middle of the piece.
+struct PlacedRelief {
+  Vec3 size_mm = Vec3::Zero();
+  Vec2 middle_mm = Vec2::Zero();
+};
+
+// Draws frames of one model on a plate, rectangular without a rim unless render_on() has another. The
+// background is transparent (opacity 0) except for the plate's soft shadow. For the front view the visible
+// triangle of each pixel is cached. So if only heights or light change, a picture takes one look-up per
+// pixel, about 10 ms for 500,000 pixels on two cores. Other views take three times as long. Not for
+// concurrent use.
 class FrameRenderer {
  public:
   // Shares ownership of the surface, of which it uses the points, their normals, the triangles with their
@@ -89,6 +97,13 @@ class FrameRenderer {
   // point of the model's surface. After cancellation the picture is unfinished.
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
+
+  // Draws on a plate with another outline or with a rim, which replaces the lengths of the options but for
+  // mm_per_unit. Its base must be a plane, and it has no ornaments. The plate is kept for the next picture;
+  // while only the rim's height changes, pictures that are not fine keep its bevel, too. Errors: those of
+  // make_plate().
+  Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
+                                 Picture& picture, const Progress* progress = nullptr);
 
   // Returns the uncompressed model: its depths above its lowest visible point.
   Shown original() const;

@@ -40,6 +40,8 @@ struct RimOptions {
   // plate extends beyond the groove by the rim's width.
   double height_mm = 1;
   double bevel_mm = .3;  // width of the sloping inner side, which is a part of width_mm
+
+  bool operator==(const RimOptions&) const = default;
 };
 
 struct PlateOptions {
@@ -66,6 +68,8 @@ struct PlateOptions {
   double ornament_slope = 3.7;
   bool is_mirrored = false;  // whether ornaments are mirrored
   bool is_die = false;       // whether raised ornaments are sunk, and sunk ones raised
+
+  bool operator==(const PlateOptions&) const = default;
 };
 
 // The parts of a front; ornaments belong to `bevel`. Renderers draw a crease between two parts, even at a
