@@ -35,10 +35,10 @@ Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string
 // is not enough memory.
 Result<std::vector<std::byte>> pack_project(const ProjectFile& file);
 
-// Returns the fonts and drawings that the options `font` and `ornaments` name, either of which may be null, and
-// replaces their paths by their names in a project file. A list of ornaments that is in a file becomes the
-// option's own text. Errors: those of read_file() and parse_ornaments(); kind option for
-// a font that is none.
+// Returns the fonts and drawings that the options `font` and `ornaments` name, and replaces their paths by
+// their names in a project file. Either option may be null. If `ornaments` is the path of a list, the text of
+// the list replaces it. Errors: those of read_file() and parse_ornaments(); kind option if the file of a font
+// contains no font.
 Result<OrnamentFiles> pack_ornaments(std::string* font, std::string* ornaments);
 
 // A project that was read, and the location of its scan.

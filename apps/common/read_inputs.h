@@ -81,8 +81,8 @@ bool is_scene_file(const std::string& path);
 Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                          const PointsWanted& wanted, Progress* progress);
 
-// Sets the height map of a base of kind image. For other kinds `image` must be null. Errors: kind option if
-// only one of the kind and `image` is given.
+// Sets the height map of a base. Errors: kind option if the base has kind image and `image` is null, or if it
+// has another kind and `image` is not null.
 Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base);
 
 // Returns the height map in the file of that path; null for an empty path. Errors: kind input.

@@ -1,4 +1,4 @@
-// Writes a file under a temporary name. Tested by tests/cli/files_test.cpp.
+// Writes a file that gets its final name only when it is complete. Tested by tests/cli/files_test.cpp.
 #pragma once
 
 #include <cstddef>

@@ -74,8 +74,8 @@ class Paper(unittest.TestCase):
     def agrees(self, points, normals, *coefficients, correlation=0.999, error=0.005):
         """Compares the heights of points that both find visible, other than those of the boundary, which the program puts
         on the base, for coefficients alpha, beta and gamma. The error is the root mean square as a share of the height."""
-        # The program uses normals in single precision. At beta = 0.01, (6) is about 0.5 even for the rounding errors of
-        # a plane.
+        # The reference gets normals in single precision, as the program uses them. At beta = 0.01, even the
+        # curvatures that rounding errors cause on a plane get weights of about 0.5 by (6).
         front = reference.Front(points, normals.astype(np.float32))
         for alpha, beta, gamma in coefficients:
             session = relievo.Session(points, normals=normals, method="paper", alpha=alpha, saturation=beta, detail=gamma)

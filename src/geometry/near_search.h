@@ -76,8 +76,9 @@ class NearSearch {
     near_.resize(numbers_.size());
   }
 
-  // Sorts the numbers, which all differ. Those of points along a space-filling curve lie close together, so that
-  // marking them in a list of bits is faster than comparing them.
+  // Sorts the indices in `numbers_`, which all differ. If the points are in the order of a space-filling
+  // curve, the indices are close to each other. Then marking them in a list of bits is faster than comparing
+  // them.
   void sort_numbers() {
     constexpr std::size_t most_words = 4;  // per number
     if (numbers_.empty()) return;

@@ -1,4 +1,5 @@
-// The rectangular plate around a model's frames, with triangles that do not depend on heights.
+// The triangles of a relief on a rectangular plate. They do not depend on the heights, so all frames of a
+// model (see frame.h) have the same triangles.
 #pragma once
 
 #include <vector>

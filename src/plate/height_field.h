@@ -51,8 +51,8 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px);
 // flat_height_field(). `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, const FieldSampling& sampling);
 
-// Returns the number of samples along the longer side. The distance between samples is a twelfth of the
-// tool's radius, unless this needs fewer than 2048 or more than 4096 samples.
+// Returns the number of samples along the longer side, from 2048 to 4096. Within these limits the distance
+// between samples is a twelfth of the tool's radius. For a radius of 0 the number is 2048.
 inline int samples_for(const Tool& tool, double longer_mm) {
   constexpr int least_samples = 2048, most_samples = 4096;
   constexpr double samples_per_radius = 12;

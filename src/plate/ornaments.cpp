@@ -211,8 +211,8 @@ class GroundMaker {
   }
 
   // Limits the slopes of triangles where walls meet. There an edge between points of two walls can make a
-  // triangle steeper than the walls. The range of heights must not change, so the two limits are applied
-  // alternately.
+  // triangle steeper than the walls. The heights must also stay within their range, so slopes and heights are
+  // limited alternately.
   void limit(std::span<const Triangle> triangles) {
     const std::size_t kept = new_.old.size();
     std::vector<double> heights(kept, 0);

@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns the weight of a triangle: its area, reduced for needles as (9) reduces their edges.
+// Returns the weight of a triangle: its area times needle_share(), which is less than 1 only for triangles
+// with a very small angle.
 double weight_of(const std::array<Vec2, 3>& p) {
   const double area = cross(p[1] - p[0], p[2] - p[0]) / 2;
   double stiffest = 0;

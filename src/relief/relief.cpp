@@ -285,7 +285,7 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
   // made.
   if (!is_met && relief.height < height) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
-  // The search ends within a part in 10^5 of the height; scaling makes it exact.
+  // Scaling makes the height exact. The search ends within a part in 10^5 of it, or above it.
   for (double& z : relief.heights) z *= height / relief.height;
   relief.height = height;
   return relief;

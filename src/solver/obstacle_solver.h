@@ -38,8 +38,9 @@ struct Stiffness {
 //   1/2 sum bending (lap b)^2 + 1/2 sum tension (b_i - b_j)^2 + 1/2 sum hold b^2 - sum load b
 //   + 1/2 sum ties (tie_stiffness b^2 + stop_stiffness min(b - least_at_ties, 0)^2),
 // where lap b is the sum of the four neighbours minus 4 b. This is a thin plate under tension with a load,
-// springs (`hold`) and ties between the nodes. If there are pairs, OrderPull repeatedly computes hold and
-// load from the current b. Nodes on the lattice's rim must be fixed.
+// with springs (`hold`) at the nodes, and with ties at positions within cells. If the constructor gets pairs
+// of nodes, OrderPull repeatedly computes hold and load from the current b. Nodes on the lattice's rim must
+// be fixed.
 //
 // The method is projected successive over-relaxation on lattices with cells of 8, 4, 2 and 1. Each lattice
 // starts from the solution of the coarser one. Const calls may run concurrently if each has its own

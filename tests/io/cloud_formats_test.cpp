@@ -48,7 +48,8 @@ TEST(Pcd, LinesOfOtherProgramsInTheHeaderAreIgnored) {
   EXPECT_EQ(file.cloud.points, file_of(ascii_pcd(), "a.pcd").cloud.points);
 }
 
-// Rows of points that a camera at the origin sees are its picture: a plane with ripples of a tenth of a pixel.
+// The cloud is the depth image of a camera at the origin, row by row. It shows a plane with ripples of up to
+// 0.03 pixels.
 TEST(Pcd, OrganisedCloudsAreSmoothedAndHaveNormals) {
   constexpr int columns = 24, rows = 18;
   std::string points;

@@ -216,7 +216,8 @@ TEST(BrokenFiles, WithAnyByteChangedGiveAnAnswer) {
   }
 }
 
-// Makes several edits: removes, duplicates and inserts bytes, enlarges numbers, and swaps lines.
+// Makes up to 5 edits: removes, duplicates or inserts bytes, or inserts a number, a word or a line that may
+// break the format.
 std::string mutated(std::string text) {
   const auto place = [&] { return *inRange<std::size_t>(0, text.size() + 1); };
   const int edits = *inRange(1, 6);

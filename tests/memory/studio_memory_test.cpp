@@ -50,7 +50,7 @@ std::string without_times(const Answer& answer) {
   return text;
 }
 
-// A studio whose page has opened one scan and sends further requests.
+// A studio in a temporary folder with two scans, and the requests of its page.
 class Studio {
  public:
   Studio() {

@@ -72,8 +72,8 @@ TEST(PaperRelief, DetailIsProportionalToCurvature) {
     }
 }
 
-// With beta > 1, the ratio between the heights of the waves varies: no constant ratio of the uncompressed
-// heights comes as close.
+// With beta > 1, the exact relief is not a multiple of the uncompressed one. The relief of control points
+// differs from it less than half as much as the best multiple does.
 TEST(PaperRelief, OfControlPointsIsCloseToTheExactOne) {
   const Cloud cloud = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(4 * x) * std::cos(3 * y); },

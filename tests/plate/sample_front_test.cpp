@@ -38,7 +38,7 @@ std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-// With a tolerance of 0.01, a cell of the sampling grid has one sample; with 0.004, it has four.
+// With a facet angle of 0.01, a cell of the sampling grid has one sample; with 0.004, it has four.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();

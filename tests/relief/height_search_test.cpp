@@ -38,8 +38,8 @@ TEST(HeightSearch, EndsWithTheHighestWhereTheHeightIsOutOfReach) {
   EXPECT_EQ(climbed.last, Growth()(4.5));
 }
 
-// If level points get their whole slope only at u = infinity, the height jumps there. A search for a height
-// within this jump ends above the jump.
+// If points without curvature get their slope only at u = infinity, the height jumps there. A search for a
+// height within this jump ends above the jump.
 TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   double last = 0;
   const auto leaping = [&](double log_u) {

@@ -58,7 +58,7 @@ TEST(JoinedJumps, StayApartUnlessTheyContinueEachOther) {
   EXPECT_EQ(count_after_joining(silhouettes), 2) << "no jumps";
 }
 
-// A ring in three pieces is joined to one line, which does not bite its own tail.
+// Three pieces of a ring are joined to one line. The two ends of this line are not joined to each other.
 TEST(JoinedJumps, LeaveARingOpenAtOnePlace) {
   constexpr int pieces = 3;
   std::vector<OutlineCurve> outlines;

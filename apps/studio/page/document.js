@@ -204,7 +204,7 @@ export function engineOptions(step) {
   return options;
 }
 
-// The paths of height maps of bases that the engine could not read for a picture.
+// The paths of the base images that the engine could not read when it drew a picture.
 const goneImages = new Set();
 export const isGone = (path) => goneImages.has(path);
 export const markGone = (path, isGone = true) => (isGone ? goneImages.add(path) : goneImages.delete(path));

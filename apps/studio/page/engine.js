@@ -90,7 +90,8 @@ export class Engine {
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
-  // Returns the points of the model under places of its picture; null beside it. A place has shares of the figure's box.
+  // Returns the points of the model under places of its picture; null for places beside the model. A place
+  // is [x, y] from the lower left corner of the model's box, as shares of the box's width and height.
   pointsUnder = async (places) => (await this.#ask("points", {places})).points;
   // Returns {outlines, at, error} of each ornament; an outline is an array x, y, x, y ... in mm from the piece's middle.
   placeOrnaments = async (options) => (await this.#ask("ornaments", {options})).ornaments;

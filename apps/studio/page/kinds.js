@@ -103,8 +103,8 @@ const OUTLINES = {
 // Returns the name of a scan's file without its ending.
 export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
 
-// Returns the name of a step's files: the name of the scan, followed by the kind and the form. A plaque has neither
-// suffix.
+// Returns the name of a step's files: the name of the scan, followed by the kind and the form. The kind is
+// left out for plaques, dies and lithophanes. The form is left out if it is `relief`.
 export function fileName(step) {
   const kind = kindOf(step), {form} = step.options;
   const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];

@@ -1,4 +1,4 @@
-// Uses the studio as its users do, in Chromium or Firefox. Finds elements by role and label.
+// Uses the studio as its users do, in Chromium or Firefox. Finds most elements by role and label.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";

@@ -55,9 +55,9 @@ class FrameMaker {
   FrameMaker(FrameMaker&&) noexcept;
   ~FrameMaker();
 
-  // Overwrites `frame` with the requested relief. The same options give the same bits, for any number of
-  // threads and any previous frames. Only frames with a locked height depend on previous frames, because the
-  // search starts with the last u.
+  // Overwrites `frame` with the requested relief. The same options give the same bits for any number of
+  // threads. With a locked height, the bits also depend on the previous frames, because the search for u
+  // starts from the last result. Without one, they do not.
   void make(const FrameOptions& options, Frame& frame);
 
   // Makes frames in a pipeline, as in section 3.5 of the paper; its three stages run at once, on up to three

@@ -64,8 +64,8 @@ bool has_shape(Method method);
 Shape default_shape(Method method);
 
 // Returns the relief of that height by that method: by ReliefModel::make_at_height(), or by a baseline with
-// default options, which ignores `shape`. Errors: those of make_at_height(); kind option if the method needs
-// the system of all points and the model does not have it.
+// default options, which uses only the strokes and the line depth of `shape`. Errors: those of
+// make_at_height(); kind option if the method needs the system of all points and the model does not have it.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
 

@@ -111,9 +111,10 @@ struct DepthCloud {
 Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options,
                                Progress* progress = nullptr);
 
-// Returns a picture as flat points with grey colours, one per pixel or block of pixels, for a lithophane. The
-// brightest value is white, the darkest black; missing values are white. Of the options only `points` is
-// used. Errors: those of check(); kind geometry if all values are equal.
+// Returns a picture as flat points with grey colours for a lithophane: one point per pixel or block of
+// pixels, and black points along the outline of the picture. The brightest value is white, the darkest black;
+// missing values are white. Of the options only `points` is used. Errors: those of check(); kind geometry if
+// all values are equal.
 Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& options);
 
 }  // namespace relievo

@@ -38,7 +38,7 @@ int TiffBytes::keep_message(TIFF*, void* self, const char*, const char* format, 
   if (!message.empty()) return 1;
   char text[160];
   std::vsnprintf(text, sizeof text, format, arguments);
-  // libtiff begins some messages with the name passed to open().
+  // libtiff begins some messages with the name that open() gives to the file.
   const std::string_view line(text), name = "picture: ";
   message = line.substr(line.starts_with(name) ? name.size() : 0);
   return 1;

@@ -21,7 +21,8 @@ constexpr double least_step = .3;  // mean step, below which a line is a crease
 // Lines nearer to each other or to outlines would leave too few points between them.
 constexpr double apart = 2;
 constexpr std::size_t least_points = 4;  // on each side of a line
-// A line may begin at an edge if the cosine between the normals at its ends is below this.
+// A line may begin at an edge of a triangle if the cosine between the normals at the two ends of the edge is
+// below this.
 constexpr float bent_below = .75F;
 
 // The change of a surface across a line through a position. The normals on each side are fitted by a linear

@@ -55,7 +55,8 @@ class RowSmoother {
     bool is_known;
   };
 
-  // Numbers at the smoothed point, and how they change with the way and its square.
+  // A curve of second degree fitted to samples: begin + slope * share + bend * share^2. `begin` has the
+  // numbers at the smoothed point.
   struct Curve {
     Numbers begin, slope, bend;
   };
