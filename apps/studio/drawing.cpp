@@ -204,6 +204,27 @@ Result<DrawnPiece*> Drawing::piece(const ReliefOptions& options) {
   return &*coarse_;
 }
 
+Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOptions& render,
+                                 const LiveFrame& made, PictureAnswer& answer) {
+  const Vec2 half = facts_.size * render.mm_per_unit / 2;
+  if (!is_plain(request.options)) {
+    RELIEVO_TRY(const PlacedRelief placed,
+                live_.draw_on_plate(made, without_ornaments(request.options), render, answer.picture,
+                                    request.progress.get()));
+    answer.size_mm = placed.size_mm;
+    answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
+    return {};
+  }
+  if (request.is_drawn_apart)
+    answer.undrawn = {model_, frames_made_, live_.shown(made), render};
+  else
+    live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
+  const Vec2 plate = 2 * half + Vec2::Constant(2 * render.margin_mm);
+  answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
+  answer.relief_mm = {-half, half};
+  return {};
+}
+
 Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
                            PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
@@ -215,22 +236,8 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   answer.ornament_error = request.ornament_error;
   answer.is_size_exact = answer.is_finished || is_level(request.options);
   answer.relief_height_mm = answer.height_mm;
-  if (is_frame && !answer.is_finished && !is_plain(request.options)) {
-    RELIEVO_TRY(const PlacedRelief placed,
-                live_.draw_on_plate(made, without_ornaments(request.options), render, answer.picture,
-                                    request.progress.get()));
-    answer.size_mm = placed.size_mm;
-    const Vec2 half = facts_.size * render.mm_per_unit / 2;
-    answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
-  } else if (is_frame && !answer.is_finished) {
-    if (request.is_drawn_apart)
-      answer.undrawn = {model_, frames_made_, live_.shown(made), render};
-    else
-      live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
-    const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
-    answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
-    const Vec2 half = facts_.size * render.mm_per_unit / 2;
-    answer.relief_mm = {-half, half};
+  if (is_frame && !answer.is_finished) {
+    RELIEVO_CHECK(draw_frame(request, render, made, answer));
   } else {
     RELIEVO_TRY(DrawnPiece* const piece, this->piece(wanted));
     piece->renderer.render(render, answer.picture, request.progress.get());

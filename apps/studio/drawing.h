@@ -129,14 +129,13 @@ class Drawing {
   // While frozen, the last frame, if there is one, is shown instead of the requested frame.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws the model itself if the request asks for it, otherwise the relief or its piece.
-  // If the options ask only for a relief on a rectangular plate, draws a frame: its height is exact in fine
-  // pictures, and within 3 % of the requested height in others. If the request asks for the finished piece
-  // and take() has received it, draws that piece instead.
-  // For other options always draws a piece of exactly the requested height: the finished piece if take() has
-  // received it, otherwise a coarse one. A coarse piece takes less time: it has fewer samples and no draft
-  // angle or tool. Only the finished piece has ornaments.
-  // Errors: those of make_relief().
+  // Draws the model itself if the request asks for it, otherwise the relief or its piece. If the options ask
+  // for a plate with ground on a plane base, without a draft angle, simplification or a tool, draws a frame:
+  // its height is exact in fine pictures, and within 3 % of the requested height in others. A plate that is
+  // no plain rectangle, or a request for the finished piece, shows that piece instead if take() has received
+  // it. For other options always draws a piece of exactly the requested height: the finished piece if take()
+  // has received it, otherwise a coarse one. A coarse piece takes less time: it has fewer samples and no
+  // draft angle or tool. Only the finished piece has ornaments. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the picture of this request needs; nothing if take() has received
@@ -166,6 +165,8 @@ class Drawing {
   bool is_finished(const ReliefOptions& options) const { return finished_ && finished_->options == options; }
   Result<DrawnPiece*> piece(const ReliefOptions& options);
   std::span<const float> attention();
+  Result<void> draw_frame(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
+                          PictureAnswer& answer);
   Result<void> draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
                     PictureAnswer& answer);
 
