@@ -10,10 +10,10 @@ get_target_property(small_sources relievo SOURCES)
 list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|relief/correction|picture)/[^/]*$")
 get_target_property(fast_sources relievo SOURCES)
 set(brief_sources ${fast_sources})
-set(brief "core/(json_place|length|text)" "geometry/(convex_polygon|fair_curve|slope_limit|smooth_surface|weld)"
-    "picture/(body|height_map|plate_mesh|preview)" "relief/(draft|method|nearest_draft|relief|step_heights|tone_curve)"
+set(brief "core/(json_place|length|text)" "geometry/(convex_polygon|fair_curve|held_edges|outline_union|raised_shape|slope_limit|smooth_surface|weld)"
+    "picture/(body|height_map|live_plate|plate_mesh|preview|reach_tint)" "relief/(draft|method|nearest_draft|relief|step_heights|tone_curve)"
     "scan/(boundary|depth_cloud|depth_grid|depth_smooth|front_mesh|jumps|measured_cloud|resample|support_plane|surface)"
-    "scan/(picture_cloud|view|view_ranking|viewed_cloud)" "solver/(supernodes|task_tree)")
+    "scan/(picture_cloud|scanned_side|view|view_ranking|viewed_cloud)" "solver/(supernodes|task_tree)")
 list(JOIN brief "|" brief)
 list(FILTER brief_sources INCLUDE REGEX "/(${brief})[.]cpp$")
 list(APPEND small_sources ${brief_sources})
