@@ -7,7 +7,7 @@ export class EngineWorkers {
   #waiting = new Map(); // unanswered requests by the number of their message
   #last = 0;
 
-  // Calls on.statuses(statuses) when a status has changed, and on.over(error) when the engine cannot continue.
+  // Calls on.statuses(statuses) when a status has changed, and on.over({kind, text}) when the engine cannot continue.
   constructor(address, module, on) {
     this.#on = on;
     const {port1, port2} = new MessageChannel();
@@ -19,7 +19,7 @@ export class EngineWorkers {
     worker.onerror = (event) => {
       event.preventDefault();
       const text = `The engine cannot run here: ${event.message ?? "workers are forbidden"}.`;
-      this.#on.over(new EngineError({kind: "failure", text}));
+      this.#on.over({kind: "failure", text});
     };
     worker.postMessage(first, [first.port]);
     return worker;
@@ -54,7 +54,7 @@ export class EngineWorkers {
     const waiting = this.#waiting.get(id);
     if (isSolved) return waiting?.onSolved();
     this.#waiting.delete(id);
-    if (isOver) this.#on.over(new EngineError(error));
+    if (isOver) this.#on.over(error);
     const refusal = error ?? (status >= 400 || status === CANCELLED ? body.error : null);
     if (refusal) return waiting?.reject(new EngineError(refusal));
     const isFile = body instanceof Uint8Array && !facts;

@@ -105,7 +105,7 @@ export class Transport {
 
   // Ends the workers after the engine ran out of memory or failed, and reports the error as the document's status.
   #failed(error) {
-    this.#end(error, closed());
+    this.#end(new EngineError(error), closed());
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
