@@ -54,7 +54,7 @@ struct PictureRequest {
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
-// What a FrameRenderer needs to draw a frame. The arrays of `shown` are valid until the next picture.
+// A frame that a FrameRenderer of the model can draw. The arrays of `shown` are valid until the next picture.
 struct UndrawnFrame {
   std::shared_ptr<const ReliefModel> model;
   std::size_t number = 0;  // how many frames of the model have been made; the same for the same heights
