@@ -69,7 +69,7 @@ class ArrayReader {
   std::span<const std::byte> rest_;
 };
 
-// What precedes the arrays.
+// The numbers of a frame. They stand before its arrays.
 struct Head {
   RenderOptions lengths;  // only mm_per_unit, margin_mm and thickness_mm
   float stretch = 1;
