@@ -98,10 +98,10 @@ class FrameRenderer {
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
-  // Draws on a plate with another outline or with a rim, which replaces the lengths of the options but for
-  // mm_per_unit. Its base must be a plane, and it has no ornaments. The plate is kept for the next picture;
-  // while only the rim's height changes, pictures that are not fine keep its bevel, too. Errors: those of
-  // make_plate().
+  // Draws the frame on a plate of any outline, with or without a rim. Of the lengths in `options` only
+  // mm_per_unit is used. The base must be a plane, and there must be no ornaments. The plate is kept for the
+  // next picture. If only the rim's height has changed since, pictures that are not fine show the old bevel.
+  // Errors: those of make_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);
 
