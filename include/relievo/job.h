@@ -94,8 +94,8 @@ class LiveModel {
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
-  // Draws the frame on the plate of the options, which has ground on a plane base, no wrap and, here, no
-  // ornaments. Errors: those of check(), check_model() and make_plate().
+  // Draws the frame on the plate of the options, without ornaments. The options must have ground, a plane
+  // base and no wrap. Errors: those of check(), check_model() and make_plate().
   Result<PlacedRelief> draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
                                      const RenderOptions& render, Picture& picture, const Progress* progress);
   RenderOptions with_lengths(RenderOptions render, const ReliefOptions& options) const;
