@@ -127,7 +127,8 @@ addEventListener("change", ({target}) => target.type !== "range" && takeRefusalB
 
 function changed(before) {
   const {now} = doc;
-  if (doc.steps.includes(before)) takeRefusalBack(); // not for the later changes of a drag
+  const isOwnEntry = entries.pending.length === 0; // otherwise the user made it before the newest refusal
+  if (isOwnEntry && doc.steps.includes(before)) takeRefusalBack(); // not for the later changes of a drag
   opened.keep(doc.gesture !== null);
   tour.takeBack();
   doc.gesture === null ? showDocument() : showing.begin();
