@@ -66,18 +66,21 @@ double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
-// Returns whether FrameRenderer can draw the piece of the options, without ornaments, while only its heights
-// change.
+// Returns whether FrameRenderer can draw the piece of the options while only its heights change, without ornaments and
+// without what takes long: draft, simplification, and the reach of a tool.
 bool is_frame_on_plate(const ReliefOptions& options) {
-  return options.outline != Outline::none && options.base.kind == BaseKind::plane &&
-         options.wrap.kind == WrapKind::none && options.form == Form::relief && !options.draft_deg &&
-         !options.tolerance_mm && !options.triangles && !options.tool && !options.mm_per_value;
+  const bool is_flat = options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
+  return (is_flat || options.outline != Outline::none) && options.form != Form::lithophane &&
+         !options.mm_per_value;
 }
 
 // Returns whether the options ask only for a relief on a rectangular plate.
 bool is_plain(const ReliefOptions& options) {
-  return is_frame_on_plate(options) && options.outline == Outline::rectangle && !options.rim_mm &&
-         !options.plate_mm;
+  const bool is_plate = options.outline == Outline::rectangle && !options.rim_mm && !options.plate_mm;
+  const bool is_as_framed =
+      !options.draft_deg && !options.tolerance_mm && !options.triangles && !options.tool;
+  return is_frame_on_plate(options) && is_plate && is_as_framed && options.form == Form::relief &&
+         options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
 }
 
 ReliefOptions coarse(ReliefOptions options) {
@@ -212,7 +215,8 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
                 live_.draw_on_plate(made, without_ornaments(request.options), render, answer.picture,
                                     request.progress.get()));
     answer.size_mm = placed.size_mm;
-    answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
+    if (request.options.wrap.kind == WrapKind::none)
+      answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
     return {};
   }
   if (request.is_drawn_apart)

@@ -1,8 +1,10 @@
-// A plate of any outline, with or without a rim, whose relief changes from frame to frame.
+// A plate of any outline, on any base or around a wrap, with or without a rim, whose relief changes from frame to frame.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "picture/bent_points.h"
 #include "picture/body.h"
 #include "picture/draw_body.h"
 #include "relievo/core/error.h"
@@ -12,8 +14,9 @@ namespace relievo {
 
 class LivePlate {
  public:
-  // Makes the plate of a surface whose unit has that length, with a relief of height 0. The base must be a plane, and
-  // the plate must have ground. Errors: those of make_plate().
+  // Makes the plate of a surface whose unit has that length, with a relief of height 0; mirrored or as a die if the
+  // options say so. A plate without ground must have a plane base and no wrap. Errors: those of make_plate() and
+  // plate_wrap().
   static Result<LivePlate> make(const Surface& surface, const PlateOptions& plate, double mm_per_unit);
 
   // Returns whether the plate is that of these options. A quick picture may also show a rim whose bevel belongs to
@@ -31,18 +34,27 @@ class LivePlate {
   DrawCache cache;
 
  private:
+  Vec2 find_places(const Solid& solid);
+  void find_base(const Solid& solid, const HeightFieldMesh& front, const Base& base);
+  void find_wrap(Solid solid, const Wrap& wrap);
+  Vec3f normal_on_base(const Vec3f& normal, float stretch, const Vec2f& slope) const;
+  void bend(DrawnBody& body);
+
   PlateOptions options_;
   double mm_per_unit_ = 1;
   std::vector<Triangle> triangles_;
   PlateParts parts_;
-  std::size_t relief_points_ = 0;  // points of the surface, which come first
-  std::vector<Vec2> places_;       // points of the front from the middle of the plate, in mm
-  std::vector<float> rise_;        // of the points behind those of the surface, for a rim of height 1
-  std::vector<Vec2> below_;        // points of the bottom
+  std::vector<Index> relief_;       // points of the surface that the plate shows, which come first
+  std::vector<Vec2> places_;        // points of the front from the middle of the plate, in mm
+  std::vector<float> base_;         // heights of the base under the points of the front; empty for a plane
+  std::vector<Vec2f> slopes_;       // slopes of the base under the surface's points; empty for a plane
+  std::vector<float> rise_;         // of the points behind those of the surface, for a rim of height 1
+  std::vector<Vec2> below_;         // points of the bottom
+  std::optional<BentPoints> bent_;  // the points of front and bottom around a wrap
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();
   std::vector<float> heights_;
   std::vector<Vec3f> normals_;
-  Box front_ = {};
+  Box box_ = {};  // of the last body
 };
 
 }  // namespace relievo

@@ -193,8 +193,12 @@ Result<PlacedRelief> LiveModel::draw_on_plate(const LiveFrame& made, const Relie
                                               const Progress* progress) {
   RELIEVO_CHECK(relievo::check(options));
   if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
+  ReliefOptions quick = options;
+  quick.tolerance_mm = quick.triangles = std::nullopt;
+  quick.tool = std::nullopt;
+  quick.finish = Finish::full;
   const double height_mm = made.frame->height * made.mm_per_unit * made.stretch;
-  PlateOptions plate = plate_of(options, height_mm);
+  PlateOptions plate = plate_of(quick, height_mm);
   plate.ornaments.clear();
   return renderer().render_on(plate, shown(made), render, picture, progress);
 }

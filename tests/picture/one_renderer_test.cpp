@@ -8,7 +8,9 @@
 #include "picture/body.h"
 #include "picture/draw_body.h"
 #include "picture/plate_mesh.h"
+#include "relievo/core/text.h"
 #include "relievo/picture/preview.h"
+#include "relievo/plate/forms.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -37,6 +39,7 @@ struct Bodies {
     solid = *make_plate(front, {});
     normals = relief_normals(solid);
     normals.resize(heights.size());
+    std::ranges::replace(normals, Vec3f(Vec3f::Zero()), Vec3f(Vec3f::UnitZ()));  // those of level parts
   }
   Shown shown() const { return {heights, normals}; }
 };
@@ -74,10 +77,11 @@ Image8 picture_of_solid(const RenderOptions& options) {
   return image;
 }
 
-std::size_t different_values(const Image8& a, const Image8& b) {
+// Returns how many values differ by more than `most`.
+std::size_t different_values(const Image8& a, const Image8& b, int most = 0) {
   std::size_t count = a.pixels.size() == b.pixels.size() ? 0 : a.pixels.size();
   for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
-    count += a.pixels[i] != b.pixels[i];
+    count += std::abs(a.pixels[i] - b.pixels[i]) > most;
   return count;
 }
 
@@ -97,38 +101,104 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
 PlateOptions coin_of(double rim_mm) {
   PlateOptions plate;
   plate.outline = Outline::circle;
-  plate.rim = {3, rim_mm, .3 * rim_mm};
+  plate.rim = {3, rim_mm, .3 * std::abs(rim_mm)};
   return plate;
 }
 
-Solid solid_on(const PlateOptions& plate) {
+struct NamedPlate {
+  std::string name;
+  PlateOptions options;
+};
+
+BaseOptions uneven_base() {
+  Image<float> heights = filled_image(4, 3, 0.F);
+  heights.pixels = {0, 1, 3, 2, 1, 0, 2, 1, 2, 2, 0, 1};
+  BaseOptions base;
+  base.kind = BaseKind::image;
+  base.height_mm = 4;
+  base.image = std::make_shared<const Image<float>>(std::move(heights));
+  return base;
+}
+
+std::vector<std::pair<std::string, BaseOptions>> raised_and_hollow_bases() {
+  std::vector<std::pair<std::string, BaseOptions>> bases{{"plane", {}}, {"image", uneven_base()}};
+  for (const std::string text : {"dome", "cylinder:diameter=120", "fold", "wave:height=3,length=40"})
+    for (const std::string end : {"", "hollow"})
+      bases.emplace_back(text + end, *parse_base(cat(text,
+                                                     end.empty()          ? ""
+                                                     : text.contains(':') ? ","
+                                                                          : ":",
+                                                     end)));
+  return bases;
+}
+
+// Returns plates with each base, as they are, mirrored and as dies. Those with a dome are coins.
+std::vector<NamedPlate> plates_of_all_kinds() {
+  PlateOptions without_ground;
+  without_ground.outline = Outline::none;
+  std::vector<NamedPlate> plates{{"coin", coin_of(2)}, {"no ground", without_ground}};
+  for (const auto& [name, base] : raised_and_hollow_bases())
+    for (const Form form : {Form::relief, Form::mirror, Form::die}) {
+      const bool is_die = form == Form::die;
+      PlateOptions plate = base.kind == BaseKind::dome ? coin_of(is_die ? -2 : 2) : PlateOptions{};
+      plate.base = base;
+      plate.is_mirrored = plate.base.is_mirrored = form != Form::relief;
+      plate.is_die = is_die;
+      plates.push_back({cat(name, " ", name_in(form_choices, form)), plate});
+    }
+  for (const std::string wrap : {"cylinder:diameter=70", "cylinder:diameter=70,inside", "cylinder:turn=360",
+                                 "cone:turn=150", "sphere:turn=100", "sphere:turn=100,inside"})
+    for (const bool is_mirrored : {false, true}) {
+      PlateOptions plate;
+      plate.wrap = *parse_wrap(wrap);
+      plate.is_mirrored = is_mirrored;
+      plates.push_back({cat(wrap, is_mirrored ? " mirrored" : ""), plate});
+    }
+  return plates;
+}
+
+Result<Solid> solid_on(const PlateOptions& plate) {
   const Surface& surface = bodies().model->surface();
   HeightFieldMesh front{{}, surface.triangulation.triangles, surface.triangulation.hull};
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     const Vec3& p = surface.points[i];
     front.points.push_back(mm_per_unit * Vec3(p.x(), p.y(), static_cast<double>(bodies().heights[i])));
   }
-  return *make_plate(front, plate);
+  if (plate.outline == Outline::none) front.is_relief = surface.boundary.is_inside;
+  RELIEVO_TRY(Solid solid, make_plate(plate.is_die        ? as_die(front)
+                                      : plate.is_mirrored ? mirrored(front)
+                                                          : front,
+                                      plate));
+  return plate.wrap.kind == WrapKind::none ? std::move(solid) : wrap_plate(solid, plate);
 }
 
-TEST(OneRenderer, DrawsAFrameOnACoinAsTheSolidThatIsMadeOfIt) {
-  const Solid solid = solid_on(coin_of(2));
-  const Vec3 size = Box::of(solid.points).size();
+// On a curved base the solid's normals are those of its triangles, and the frame's those of relief and base.
+TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
   FrameRenderer renderer(bodies().model);
-  SolidRenderer of_solid(std::make_shared<const Solid>(solid));
-  for (const bool is_fine : {false, true})
-    for (const double yaw_deg : {0., 30., -55.}) {
-      const RenderOptions options = options_for(Material::plaster, is_fine, yaw_deg);
+  for (const auto& [name, plate] : plates_of_all_kinds()) {
+    const Result<Solid> solid = solid_on(plate);
+    ASSERT_TRUE(solid) << name << ": " << solid.error().expected;
+    const bool is_wrapped = plate.wrap.kind != WrapKind::none;
+    SolidRenderer of_solid(std::make_shared<const Solid>(*solid));
+    for (const double yaw_deg : {0., -55.}) {
+      const RenderOptions options = options_for(Material::plaster, false, yaw_deg);
       Picture live, finished;
-      const auto placed = renderer.render_on(coin_of(2), bodies().shown(), options, live);
-      ASSERT_TRUE(placed);
-      EXPECT_LT((placed->size_mm - size).norm(), 1e-4);
-      EXPECT_LT(placed->middle_mm.norm(), 1e-3);
+      const auto placed = renderer.render_on(plate, bodies().shown(), options, live);
+      ASSERT_TRUE(placed) << name;
+      EXPECT_LT((placed->size_mm - Box::of(solid->points).size()).norm(), 1e-3) << name;
+      if (!is_wrapped) {
+        EXPECT_LT(placed->middle_mm.norm(), 1e-3) << name;
+      }
       of_solid.render(options, finished);
-      EXPECT_EQ(live.pixels_per_mm, finished.pixels_per_mm);
-      EXPECT_LT(different_values(live.image, finished.image), live.image.pixels.size() / 1000)
-          << "fine " << is_fine << ", yaw " << yaw_deg;
+      EXPECT_NEAR(live.pixels_per_mm, finished.pixels_per_mm, 1e-5) << name;
+      const std::size_t count = live.image.pixels.size();
+      const bool is_plane = plate.base.kind == BaseKind::plane && !is_wrapped;
+      EXPECT_LT(different_values(live.image, finished.image, is_plane ? 0 : 2), is_plane ? 4 : count / 50)
+          << name << ", yaw " << yaw_deg;
+      EXPECT_LT(different_values(live.image, finished.image, 32), count / 2000)
+          << name << ", yaw " << yaw_deg;
     }
+  }
 }
 
 // While the rim rises, a quick picture shows its height, and a fine one its bevel, too.

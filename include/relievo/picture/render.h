@@ -73,7 +73,8 @@ struct Shown {
   std::span<const float> tint = {};
 };
 
-// The size of a piece, and where the middle of its relief lies from the middle of the piece.
+// The size of a piece and, if it is not bent around a wrap, where the middle of its relief lies from the middle
+// of the piece.
 struct PlacedRelief {
   Vec3 size_mm = Vec3::Zero();
   Vec2 middle_mm = Vec2::Zero();
@@ -98,10 +99,11 @@ class FrameRenderer {
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
-  // Draws the frame on a plate of any outline, with or without a rim. Of the lengths in `options` only
-  // mm_per_unit is used. The base must be a plane, and there must be no ornaments. The plate is kept for the
-  // next picture. If only the rim's height has changed since, pictures that are not fine show the old bevel.
-  // Errors: those of make_plate().
+  // Draws the frame on a plate of any outline and base, bent around its wrap, with or without a rim, mirrored
+  // or as a die. Of the lengths in `options` only mm_per_unit is used. There must be no ornaments, and a
+  // plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If only
+  // the rim's height has changed since, pictures that are not fine show the old bevel. Errors: those of
+  // make_plate() and plate_wrap().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);
 
