@@ -77,9 +77,10 @@ struct Finished {
 };
 
 Result<Finished> run(CheckedOrder order, const ReliefFiles& outputs, Progress& progress) {
-  RELIEVO_TRY(const LoadedOrder loaded, load(std::move(order), progress));
-  RELIEVO_TRY(FinishedRelief relief, app::make(loaded, progress));
-  if (const auto& side = loaded.side)
+  RELIEVO_TRY(LoadedOrder loaded, load(std::move(order), progress));
+  const auto side = loaded.side;
+  RELIEVO_TRY(FinishedRelief relief, app::make(std::move(loaded), progress));
+  if (side)
     relief.inputs.remarks.push_back(
         cat("view ", side->name, side->up.empty() ? "" : cat(" with up ", side->up)));
   (void)progress.stage("files", .97);

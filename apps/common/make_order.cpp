@@ -102,15 +102,18 @@ std::vector<std::string> FinishedRelief::remarks() const {
   return lines;
 }
 
-Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress) {
-  RELIEVO_TRY(MadeRelief made, naming(loaded.name, make_relief(loaded.scene, loaded.options, &progress)));
-  return FinishedRelief{std::move(made), facts_of(loaded), loaded.options.draft_deg};
+Result<FinishedRelief> make(LoadedOrder loaded, Progress& progress) {
+  InputFacts facts = facts_of(loaded);
+  Result<MadeRelief> made =
+      naming(loaded.name, make_relief(std::move(loaded.scene), loaded.options, &progress));
+  if (!made) return std::unexpected(std::move(made).error());
+  return FinishedRelief{std::move(*made), std::move(facts), loaded.options.draft_deg};
 }
 
 Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress) {
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
-  RELIEVO_TRY(const LoadedOrder loaded, load(std::move(known), progress));
-  RELIEVO_TRY(FinishedRelief relief, make(loaded, progress));
+  RELIEVO_TRY(LoadedOrder loaded, load(std::move(known), progress));
+  RELIEVO_TRY(FinishedRelief relief, make(std::move(loaded), progress));
   relief.end(progress);
   return std::make_shared<FinishedRelief>(std::move(relief));
 }

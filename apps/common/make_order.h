@@ -95,7 +95,7 @@ struct FinishedRelief {
 };
 
 // Makes the relief; the caller must call end(). Errors: those of make_relief(), which name the inputs.
-Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress);
+Result<FinishedRelief> make(LoadedOrder loaded, Progress& progress);
 
 // Calls check_order(), load() and make() in turn. Errors: those of the three functions.
 Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress);

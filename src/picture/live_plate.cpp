@@ -89,8 +89,8 @@ Result<LivePlate> LivePlate::make(const Surface& surface, const PlateOptions& pl
   HeightFieldMesh whole = front_of(surface, plate, mm_per_unit, heights);
   if (!has_ground) whole.is_relief = surface.boundary.is_inside;
   const HeightFieldMesh front = has_ground ? whole : relief_alone(whole);
-  RELIEVO_TRY(const Base base, plate_base(front, plate));
-  RELIEVO_TRY(Solid solid, make_plate(front, plate));
+  RELIEVO_TRY(const Base base, plate_base(whole, plate));
+  RELIEVO_TRY(Solid solid, make_plate(whole, plate));
   if (is_curved) restore_relief(solid, front);
   LivePlate made;
   made.options_ = plate;

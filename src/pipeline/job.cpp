@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "pipeline/body.h"
+#include "pipeline/prepared_model.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/io/read.h"
@@ -237,14 +238,21 @@ Result<Job> load(std::span<const std::byte> file, std::string_view name) {
   });
 }
 
-Result<LiveModel> prepare(const Job& job, Progress* progress) {
-  return within_memory([&]() -> Result<LiveModel> {
+Result<PreparedModel> prepare_model(Job job, Progress* progress) {
+  return within_memory([&]() -> Result<PreparedModel> {
     const View view = chosen_view(job.inputs, job.options.effective_view());
     RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
-    RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.effective_model(), progress));
-    return LiveModel(ShownModel{std::make_shared<const ReliefModel>(std::move(model))},
-                     std::move(sample.notes));
+    job.inputs = {};
+    RELIEVO_TRY(ReliefModel model,
+                prepare_owned(std::move(sample.cloud), view, job.options.effective_model(), progress));
+    return PreparedModel{std::move(model), std::move(sample.notes)};
   });
+}
+
+Result<LiveModel> prepare(const Job& job, Progress* progress) {
+  RELIEVO_TRY(PreparedModel made, prepare_model(job, progress));
+  return LiveModel(ShownModel{std::make_shared<const ReliefModel>(std::move(made.model))},
+                   std::move(made.notes));
 }
 
 }  // namespace relievo

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "pipeline/body.h"
+#include "pipeline/prepared_model.h"
 #include "pipeline/vertical_scale.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
@@ -187,13 +188,16 @@ MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }
 
-// Makes the body of a model. The options must have passed check().
-Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
-  const Surface& surface = model.surface();
-  RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));
+// Makes the relief of options that have a width.
+Result<Relief> find_relief(const ReliefModel& model, const ReliefOptions& options, bool is_share,
+                           Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
-  const bool is_share = asked.height_of_diagonal.has_value();
-  RELIEVO_TRY(const Relief relief, relief_of(model, options, is_share, progress));
+  return relief_of(model, options, is_share, progress);
+}
+
+// Makes the body of a relief of options that have a width.
+Result<MadeRelief> make_solid(const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                              Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "solid", .9));
   RELIEVO_TRY(FormedFront full, full_front(surface, relief, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
@@ -247,11 +251,16 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOptions& options,
                             Progress* progress) {
-  return within_memory({.points = points.size()}, [&]() -> Result<ReliefModel> {
-    RELIEVO_TRY(auto measured, MeasuredCloud::measure(points, view, progress));
+  return prepare_owned({std::shared_ptr<void>(), &points}, view, options, progress);
+}
+
+Result<ReliefModel> prepare_owned(std::shared_ptr<const Cloud> points, const View& view,
+                                  const ModelOptions& options, Progress* progress) {
+  return within_memory({.points = points->size()}, [&]() -> Result<ReliefModel> {
+    RELIEVO_TRY(auto measured, MeasuredCloud::measure(*points, view, progress));
+    points.reset();
     if (view.is_paper) return ReliefModel::of_view(*measured, view, options, progress);
-    RELIEVO_TRY(Surface surface, find_surface(*measured, view, progress));
-    measured.reset();  // leaves its memory to the solver
+    RELIEVO_TRY(Surface surface, find_surface(std::move(measured), view, progress));
     return ReliefModel::prepare(std::move(surface), progress, options);
   });
 }
@@ -290,20 +299,33 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   return within_memory(need_of(model, options), [&]() -> Result<MadeRelief> {
     RELIEVO_CHECK(check(options));
     RELIEVO_CHECK(check_model(model, options));
-    return make_checked(model, options, progress);
+    RELIEVO_TRY(const ReliefOptions sized, with_width(model.surface(), options));
+    RELIEVO_TRY(const Relief relief,
+                find_relief(model, sized, options.height_of_diagonal.has_value(), progress));
+    return make_solid(model.surface(), relief, sized, progress);
   });
 }
 
-Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
+Result<MadeRelief> make_relief(Scene scene, const ReliefOptions& options, Progress* progress) {
   RELIEVO_CHECK(check(options));
-  RELIEVO_TRY(const LiveModel model, prepare(Job{scene, options}, progress));
-  return model.relief(options, progress);
+  RELIEVO_TRY(PreparedModel prepared, prepare_model(Job{std::move(scene), options}, progress));
+  return within_memory(need_of(prepared.model, options), [&]() -> Result<MadeRelief> {
+    RELIEVO_CHECK(check_model(prepared.model, options));
+    RELIEVO_TRY(const ReliefOptions sized, with_width(prepared.model.surface(), options));
+    const bool is_share = options.height_of_diagonal.has_value();
+    RELIEVO_TRY(const Relief relief, find_relief(prepared.model, sized, is_share, progress));
+    const Surface surface =
+        std::move(prepared.model).take_surface();  // leaves the solver's memory to the solid
+    RELIEVO_TRY(MadeRelief made, make_solid(surface, relief, sized, progress));
+    made.report.sample = std::move(prepared.notes);
+    return made;
+  });
 }
 
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress) {
   return within_memory([&] {
-    const Scene scene{{{{}, std::make_shared<const CloudFile>(std::move(file))}}};
-    return make_relief(scene, options, progress);
+    Scene scene{{{{}, std::make_shared<const CloudFile>(std::move(file))}}};
+    return make_relief(std::move(scene), options, progress);
   });
 }
 

@@ -52,13 +52,18 @@ struct ReliefModel::State {
   std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
 };
 
-ReliefModel::ReliefModel(std::unique_ptr<const State> state) : state_(std::move(state)) {}
+ReliefModel::ReliefModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ReliefModel::ReliefModel(ReliefModel&&) noexcept = default;
 ReliefModel& ReliefModel::operator=(ReliefModel&&) noexcept = default;
 ReliefModel::~ReliefModel() = default;
 
 const Surface& ReliefModel::surface() const {
   return state_->surface;
+}
+Surface ReliefModel::take_surface() && {
+  Surface surface = std::move(state_->surface);
+  state_.reset();
+  return surface;
 }
 const PaperModel* ReliefModel::paper() const {
   return state_->paper();
@@ -134,7 +139,7 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, co
                 prepare_subspace(surface, parts.layers, std::move(system), options.control_points, progress));
     parts.layers = std::vector<PointLayers>();
   }
-  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts)}));
+  return ReliefModel(std::unique_ptr<State>(new State{std::move(surface), std::move(parts)}));
 }
 
 Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const View& view,
@@ -150,7 +155,7 @@ Result<ReliefModel> ReliefModel::of_view(const MeasuredCloud& measured, const Vi
   const bool is_exact = resolve_mode(options.mode, surface) == Mode::exact;
   const std::size_t control_points = is_exact ? surface.points.size() : options.control_points;
   RELIEVO_TRY(PaperModel model, PaperModel::prepare(surface, control_points, progress));
-  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(model)}));
+  return ReliefModel(std::unique_ptr<State>(new State{std::move(surface), std::move(model)}));
 }
 
 std::size_t ReliefModel::memory() const {

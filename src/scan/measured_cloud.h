@@ -82,4 +82,8 @@ class MeasuredCloud {
 // true.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
+// Returns the same, and frees the cloud as soon as it is not needed any more, unless others own it, too.
+Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
+                             Progress* progress = nullptr);
+
 }  // namespace relievo

@@ -177,25 +177,34 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   return xy;
 }
 
-Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* progress) {
-  RELIEVO_TRY(const auto measured, MeasuredCloud::measure(cloud, view, progress));
-  return find_surface(*measured, view, progress);
-}
+namespace {
 
-Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
-  Surface surface = surface_of_view(measured, view);
+// What is known about the points of a surface before its triangles are.
+struct FoundPoints {
+  PointMeasures measures;
+  std::vector<OutlineSegment> outlines;
+};
+
+// Stages 2 to 4: sets everything of the surface that depends on the whole cloud.
+Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const View& view, Surface& surface,
+                                        Progress* progress) {
+  surface = surface_of_view(measured, view);
   ViewedCloud viewed = look_at(measured, surface, progress);
   RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_CHECK(check_side(viewed, view));
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
-  viewed.cloud.points = {}, viewed.cloud.normals = {};  // leaves their memory to what follows
+  return FoundPoints{std::move(measures), std::move(viewed.cloud.outlines)};
+}
 
+// Stage 5, the boundary of stage 6, and what depends on it.
+Result<Surface> connect_points(Surface surface, FoundPoints found, Progress* progress) {
+  PointMeasures& measures = found.measures;
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));
   RELIEVO_CHECK(triangulate(surface, measures, progress));
   RELIEVO_CHECK(begin_stage(progress, "boundary", .65));
   if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
   // The outline of a picture is that of its pixels, none of which may be replaced.
-  if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, viewed.cloud.outlines);
+  if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, found.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Vec2> xy = in_plane(surface.points);
   complete(surface.boundary, xy, surface.triangulation);
@@ -204,6 +213,27 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
   // Only the boundary needs the neighbours, which take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
+}
+
+}  // namespace
+
+Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* progress) {
+  RELIEVO_TRY(auto measured, MeasuredCloud::measure(cloud, view, progress));
+  return find_surface(std::move(measured), view, progress);
+}
+
+Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
+  Surface surface;
+  RELIEVO_TRY(FoundPoints found, find_points_in_view(measured, view, surface, progress));
+  return connect_points(std::move(surface), std::move(found), progress);
+}
+
+Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
+                             Progress* progress) {
+  Surface surface;
+  RELIEVO_TRY(FoundPoints found, find_points_in_view(*measured, view, surface, progress));
+  measured.reset();  // leaves its memory to what follows
+  return connect_points(std::move(surface), std::move(found), progress);
 }
 
 }  // namespace relievo

@@ -59,6 +59,9 @@ class ReliefModel {
 
   const Surface& surface() const;
 
+  // Returns the surface and frees the memory of everything else. The model must not be used any more.
+  Surface take_surface() &&;
+
   // Returns the paper's own system; null for all other methods. With such a system, system() and subspace()
   // are null, layers() is empty, and steps(), planes() and correction() must not be called.
   const PaperModel* paper() const;
@@ -110,9 +113,9 @@ class ReliefModel {
  private:
   struct State;
   class Maker;
-  explicit ReliefModel(std::unique_ptr<const State> state);
+  explicit ReliefModel(std::unique_ptr<State> state);
 
-  std::unique_ptr<const State> state_;
+  std::unique_ptr<State> state_;
 };
 
 // Sets the heights of the models of a scene that have a requested height of their own, as a last step.
