@@ -211,10 +211,15 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
                                  const LiveFrame& made, PictureAnswer& answer) {
   const Vec2 half = facts_.size * render.mm_per_unit / 2;
   if (!is_plain(request.options)) {
+    // A draft may limit the height, and heights out of reach are rounded down.
+    LiveFrame limited = made;
+    const double unstretched = made.frame->height * made.mm_per_unit;
+    if (unstretched > 0) limited.stretch = answer.height_mm / unstretched;
     RELIEVO_TRY(const PlacedRelief placed,
-                live_.draw_on_plate(made, without_ornaments(request.options), render, answer.picture,
+                live_.draw_on_plate(limited, without_ornaments(request.options), render, answer.picture,
                                     request.progress.get()));
     answer.size_mm = placed.size_mm;
+    if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
     if (request.options.wrap.kind == WrapKind::none)
       answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
     return {};
@@ -238,7 +243,8 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   answer.is_finished = (!answer.is_plain || request.is_finished) && is_finished(wanted);
   answer.has_ornaments = answer.is_finished && has_ornaments;
   answer.ornament_error = request.ornament_error;
-  answer.is_size_exact = answer.is_finished || is_level(request.options);
+  const bool is_limit_known = !request.options.draft_deg || request.draft_limit_mm.has_value();
+  answer.is_size_exact = answer.is_finished || (is_level(request.options) && is_limit_known);
   answer.relief_height_mm = answer.height_mm;
   if (is_frame && !answer.is_finished) {
     RELIEVO_CHECK(draw_frame(request, render, made, answer));

@@ -1,10 +1,14 @@
 #include "picture/live_plate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "geometry/neighbours.h"
 #include "picture/plate_mesh.h"
-#include "plate/front/silhouette.h"
+#include "plate/plate_wrap.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/forms.h"
 
@@ -35,32 +39,16 @@ std::vector<double> uneven_heights(const Surface& surface) {
   return heights;
 }
 
-// Returns the numbers that the points of a part of a front have in the whole front. The points of both are in the same
-// order.
-std::vector<Index> numbers_in(const HeightFieldMesh& whole, const HeightFieldMesh& part) {
-  std::vector<Index> numbers;
-  for (Index i = 0; i < whole.points.size() && numbers.size() < part.points.size(); ++i)
-    if (whole.points[i] == part.points[numbers.size()]) numbers.push_back(i);
-  return numbers;
-}
-
-// Replaces the triangles of the relief, which make_plate() may have divided to follow the base, by those of the front.
-void restore_relief(Solid& solid, const HeightFieldMesh& front) {
-  std::vector<Triangle> triangles;
-  for (const Triangle& t : front.triangles) {
-    const double z = front.points[t[0]].z();
-    if (front.points[t[1]].z() != z || front.points[t[2]].z() != z) triangles.push_back(t);
+// Returns which points of the front the solid has, in their order. make_plate() moves all of them by the same vector,
+// and leaves some out if there is no ground.
+std::vector<Index> points_kept(const HeightFieldMesh& front, const Solid& solid) {
+  constexpr double rounding_mm = 1e-9;
+  std::vector<Index> kept;
+  for (Index i = 0; i < front.points.size() && kept.size() < solid.points.size(); ++i) {
+    const Vec2 apart = (solid.points[kept.size()] - solid.shift - front.points[i]).head<2>();
+    if (apart.cwiseAbs().maxCoeff() < rounding_mm) kept.push_back(i);
   }
-  std::vector<Region> regions(triangles.size(), Region::relief);
-  for (std::size_t t = 0; t < solid.triangles.size(); ++t) {
-    const bool is_front = t < solid.front_triangles;
-    if (is_front && solid.regions[t] == Region::relief) continue;
-    triangles.push_back(solid.triangles[t]);
-    if (is_front) regions.push_back(solid.regions[t]);
-  }
-  solid.triangles = std::move(triangles);
-  solid.front_triangles = regions.size();
-  solid.regions = std::move(regions);
+  return kept;
 }
 
 // Returns the number of points of the front, behind which those of the bottom stand.
@@ -81,29 +69,28 @@ PlateOptions of_unit_rim(PlateOptions plate) {
 }  // namespace
 
 Result<LivePlate> LivePlate::make(const Surface& surface, const PlateOptions& plate, double mm_per_unit) {
-  const bool is_curved = plate.base.kind != BaseKind::plane, has_ground = plate.outline != Outline::none;
-  const bool is_wrapped = plate.wrap.kind != WrapKind::none,
-             is_level = has_ground && !is_curved && !is_wrapped;
-  const std::vector<double> heights =
-      is_level ? std::vector<double>(surface.points.size()) : uneven_heights(surface);
-  HeightFieldMesh whole = front_of(surface, plate, mm_per_unit, heights);
-  if (!has_ground) whole.is_relief = surface.boundary.is_inside;
-  const HeightFieldMesh front = has_ground ? whole : relief_alone(whole);
-  RELIEVO_TRY(const Base base, plate_base(whole, plate));
-  RELIEVO_TRY(Solid solid, make_plate(whole, plate));
-  if (is_curved) restore_relief(solid, front);
+  const bool is_curved = plate.base.kind != BaseKind::plane, is_wrapped = plate.wrap.kind != WrapKind::none;
+  const bool is_level = plate.outline != Outline::none && !is_curved && !is_wrapped;
+  HeightFieldMesh front =
+      front_of(surface, plate, mm_per_unit,
+               is_level ? std::vector<double>(surface.points.size()) : uneven_heights(surface));
+  if (plate.outline == Outline::none) front.is_relief = surface.boundary.is_inside;
+  RELIEVO_TRY(const Base base, plate_base(front, plate));
+  RELIEVO_TRY(Solid solid, make_plate(front, plate));
   LivePlate made;
   made.options_ = plate;
   made.mm_per_unit_ = mm_per_unit;
   made.parts_ = is_level ? parts_of_frames(solid, surface) : plate_parts(solid);
-  made.relief_ = numbers_in(whole, front);
+  made.relief_ = points_kept(front, solid);
   const Vec2 middle = made.find_places(solid);
-  made.relief_middle_ = Box::of(whole.points).centre().head<2>() + solid.shift.head<2>() - middle;
-  made.find_base(solid, front, base);
+  made.relief_middle_ = Box::of(front.points).centre().head<2>() + solid.shift.head<2>() - middle;
+  if (is_curved) made.find_added_points(solid);
+  made.find_base(solid, base);
   made.triangles_ = solid.triangles;
   if (!is_wrapped) return made;
-  RELIEVO_TRY(const Wrap wrap, plate_wrap(solid, plate));
-  made.find_wrap(std::move(solid), wrap);
+  RELIEVO_TRY(made.wrap_, plate_wrap(solid, plate));
+  RELIEVO_CHECK(check_closed(plate, *made.wrap_));
+  made.find_wrap(std::move(solid));
   return made;
 }
 
@@ -121,24 +108,49 @@ Vec2 LivePlate::find_places(const Solid& solid) {
   return middle;
 }
 
-// Finds the base under all points of the front, and how far they rise above it with the rim.
-void LivePlate::find_base(const Solid& solid, const HeightFieldMesh& front, const Base& base) {
+// Finds the points that make_plate() has added to the relief, where it divided triangles to follow the base.
+void LivePlate::find_added_points(const Solid& solid) {
+  std::vector<std::uint8_t> is_added(places_.size(), 0);
+  const auto mark = [&](Region region, std::uint8_t value) {
+    for (std::size_t t = 0; t < solid.front_triangles; ++t)
+      if ((solid.regions[t] == Region::relief) == (region == Region::relief))
+        for (const Index i : solid.triangles[t]) is_added[i] = value;
+  };
+  mark(Region::relief, 1);
+  mark(Region::ground, 0);  // also where the relief begins
+  std::optional<KdTree<Vec2>> tree;
+  for (Index i = static_cast<Index>(relief_.size()); i < is_added.size(); ++i) {
+    if (!is_added[i]) continue;
+    if (!tree) tree.emplace(std::span(places_).first(relief_.size()));
+    AddedPoint added{i, {}, {}};
+    std::array<double, 3> distances_sq;
+    tree->nearest(places_[i], 3, added.from.data(), distances_sq.data());
+    for (std::size_t k = 0; k < 3; ++k)  // an added point is between the two nearest ones
+      added.share[k] = static_cast<float>(1 / (distances_sq[k] * distances_sq[k] + 1e-12));
+    const float sum = added.share[0] + added.share[1] + added.share[2];
+    for (float& share : added.share) share /= sum;
+    added_.push_back(added);
+  }
+}
+
+// Finds the base under all points of the front, and how far those of the rim rise above it.
+void LivePlate::find_base(const Solid& solid, const Base& base) {
   constexpr double step_mm = .01;  // between the two places whose heights give a slope
   const std::size_t count = places_.size();
   const auto place = [&](std::size_t i) -> Vec2 { return (solid.points[i] - solid.shift).head<2>(); };
-  rise_.assign(count - relief_.size(), 0.F);  // stays 0 for points that no triangle uses
+  rise_.assign(count - relief_.size(), 0.F);
   for (std::size_t t = 0; t < solid.front_triangles && options_.rim.width_mm > 0; ++t)
     for (const Index i : solid.triangles[t]) {
-      if (i < relief_.size()) continue;
+      if (i < relief_.size() || solid.regions[t] == Region::relief) continue;
       const double above_mm = solid.points[i].z() - solid.ground_mm - base.height(place(i));
       rise_[i - relief_.size()] = static_cast<float>(above_mm / options_.rim.height_mm);
     }
   if (base.is_plane()) return;
   base_.resize(count);
-  slopes_.resize(relief_.size());
-  parallel_for(count, [&](std::size_t i) { base_[i] = static_cast<float>(base.height(place(i))); });
-  parallel_for(relief_.size(), [&](std::size_t i) {
-    const Vec2 at = front.points[i].head<2>();
+  slopes_.resize(count);
+  parallel_for(count, [&](std::size_t i) {
+    const Vec2 at = place(i);
+    base_[i] = static_cast<float>(base.height(at));
     for (int k = 0; k < 2; ++k) {
       const Vec2 half = step_mm / 2 * Vec2::Unit(k);
       slopes_[i][k] = static_cast<float>((base.height(at + half) - base.height(at - half)) / step_mm);
@@ -147,24 +159,26 @@ void LivePlate::find_base(const Solid& solid, const HeightFieldMesh& front, cons
 }
 
 // Prepares the points for bending, and shades ground and rim as they are when they are bent.
-void LivePlate::find_wrap(Solid solid, const Wrap& wrap) {
+void LivePlate::find_wrap(Solid solid) {
   std::vector<Vec2> places = in_plane(solid.points);
   for (std::size_t i = 0; i < solid.points.size(); ++i) {
     const double z = i < relief_.size() ? 0 : solid.points[i].z() - solid.ground_mm;
-    solid.points[i] = wrap.at(places[i], z);
+    solid.points[i] = wrap_->at(places[i], z);
   }
   solid.ground_mm = std::numeric_limits<double>::infinity();  // no part of the ground stays level
   parts_ = plate_parts(solid);
-  bent_.emplace(wrap, places);
+  bent_.emplace(*wrap_, places);
 }
 
-// Returns the normal of the relief on its base from the normal of the frame: the slopes of both are added.
-Vec3f LivePlate::normal_on_base(const Vec3f& normal, float stretch, const Vec2f& slope) const {
+// Returns the normal of the relief at a point of the front from that of the frame: the slopes of relief and base are
+// added.
+Vec3f LivePlate::normal_on_base(std::size_t i, const Vec3f& normal, float stretch) const {
   Vec2f xy = stretch * normal.head<2>();
   if (options_.is_mirrored || options_.is_die) xy.x() = -xy.x();
   if (options_.is_die) xy = -xy;
+  if (!slopes_.empty()) xy -= normal.z() * slopes_[i];
   Vec3f sum;
-  sum << xy - normal.z() * slope, normal.z();
+  sum << xy, normal.z();
   return sum.normalized();
 }
 
@@ -173,25 +187,33 @@ bool LivePlate::serves(const PlateOptions& plate, double mm_per_unit, bool is_ex
   return plate == options_ || (!is_exact && of_unit_rim(plate) == of_unit_rim(options_));
 }
 
-DrawnBody LivePlate::body(const Shown& shown, double rim_mm) {
+Result<DrawnBody> LivePlate::body(const Shown& shown, double rim_mm) {
   const float scale = static_cast<float>(options_.is_die ? -mm_per_unit_ : mm_per_unit_) * shown.stretch;
   const bool is_as_framed = slopes_.empty() && !options_.is_mirrored && !options_.is_die && !bent_;
-  parallel_for(relief_.size(), [&](std::size_t i) {
-    const Vec3f& normal = shown.normals[relief_[i]];
-    heights_[i] = scale * shown.heights[relief_[i]];
-    normals_[i] = is_as_framed ? normal
-                               : normal_on_base(normal, shown.stretch,
-                                                slopes_.empty() ? Vec2f(Vec2f::Zero()) : slopes_[i]);
-  });
+  const auto set = [&](std::size_t i, float height, const Vec3f& normal) {
+    heights_[i] = scale * height;
+    normals_[i] = is_as_framed ? normal : normal_on_base(i, normal, shown.stretch);
+  };
   for (std::size_t i = 0; i < rise_.size(); ++i)
     heights_[relief_.size() + i] = static_cast<float>(rim_mm) * rise_[i];
+  parallel_for(relief_.size(),
+               [&](std::size_t i) { set(i, shown.heights[relief_[i]], shown.normals[relief_[i]]); });
+  for (const AddedPoint& p : added_) {
+    const auto mean = [&](const auto& values) -> std::decay_t<decltype(values[0])> {
+      const auto at = [&](std::size_t k) { return values[relief_[p.from[k]]]; };
+      return p.share[0] * at(0) + p.share[1] * at(1) + p.share[2] * at(2);
+    };
+    set(p.point, mean(shown.heights), mean(shown.normals));
+  }
   for (std::size_t i = 0; i < base_.size(); ++i) heights_[i] += base_[i];
   DrawnBody body{triangles_, parts_, places_, 1, heights_, 1, normals_, is_as_framed ? shown.stretch : 1};
+  const auto [lowest, highest] = std::ranges::minmax(heights_);
   if (bent_) {
-    bend(body);
+    RELIEVO_CHECK(check_room(*wrap_, options_.thickness_mm - static_cast<double>(lowest),
+                             static_cast<double>(highest)));
+    bend(body, lowest - static_cast<float>(options_.thickness_mm));
     return body;
   }
-  const auto [lowest, highest] = std::ranges::minmax(heights_);
   body.front.extend({-half_.x(), -half_.y(), static_cast<double>(lowest)});
   body.front.extend({half_.x(), half_.y(), static_cast<double>(highest)});
   body.is_height_field = true;
@@ -202,9 +224,8 @@ DrawnBody LivePlate::body(const Shown& shown, double rim_mm) {
   return body;
 }
 
-// Bends a body whose heights are those on the flat plate.
-void LivePlate::bend(DrawnBody& body) {
-  const float bottom = std::ranges::min(heights_) - static_cast<float>(options_.thickness_mm);
+// Bends a body whose heights are those on the flat plate, and whose bottom has that height there.
+void LivePlate::bend(DrawnBody& body, float bottom) {
   std::vector<Vec3f> points(places_.size() + below_.size());
   parallel_for(points.size(), [&](std::size_t i) {
     const float height = i < heights_.size() ? heights_[i] : bottom;

@@ -148,7 +148,7 @@ Result<PlacedRelief> FrameRenderer::render_on(const PlateOptions& plate, const S
     live.reset();
     RELIEVO_TRY(live, LivePlate::make(*state_->surface, plate, options.mm_per_unit));
   }
-  const DrawnBody body = live->body(shown, plate.rim.height_mm);
+  RELIEVO_TRY(const DrawnBody body, live->body(shown, plate.rim.height_mm));
   if (!options.has_size()) return picture = {}, live->placed();
   const ScreenTransform transform = camera_transform(live->size_around_ground(), options);
   picture.pixels_per_mm = transform.pixels_per_mm;

@@ -194,7 +194,7 @@ Result<PlacedRelief> LiveModel::draw_on_plate(const LiveFrame& made, const Relie
                                               const Progress* progress) {
   RELIEVO_CHECK(relievo::check(options));
   if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
-  ReliefOptions quick = options;
+  ReliefOptions quick = options;  // keeps the draft, which the rim's bevel needs
   quick.tolerance_mm = quick.triangles = std::nullopt;
   quick.tool = std::nullopt;
   quick.finish = Finish::full;

@@ -1,3 +1,5 @@
+#include "plate/plate_wrap.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -24,27 +26,6 @@ std::vector<Vec2> back_of(const Solid& plate) {
     for (const Index i : plate.triangles[t])
       if (plate.points[i].z() == 0) places.emplace_back(plate.points[i].head<2>());
   return places;
-}
-
-// Checks that neither the relief nor the back reaches the axis.
-Result<void> check_room(const Solid& plate, const Wrap& wrap) {
-  const double highest = used_box(plate.points, plate.triangles).max.z();
-  const double towards_axis = wrap.is_inside() ? highest - plate.ground_mm : plate.ground_mm;
-  const double room = (1 - least_free) * wrap.min_radius_mm();
-  if (towards_axis <= room) return {};
-  return option_error(
-      "wrap", cat("expected a diameter of at least ",
-                  wrap.diameter_mm() + 2 * (towards_axis / (1 - least_free) - wrap.min_radius_mm()),
-                  " mm, as ", towards_axis, " mm reach towards the axis, found ", wrap.diameter_mm()));
-}
-
-// Checks that the two sides that meet in a full turn are straight and equal.
-Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
-  // The computed cosine may be 6e-17 where it should be 0.
-  const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
-  if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
-  return option_error("wrap",
-                      "expected outline rectangle, no rim and an upright or level axis for a full turn");
 }
 
 // A point on one of the two sides that will be joined.
@@ -100,6 +81,25 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
 
 }  // namespace
 
+Result<void> check_room(const Wrap& wrap, double bottom_mm, double highest_mm) {
+  const double towards_axis = wrap.is_inside() ? highest_mm : bottom_mm;
+  const double room = (1 - least_free) * wrap.min_radius_mm();
+  if (towards_axis <= room) return {};
+  return option_error(
+      "wrap", cat("expected a diameter of at least ",
+                  wrap.diameter_mm() + 2 * (towards_axis / (1 - least_free) - wrap.min_radius_mm()),
+                  " mm, as ", towards_axis, " mm reach towards the axis, found ", wrap.diameter_mm()));
+}
+
+Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
+  if (!wrap.is_closed()) return {};
+  // The computed cosine may be 6e-17 where it should be 0.
+  const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
+  if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
+  return option_error("wrap",
+                      "expected outline rectangle, no rim and an upright or level axis for a full turn");
+}
+
 Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options) {
   return Wrap::around(options.wrap, back_of(plate));
 }
@@ -108,7 +108,8 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   if (options.wrap.kind == WrapKind::none)
     return option_error("wrap", "expected cylinder, cone or sphere, found none");
   RELIEVO_TRY(const Wrap wrap, plate_wrap(plate, options));
-  RELIEVO_CHECK(check_room(plate, wrap));
+  const double highest = used_box(plate.points, plate.triangles).max.z();
+  RELIEVO_CHECK(check_room(wrap, plate.ground_mm, highest - plate.ground_mm));
   Deformation deformation;
   deformation.at = [&](const Vec3& p) { return wrap.at(p.head<2>(), p.z() - plate.ground_mm); };
   deformation.min_feature_mm = wrap.min_radius_mm();
@@ -119,10 +120,8 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
   body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;
-  if (wrap.is_closed()) {
-    RELIEVO_CHECK(check_closed(options, wrap));
-    RELIEVO_CHECK(close_ring(body, wrap.across()));
-  }
+  RELIEVO_CHECK(check_closed(options, wrap));
+  if (wrap.is_closed()) RELIEVO_CHECK(close_ring(body, wrap.across()));
   parallel_for(body.points.size(), [&](std::size_t i) { body.points[i] = deformation.at(body.points[i]); });
   const Box box = used_box(body.points, body.triangles);
   for (Vec3& p : body.points) p -= box.min;

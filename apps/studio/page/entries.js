@@ -5,9 +5,11 @@ import {$} from "./controls.js";
 import {engineOptions, shownOptions} from "./document.js";
 
 export class Entries {
-  // Calls changed() when an entry was added or removed, and refused(entry, error) when the engine refuses an entry.
-  constructor({engine, doc, changed, refused}) {
-    Object.assign(this, {engine, doc, changed, refused, waiting: [], last: Promise.resolve()});
+  // Calls added() when the user makes an entry, changed() when an entry that waits was added or removed, and
+  // refused(entry, error) when the engine refuses an entry. `isInserting` says whether the document is taking an entry
+  // that has waited.
+  constructor({engine, doc, added, changed, refused}) {
+    Object.assign(this, {engine, doc, added, changed, refused, waiting: [], last: Promise.resolve(), isInserting: false});
   }
 
   // Returns the entries that wait for the shown document.
@@ -22,6 +24,7 @@ export class Entries {
   // at once.
   add(entry) {
     Object.assign(entry, {document: this.engine.document, position: this.doc.position});
+    this.added();
     if (!entry.isTried && this.pending.length === 0) return this.doc.change(entry.part(this.doc.now));
     this.waiting.push(entry);
     this.changed();
@@ -57,7 +60,9 @@ export class Entries {
   // entries follow it.
   insert(part, entry) {
     const before = this.doc.position;
+    this.isInserting = true;
     this.doc.changeAt(entry.position, part);
+    this.isInserting = false;
     for (const other of this.pending) other.position += this.doc.position - before;
   }
 

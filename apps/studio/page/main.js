@@ -43,7 +43,7 @@ const THUMBNAIL_MS = 600; // time from the fine picture until the document's thu
 const SHOW_MS = 120; // pause in a drag until all controls are updated
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
-const entries = new Entries({engine, doc, changed: showEntries, refused});
+const entries = new Entries({engine, doc, added: () => takeRefusalBack(), changed: showEntries, refused});
 const sliders = new Sliders({doc, entries, facts: () => facts, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, entries, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
@@ -127,8 +127,8 @@ addEventListener("change", ({target}) => target.type !== "range" && takeRefusalB
 
 function changed(before) {
   const {now} = doc;
-  const isOwnEntry = entries.pending.length === 0; // otherwise the user made it before the newest refusal
-  if (isOwnEntry && doc.steps.includes(before)) takeRefusalBack(); // not for the later changes of a drag
+  // Later changes of a drag are no entries, and an entry that has waited may be older than the refusal.
+  if (!entries.isInserting && doc.steps.includes(before)) takeRefusalBack();
   opened.keep(doc.gesture !== null);
   tour.takeBack();
   doc.gesture === null ? showDocument() : showing.begin();

@@ -21,6 +21,8 @@ const PIECES = {
   lithophane: {...VIEW, form: "lithophane", height: 2.4, thickness: 0.8},
   "thick lithophane": {...VIEW, form: "lithophane", height: 60, thickness: 0.8},
   "height out of reach": {...VIEW, height: 500},
+  "mirrored height out of reach": {...VIEW, form: "mirror", height: 500},
+  "draft angle that limits the height": {...VIEW, draft: 20, height: 30},
   "coin whose height is out of reach": {...COIN, height: 300},
   wave: {...VIEW, base: "wave:height=3,length=20"},
   bent: {...VIEW, wrap: "cylinder:turn=180"},

@@ -103,7 +103,7 @@ class FrameRenderer {
   // or as a die. Of the lengths in `options` only mm_per_unit is used. There must be no ornaments, and a
   // plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If only
   // the rim's height has changed since, pictures that are not fine show the old bevel. Errors: those of
-  // make_plate() and plate_wrap().
+  // make_plate() and wrap_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);
 

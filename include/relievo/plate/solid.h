@@ -66,8 +66,9 @@ struct PlateOptions {
   std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
   // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
-  bool is_mirrored = false;  // whether ornaments are mirrored
-  bool is_die = false;       // whether raised ornaments are sunk, and sunk ones raised
+  // make_plate() expects a front that already has the form, see forms.h, and gives it to the ornaments.
+  bool is_mirrored = false;  // whether left and right are swapped
+  bool is_die = false;       // whether what is raised in the relief is sunk, and the reverse
 
   bool operator==(const PlateOptions&) const = default;
 };
