@@ -77,9 +77,9 @@ bool is_frame_on_plate(const ReliefOptions& options) {
 // Returns whether the options ask only for a relief on a rectangular plate.
 bool is_plain(const ReliefOptions& options) {
   const bool is_plate = options.outline == Outline::rectangle && !options.rim_mm && !options.plate_mm;
-  const bool is_as_framed =
+  const bool frame_shows_all =
       !options.draft_deg && !options.tolerance_mm && !options.triangles && !options.tool;
-  return is_frame_on_plate(options) && is_plate && is_as_framed && options.form == Form::relief &&
+  return is_frame_on_plate(options) && is_plate && frame_shows_all && options.form == Form::relief &&
          options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
 }
 

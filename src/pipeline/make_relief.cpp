@@ -188,16 +188,22 @@ MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }
 
-// Makes the relief of options that have a width.
-Result<Relief> find_relief(const ReliefModel& model, const ReliefOptions& options, bool is_share,
-                           Progress* progress) {
+// A relief, and the options with the width for which it was made.
+struct SizedRelief {
+  ReliefOptions options;
+  Relief relief;
+};
+
+Result<SizedRelief> find_relief(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
+  RELIEVO_CHECK(check_model(model, asked));
+  RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
-  return relief_of(model, options, is_share, progress);
+  RELIEVO_TRY(Relief relief, relief_of(model, options, asked.height_of_diagonal.has_value(), progress));
+  return SizedRelief{std::move(options), std::move(relief)};
 }
 
-// Makes the body of a relief of options that have a width.
-Result<MadeRelief> make_solid(const Surface& surface, const Relief& relief, const ReliefOptions& options,
-                              Progress* progress) {
+Result<MadeRelief> make_solid(const Surface& surface, const SizedRelief& sized, Progress* progress) {
+  const auto& [options, relief] = sized;
   RELIEVO_CHECK(begin_stage(progress, "solid", .9));
   RELIEVO_TRY(FormedFront full, full_front(surface, relief, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
@@ -298,11 +304,8 @@ Result<void> check_model(const ReliefModel& model, const ReliefOptions& options)
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
   return within_memory(need_of(model, options), [&]() -> Result<MadeRelief> {
     RELIEVO_CHECK(check(options));
-    RELIEVO_CHECK(check_model(model, options));
-    RELIEVO_TRY(const ReliefOptions sized, with_width(model.surface(), options));
-    RELIEVO_TRY(const Relief relief,
-                find_relief(model, sized, options.height_of_diagonal.has_value(), progress));
-    return make_solid(model.surface(), relief, sized, progress);
+    RELIEVO_TRY(const SizedRelief sized, find_relief(model, options, progress));
+    return make_solid(model.surface(), sized, progress);
   });
 }
 
@@ -310,13 +313,9 @@ Result<MadeRelief> make_relief(Scene scene, const ReliefOptions& options, Progre
   RELIEVO_CHECK(check(options));
   RELIEVO_TRY(PreparedModel prepared, prepare_model(Job{std::move(scene), options}, progress));
   return within_memory(need_of(prepared.model, options), [&]() -> Result<MadeRelief> {
-    RELIEVO_CHECK(check_model(prepared.model, options));
-    RELIEVO_TRY(const ReliefOptions sized, with_width(prepared.model.surface(), options));
-    const bool is_share = options.height_of_diagonal.has_value();
-    RELIEVO_TRY(const Relief relief, find_relief(prepared.model, sized, is_share, progress));
-    const Surface surface =
-        std::move(prepared.model).take_surface();  // leaves the solver's memory to the solid
-    RELIEVO_TRY(MadeRelief made, make_solid(surface, relief, sized, progress));
+    RELIEVO_TRY(const SizedRelief sized, find_relief(prepared.model, options, progress));
+    const Surface surface = std::move(prepared.model).take_surface();  // frees the solver's memory
+    RELIEVO_TRY(MadeRelief made, make_solid(surface, sized, progress));
     made.report.sample = std::move(prepared.notes);
     return made;
   });

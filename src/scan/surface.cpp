@@ -179,32 +179,32 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
 
 namespace {
 
-// What is known about the points of a surface before its triangles are.
+// A surface that has points, but no triangles yet, and what finding them needs.
 struct FoundPoints {
+  Surface surface;
   PointMeasures measures;
   std::vector<OutlineSegment> outlines;
 };
 
-// Stages 2 to 4: sets everything of the surface that depends on the whole cloud.
-Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const View& view, Surface& surface,
-                                        Progress* progress) {
-  surface = surface_of_view(measured, view);
+// Stages 2 to 4, which need the whole cloud.
+Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const View& view, Progress* progress) {
+  Surface surface = surface_of_view(measured, view);
   ViewedCloud viewed = look_at(measured, surface, progress);
   RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_CHECK(check_side(viewed, view));
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
-  return FoundPoints{std::move(measures), std::move(viewed.cloud.outlines)};
+  return FoundPoints{std::move(surface), std::move(measures), std::move(viewed.cloud.outlines)};
 }
 
 // Stage 5, the boundary of stage 6, and what depends on it.
-Result<Surface> connect_points(Surface surface, FoundPoints found, Progress* progress) {
-  PointMeasures& measures = found.measures;
+Result<Surface> connect_points(FoundPoints found, Progress* progress) {
+  auto& [surface, measures, outlines] = found;
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));
   RELIEVO_CHECK(triangulate(surface, measures, progress));
   RELIEVO_CHECK(begin_stage(progress, "boundary", .65));
   if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
   // The outline of a picture is that of its pixels, none of which may be replaced.
-  if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, found.outlines);
+  if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Vec2> xy = in_plane(surface.points);
   complete(surface.boundary, xy, surface.triangulation);
@@ -212,7 +212,7 @@ Result<Surface> connect_points(Surface surface, FoundPoints found, Progress* pro
       normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
   // Only the boundary needs the neighbours, which take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
-  return surface;
+  return std::move(surface);
 }
 
 }  // namespace
@@ -223,17 +223,14 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* pro
 }
 
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
-  Surface surface;
-  RELIEVO_TRY(FoundPoints found, find_points_in_view(measured, view, surface, progress));
-  return connect_points(std::move(surface), std::move(found), progress);
+  return find_surface({std::shared_ptr<void>(), &measured}, view, progress);
 }
 
 Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
                              Progress* progress) {
-  Surface surface;
-  RELIEVO_TRY(FoundPoints found, find_points_in_view(*measured, view, surface, progress));
+  RELIEVO_TRY(FoundPoints found, find_points_in_view(*measured, view, progress));
   measured.reset();  // leaves its memory to what follows
-  return connect_points(std::move(surface), std::move(found), progress);
+  return connect_points(std::move(found), progress);
 }
 
 }  // namespace relievo
