@@ -1,4 +1,4 @@
-// The points of a flat plate, bent around a wrap, while their heights change from frame to frame. Tested by
+// Computes where a wrap bends the points of a flat plate whose heights change from frame to frame. Tested by
 // one_renderer_test.
 #pragma once
 

@@ -59,8 +59,9 @@ class LivePlate {
   std::vector<Vec2> places_;       // points of the front from the middle of the body, in mm; bent by body()
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane
   std::vector<Vec2f> slopes_;      // slopes of the base under them; empty for a plane
-  std::vector<float> rise_;        // of the points behind those of the surface, for a rim of height 1
-  std::vector<Vec2> below_;        // points of the bottom
+  std::vector<float>
+      rise_;  // heights above the base of the points after those of the surface, for a rim of height 1
+  std::vector<Vec2> below_;  // points of the bottom
   std::optional<Wrap> wrap_;
   std::optional<BentPoints> bent_;  // the points of front and bottom around a wrap
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();

@@ -257,7 +257,8 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOptions& options,
                             Progress* progress) {
-  return prepare_owned({std::shared_ptr<void>(), &points}, view, options, progress);
+  const std::shared_ptr<const Cloud> not_owned(std::shared_ptr<void>(), &points);
+  return prepare_owned(not_owned, view, options, progress);
 }
 
 Result<ReliefModel> prepare_owned(std::shared_ptr<const Cloud> points, const View& view,

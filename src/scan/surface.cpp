@@ -223,7 +223,8 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* pro
 }
 
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
-  return find_surface({std::shared_ptr<void>(), &measured}, view, progress);
+  const std::shared_ptr<const MeasuredCloud> not_owned(std::shared_ptr<void>(), &measured);
+  return find_surface(not_owned, view, progress);
 }
 
 Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
