@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "pipeline/body.h"
-#include "pipeline/prepared_model.h"
+#include "pipeline/sampled_model.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/io/read.h"
@@ -238,19 +238,19 @@ Result<Job> load(std::span<const std::byte> file, std::string_view name) {
   });
 }
 
-Result<PreparedModel> prepare_model(Job job, Progress* progress) {
-  return within_memory([&]() -> Result<PreparedModel> {
+Result<SampledModel> prepare_sampled(Job job, Progress* progress) {
+  return within_memory([&]() -> Result<SampledModel> {
     const View view = chosen_view(job.inputs, job.options.effective_view());
     RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
     job.inputs = {};
     RELIEVO_TRY(ReliefModel model,
                 prepare_owned(std::move(sample.cloud), view, job.options.effective_model(), progress));
-    return PreparedModel{std::move(model), std::move(sample.notes)};
+    return SampledModel{std::move(model), std::move(sample.notes)};
   });
 }
 
 Result<LiveModel> prepare(const Job& job, Progress* progress) {
-  RELIEVO_TRY(PreparedModel made, prepare_model(job, progress));
+  RELIEVO_TRY(SampledModel made, prepare_sampled(job, progress));
   return LiveModel(ShownModel{std::make_shared<const ReliefModel>(std::move(made.model))},
                    std::move(made.notes));
 }

@@ -8,7 +8,7 @@
 
 #include "core/angle.h"
 #include "pipeline/body.h"
-#include "pipeline/prepared_model.h"
+#include "pipeline/sampled_model.h"
 #include "pipeline/vertical_scale.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
@@ -312,7 +312,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 
 Result<MadeRelief> make_relief(Scene scene, const ReliefOptions& options, Progress* progress) {
   RELIEVO_CHECK(check(options));
-  RELIEVO_TRY(PreparedModel prepared, prepare_model(Job{std::move(scene), options}, progress));
+  RELIEVO_TRY(SampledModel prepared, prepare_sampled(Job{std::move(scene), options}, progress));
   return within_memory(need_of(prepared.model, options), [&]() -> Result<MadeRelief> {
     RELIEVO_TRY(const SizedRelief sized, find_relief(prepared.model, options, progress));
     const Surface surface = std::move(prepared.model).take_surface();  // frees the solver's memory

@@ -1,4 +1,4 @@
-// The model of a job's scene, as a value: whoever makes only one relief of it can free its parts early.
+// Prepares the model of a job's scene as a value. A caller who makes only one relief of it can free its parts early.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace relievo {
 
-struct PreparedModel {
+struct SampledModel {
   ReliefModel model;
-  std::vector<SampleNote> notes;  // on models of which only a part of the points is used
+  std::vector<SampleNote> notes;  // on how the points of the scene were sampled
 };
 
 // Returns the model of the scene in its view. Errors: those of prepare() in job.h.
-Result<PreparedModel> prepare_model(Job job, Progress* progress);
+Result<SampledModel> prepare_sampled(Job job, Progress* progress);
 
 // Returns the result of prepare() in make_relief.h. Frees the points early, unless others own them, too.
 Result<ReliefModel> prepare_owned(std::shared_ptr<const Cloud> points, const View& view,
