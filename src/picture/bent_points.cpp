@@ -6,7 +6,7 @@
 
 namespace relievo {
 
-BentPoints::BentPoints(const Wrap& wrap, std::span<const Vec2> places) : points_(places.size()) {
+BentPoints::BentPoints(const Wrap& wrap, std::span<const Vec2> places) : wrap_(wrap), points_(places.size()) {
   constexpr double step_mm = .01;  // between the two places whose positions give a derivative
   const auto out_at = [&](const Vec2& p) -> Vec3 { return wrap.at(p, 1) - wrap.at(p, 0); };
   parallel_for(places.size(), [&](std::size_t i) {

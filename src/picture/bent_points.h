@@ -15,6 +15,8 @@ class BentPoints {
   // Prepares the points at these places of the flat plate, in the coordinates of Wrap::at().
   BentPoints(const Wrap& wrap, std::span<const Vec2> places);
 
+  const Wrap& wrap() const { return wrap_; }
+
   // Returns the bent position of point i at this height above the ground. A wrap moves a point along a straight line
   // as its height changes.
   Vec3f at(std::size_t i, float height_mm) const { return points_[i].at + height_mm * points_[i].out; }
@@ -27,6 +29,7 @@ class BentPoints {
   struct Point {
     Vec3f at, out, at_by_x, at_by_y, out_by_x, out_by_y;
   };
+  Wrap wrap_;
   std::vector<Point> points_;
 };
 

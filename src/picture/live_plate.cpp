@@ -88,9 +88,9 @@ Result<LivePlate> LivePlate::make(const Surface& surface, const PlateOptions& pl
   made.find_base(solid, base);
   made.triangles_ = solid.triangles;
   if (!is_wrapped) return made;
-  RELIEVO_TRY(made.wrap_, plate_wrap(solid, plate));
-  RELIEVO_CHECK(check_closed(plate, *made.wrap_));
-  made.find_wrap(std::move(solid));
+  RELIEVO_TRY(const Wrap wrap, plate_wrap(solid, plate));
+  RELIEVO_CHECK(check_closed(plate, wrap));
+  made.find_wrap(std::move(solid), wrap);
   return made;
 }
 
@@ -159,15 +159,15 @@ void LivePlate::find_base(const Solid& solid, const Base& base) {
 }
 
 // Prepares the points for bending, and shades ground and rim as they are when they are bent.
-void LivePlate::find_wrap(Solid solid) {
+void LivePlate::find_wrap(Solid solid, const Wrap& wrap) {
   std::vector<Vec2> places = in_plane(solid.points);
   for (std::size_t i = 0; i < solid.points.size(); ++i) {
     const double z = i < relief_.size() ? 0 : solid.points[i].z() - solid.ground_mm;
-    solid.points[i] = wrap_->at(places[i], z);
+    solid.points[i] = wrap.at(places[i], z);
   }
   solid.ground_mm = std::numeric_limits<double>::infinity();  // no part of the ground stays level
   parts_ = plate_parts(solid);
-  bent_.emplace(*wrap_, places);
+  bent_.emplace(wrap, places);
 }
 
 // Returns the normal of the relief at a point of the front from that of the frame: the slopes of relief and base are
@@ -209,7 +209,7 @@ Result<DrawnBody> LivePlate::body(const Shown& shown, double rim_mm) {
   DrawnBody body{triangles_, parts_, places_, 1, heights_, 1, normals_, is_as_framed ? shown.stretch : 1};
   const auto [lowest, highest] = std::ranges::minmax(heights_);
   if (bent_) {
-    RELIEVO_CHECK(check_room(*wrap_, options_.thickness_mm - static_cast<double>(lowest),
+    RELIEVO_CHECK(check_room(bent_->wrap(), options_.thickness_mm - static_cast<double>(lowest),
                              static_cast<double>(highest)));
     bend(body, lowest - static_cast<float>(options_.thickness_mm));
     return body;

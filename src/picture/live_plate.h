@@ -39,7 +39,7 @@ class LivePlate {
   Vec2 find_places(const Solid& solid);
   void find_added_points(const Solid& solid);
   void find_base(const Solid& solid, const Base& base);
-  void find_wrap(Solid solid);
+  void find_wrap(Solid solid, const Wrap& wrap);
   Vec3f normal_on_base(std::size_t i, const Vec3f& normal, float stretch) const;
   void bend(DrawnBody& body, float bottom);
 
@@ -61,8 +61,7 @@ class LivePlate {
   std::vector<Vec2f> slopes_;      // slopes of the base under them; empty for a plane
   std::vector<float>
       rise_;  // heights above the base of the points after those of the surface, for a rim of height 1
-  std::vector<Vec2> below_;  // points of the bottom
-  std::optional<Wrap> wrap_;
+  std::vector<Vec2> below_;         // points of the bottom
   std::optional<BentPoints> bent_;  // the points of front and bottom around a wrap
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();
   std::vector<float> heights_;
