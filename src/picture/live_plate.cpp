@@ -111,13 +111,10 @@ Vec2 LivePlate::find_places(const Solid& solid) {
 // Finds the points that make_plate() has added to the relief, where it divided triangles to follow the base.
 void LivePlate::find_added_points(const Solid& solid) {
   std::vector<std::uint8_t> is_added(places_.size(), 0);
-  const auto mark = [&](Region region, std::uint8_t value) {
+  for (const bool is_relief : {true, false})  // the ground comes last, as it decides where both meet
     for (std::size_t t = 0; t < solid.front_triangles; ++t)
-      if ((solid.regions[t] == Region::relief) == (region == Region::relief))
-        for (const Index i : solid.triangles[t]) is_added[i] = value;
-  };
-  mark(Region::relief, 1);
-  mark(Region::ground, 0);  // also where the relief begins
+      if ((solid.regions[t] == Region::relief) == is_relief)
+        for (const Index i : solid.triangles[t]) is_added[i] = is_relief;
   std::optional<KdTree<Vec2>> tree;
   for (Index i = static_cast<Index>(relief_.size()); i < is_added.size(); ++i) {
     if (!is_added[i]) continue;
