@@ -24,27 +24,27 @@ const Record* made_record(const Job& job, const Records& records) {
   return found != records.end() && found->second.is_made ? &found->second : nullptr;
 }
 
-Image8 tile_of(const Job& job, const Records& records, const Workshop& workshop) {
+Image8 tile_of(const Job& job, const Records& records, const RunSettings& settings) {
   if (!made_record(job, records)) return {};
-  const auto preview = std::ranges::find(workshop.kinds, "preview", &OutputKind::name);
-  const auto bytes = read_file((fs::path(workshop.outputs) / output_name(job, *preview)).string());
+  const auto preview = std::ranges::find(settings.kinds, "preview", &OutputKind::name);
+  const auto bytes = read_file((fs::path(settings.outputs) / output_name(job, *preview)).string());
   return bytes ? tile_of_preview(read_png(*bytes), tile_px) : Image8{};
 }
 
-Result<void> write_file(const Workshop& workshop, std::string_view name, std::vector<std::byte> bytes) {
-  const OutputFile file{(fs::path(workshop.outputs) / name).string(), std::move(bytes)};
+Result<void> write_file(const RunSettings& settings, std::string_view name, std::vector<std::byte> bytes) {
+  const OutputFile file{(fs::path(settings.outputs) / name).string(), std::move(bytes)};
   return write_files({&file, 1});
 }
 
 Result<std::vector<std::string>> write_sheets(const std::vector<Job>& jobs, const Records& records,
-                                              const Workshop& workshop) {
+                                              const RunSettings& settings) {
   std::vector<std::string> names;
   for (std::size_t first = 0; first < jobs.size(); first += tiles_per_sheet) {
     std::vector<Tile> tiles;
     for (std::size_t i = first; i < std::min(jobs.size(), first + tiles_per_sheet); ++i)
-      tiles.push_back({tile_of(jobs[i], records, workshop), jobs[i].name});
+      tiles.push_back({tile_of(jobs[i], records, settings), jobs[i].name});
     names.push_back(names.empty() ? "contact-sheet.png" : cat("contact-sheet-", names.size() + 1, ".png"));
-    RELIEVO_CHECK(write_file(workshop, names.back(), write_png(contact_sheet(tiles, tile_px))));
+    RELIEVO_CHECK(write_file(settings, names.back(), write_png(contact_sheet(tiles, tile_px))));
   }
   return names;
 }
@@ -71,15 +71,15 @@ std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, c
   return same;
 }
 
-Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop) {
+Result<void> finish(const std::vector<Job>& jobs, const Records& records, const RunSettings& settings) {
   std::string lines;
   for (const Job& job : jobs)
     if (const auto found = records.find(job.name); found != records.end())
       lines +=
           cat(to_json(found->second).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "\n");
-  RELIEVO_CHECK(write_file(workshop, "scans.jsonl", bytes_of(lines)));
-  RELIEVO_TRY(const std::vector<std::string> sheets, write_sheets(jobs, records, workshop));
-  return write_file(workshop, "index.html", bytes_of(index_page(jobs, records, workshop, sheets)));
+  RELIEVO_CHECK(write_file(settings, "scans.jsonl", bytes_of(lines)));
+  RELIEVO_TRY(const std::vector<std::string> sheets, write_sheets(jobs, records, settings));
+  return write_file(settings, "index.html", bytes_of(index_page(jobs, records, settings, sheets)));
 }
 
 }  // namespace relievo::app::batch

@@ -22,6 +22,6 @@ std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, c
 // Writes three things into the folder of the outputs: scans.jsonl, with the last record of each job in the
 // order of the jobs; contact sheets of all previews; and index.html, the page of index_page(). Errors: kind
 // output.
-Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop);
+Result<void> finish(const std::vector<Job>& jobs, const Records& records, const RunSettings& settings);
 
 }  // namespace relievo::app::batch

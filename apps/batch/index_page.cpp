@@ -96,9 +96,9 @@ std::string link(const std::string& path, const std::string& text) {
   return cat("<a href=\"", url_of_path(path), "\">", escaped_markup(text), "</a>");
 }
 
-std::string card(const Job& job, const Record& record, const Workshop& workshop, const Options& common) {
+std::string card(const Job& job, const Record& record, const RunSettings& settings, const Options& common) {
   std::string links, preview;
-  for (const OutputKind& kind : workshop.kinds) {
+  for (const OutputKind& kind : settings.kinds) {
     const std::string name = output_name(job, kind);
     if (kind.name == "preview") {
       preview = name;
@@ -152,7 +152,7 @@ std::string url_of_path(std::string_view path) {
   return url;
 }
 
-std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
+std::string index_page(const std::vector<Job>& jobs, const Records& records, const RunSettings& settings,
                        const std::vector<std::string>& sheets) {
   std::string failed, cards;
   const Options common = common_options(jobs);
@@ -160,7 +160,7 @@ std::string index_page(const std::vector<Job>& jobs, const Records& records, con
     const auto found = records.find(job.name);
     if (found == records.end()) continue;
     if (found->second.is_made)
-      cards += card(job, found->second, workshop, common);
+      cards += card(job, found->second, settings, common);
     else
       failed += cat("<tr data-name=\"", escaped_markup(lower(job.name)), "\"><th>", escaped_markup(job.name),
                     "</th><td>", escaped_markup(error_text(job, found->second)), "</td></tr>\n");

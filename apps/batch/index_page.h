@@ -12,7 +12,7 @@ namespace relievo::app::batch {
 // Returns the page: the failed jobs with their errors, and a picture of each relief with links to its files.
 // The page must be stored in the folder of the outputs, as its links and the paths of the contact sheets are
 // relative to that folder.
-std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
+std::string index_page(const std::vector<Job>& jobs, const Records& records, const RunSettings& settings,
                        const std::vector<std::string>& sheets);
 
 // Returns the relative path as an address for a link. All characters except letters, digits and - . _ / are

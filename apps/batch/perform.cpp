@@ -32,7 +32,7 @@ std::vector<OutputKind> all_kinds() {
 
 // Returns a hash of everything that determines the outputs: the contents of the files, the options and the
 // version. Errors: those of read_file() for the job's scan.
-Result<std::string> hash_of_work(const Job& job, const std::vector<OutputKind>& kinds) {
+Result<std::string> hash_of_input(const Job& job, const std::vector<OutputKind>& kinds) {
   std::string text = cat("relievo ", version);
   for (const std::string& file : files_of(job)) {
     const Result<std::string> content = hash_of_file(file);
@@ -52,15 +52,15 @@ bool are_there(const std::map<std::string, std::uintmax_t>& outputs, const std::
   });
 }
 
-bool is_still_true(const Record& before, const std::string& hash, const Workshop& workshop) {
+bool is_still_true(const Record& before, const std::string& hash, const RunSettings& settings) {
   if (before.hash != hash || (!before.is_made && before.may_succeed)) return false;
-  return !before.is_made || are_there(before.outputs, workshop.outputs);
+  return !before.is_made || are_there(before.outputs, settings.outputs);
 }
 
-std::optional<MakeError> make_outputs(const Job& job, const Workshop& workshop, int threads) {
-  if (const Result<void> made = make_output_folder(workshop.outputs, fs::path(job.name).parent_path()); !made)
+std::optional<MakeError> make_outputs(const Job& job, const RunSettings& settings, int threads) {
+  if (const Result<void> made = make_output_folder(settings.outputs, fs::path(job.name).parent_path()); !made)
     return MakeError{cat(job.name, ": ", made.error().message()), true};
-  return workshop.make(make_arguments(job, workshop, threads));
+  return settings.make(make_arguments(job, settings, threads));
 }
 
 }  // namespace
@@ -104,41 +104,41 @@ std::string output_name(const Job& job, const OutputKind& kind) {
   return job.name + kind.ending;
 }
 
-std::vector<std::string> make_arguments(const Job& job, const Workshop& workshop, int threads) {
+std::vector<std::string> make_arguments(const Job& job, const RunSettings& settings, int threads) {
   // The pages show small previews. A job may ask for larger ones by its options.
   constexpr std::string_view usual_preview_px = "400";
   std::vector<std::string> arguments{"make", job.file, "--quiet", cat("--threads=", threads)};
-  for (const OutputKind& kind : workshop.kinds)
-    arguments.push_back(cat(kind.flag, "=", (fs::path(workshop.outputs) / output_name(job, kind)).string()));
+  for (const OutputKind& kind : settings.kinds)
+    arguments.push_back(cat(kind.flag, "=", (fs::path(settings.outputs) / output_name(job, kind)).string()));
   for (const auto& [option, value] : job.options) arguments.push_back(cat("--", option, "=", value));
   if (!job.options.contains("preview-size")) arguments.push_back(cat("--preview-size=", usual_preview_px));
   return arguments;
 }
 
-Performed perform(const Work& work, const Workshop& workshop, int threads) {
-  Performed end{false, {work.job.name, work.job.file}};
-  Record& record = end.record;
-  const Result<std::string> hash = hash_of_work(work.job, workshop.kinds);
+JobResult perform(const PlannedJob& planned, const RunSettings& settings, int threads) {
+  JobResult result{false, {planned.job.name, planned.job.file}};
+  Record& record = result.record;
+  const Result<std::string> hash = hash_of_input(planned.job, settings.kinds);
   if (!hash) {
     record.error = hash.error().message();
     record.may_succeed = true;
-    return end;
+    return result;
   }
-  if (work.before && is_still_true(*work.before, *hash, workshop)) return {true, *work.before};
+  if (planned.before && is_still_true(*planned.before, *hash, settings)) return {true, *planned.before};
   record.hash = *hash;
-  if (const std::optional<MakeError> error = make_outputs(work.job, workshop, threads)) {
+  if (const std::optional<MakeError> error = make_outputs(planned.job, settings, threads)) {
     constexpr std::size_t longest = 4000;  // a longer record might not fit into the buffer of a pipe
     record.error = error->line.substr(0, longest);
     record.may_succeed = error->may_succeed;
-    return end;
+    return result;
   }
   record.is_made = true;
-  for (const OutputKind& kind : workshop.kinds) {
+  for (const OutputKind& kind : settings.kinds) {
     std::error_code ignored;
-    const std::string name = output_name(work.job, kind);
-    record.outputs[name] = fs::file_size(fs::path(workshop.outputs) / name, ignored);
+    const std::string name = output_name(planned.job, kind);
+    record.outputs[name] = fs::file_size(fs::path(settings.outputs) / name, ignored);
   }
-  return end;
+  return result;
 }
 
 }  // namespace relievo::app::batch

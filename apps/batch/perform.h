@@ -38,28 +38,29 @@ struct MakeError {
 // Runs `relievo ARGUMENTS` in this process. Returns the error, or nothing after a success.
 using MakeCall = std::function<std::optional<MakeError>(const std::vector<std::string>& arguments)>;
 
-struct Workshop {
-  std::string outputs;  // path of their folder
+// The settings that all jobs of a run share.
+struct RunSettings {
+  std::string outputs;  // path of the folder of the outputs
   std::vector<OutputKind> kinds;
   MakeCall make;
 };
 
-struct Work {
+struct PlannedJob {
   Job job;
   std::optional<Record> before;  // the job's record from the last run
   double need_mb = 0;
 };
 
-struct Performed {
+struct JobResult {
   bool is_kept = false;  // nothing was done, since the record of the last run is still valid
   Record record;
 };
 
 // Makes the outputs of a job unless they are up to date: this version made them from the same file contents
 // and options, and their sizes have not changed since. A failed job is repeated only if it may succeed now.
-Performed perform(const Work& work, const Workshop& workshop, int threads);
+JobResult perform(const PlannedJob& planned, const RunSettings& settings, int threads);
 
 // Returns the arguments with which `make` does the job.
-std::vector<std::string> make_arguments(const Job& job, const Workshop& workshop, int threads);
+std::vector<std::string> make_arguments(const Job& job, const RunSettings& settings, int threads);
 
 }  // namespace relievo::app::batch

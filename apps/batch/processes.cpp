@@ -32,15 +32,16 @@ std::string read_all(int descriptor) {
 }
 
 // Does the job in its own process, and sends the record to the parent.
-[[noreturn]] void live(const Work& work, const Workshop& workshop, int threads, int result, pid_t parent) {
+[[noreturn]] void run_in_child(const PlannedJob& planned, const RunSettings& settings, int threads, int pipe,
+                               pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // the signal to this process when the parent ends
   if (::getppid() != parent) ::_exit(0);  // the parent ended before prctl() was called
-  const Performed end = perform(work, workshop, threads);
-  nlohmann::json json = to_json(end.record);
-  json["is_kept"] = end.is_kept;
+  const JobResult result = perform(planned, settings, threads);
+  nlohmann::json json = to_json(result.record);
+  json["is_kept"] = result.is_kept;
   const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   // If the writing fails, the parent gets no record, and reports how the process ended.
-  (void)write_all(result, std::as_bytes(std::span(text)));
+  (void)write_all(pipe, std::as_bytes(std::span(text)));
   std::fflush(stderr);
   ::_exit(0);  // does not run the destructors of static objects, which belong to the parent
 }
@@ -61,20 +62,20 @@ std::string reason_of(int status) {
 
 }  // namespace
 
-Result<void> Processes::start(const Work& work, int threads) {
+Result<void> Processes::start(const PlannedJob& planned, int threads) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    return system_error(ErrorKind::output, work.job.name, "expected a pipe to a new process");
+    return system_error(ErrorKind::output, planned.job.name, "expected a pipe to a new process");
   Descriptor from(ends[0]), to(ends[1]);
   std::fflush(nullptr);  // otherwise both processes would print the buffered text
   const pid_t parent = ::getpid(), child = ::fork();
-  if (child < 0) return system_error(ErrorKind::output, work.job.name, "expected a new process");
-  if (child == 0) live(work, workshop_, threads, to.number(), parent);
-  running_.emplace(child, Running{&work, std::move(from), std::chrono::steady_clock::now()});
+  if (child < 0) return system_error(ErrorKind::output, planned.job.name, "expected a new process");
+  if (child == 0) run_in_child(planned, settings_, threads, to.number(), parent);
+  running_.emplace(child, Running{&planned, std::move(from), std::chrono::steady_clock::now()});
   return {};
 }
 
-Performed Processes::wait() {
+JobResult Processes::wait() {
   int status = 0;
   struct rusage usage {};
   pid_t child = 0;
@@ -84,31 +85,31 @@ Performed Processes::wait() {
   if (found == running_.end()) return {};
   const Running& process = found->second;
   const std::string text = read_all(process.result.number());
-  const Job& job = process.work->job;
-  Performed end;
+  const Job& job = process.planned->job;
+  JobResult result;
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (const auto record = record_from_line(text)) {
-    end = {json.value("is_kept", false), *record};
+    result = {json.value("is_kept", false), *record};
   } else {
-    end.record = {job.name, job.file};
-    end.record.error = cat(job.file, ": ", reason_of(status));
-    end.record.may_succeed = true;
+    result.record = {job.name, job.file};
+    result.record.error = cat(job.file, ": ", reason_of(status));
+    result.record.may_succeed = true;
   }
-  if (!end.is_kept) {
+  if (!result.is_kept) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - process.started;
-    end.record.seconds = seconds.count();
-    end.record.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-    end.record.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024;
-    end.record.host = host_name();
-    end.record.finished = time_now();
+    result.record.seconds = seconds.count();
+    result.record.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+    result.record.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+    result.record.host = host_name();
+    result.record.finished = time_now();
   }
   running_.erase(found);
-  return end;
+  return result;
 }
 
 double Processes::running_mb() const {
   double mb = 0;
-  for (const auto& [child, process] : running_) mb += process.work->need_mb;
+  for (const auto& [child, process] : running_) mb += process.planned->need_mb;
   return mb;
 }
 

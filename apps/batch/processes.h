@@ -16,26 +16,26 @@ namespace relievo::app::batch {
 // a thread, and must have no other child processes.
 class Processes {
  public:
-  explicit Processes(const Workshop& workshop) : workshop_(workshop) {}
+  explicit Processes(const RunSettings& settings) : settings_(settings) {}
 
   // Starts the job, which may use `threads` threads. Errors: kind output if the system allows no more
   // processes.
-  Result<void> start(const Work& work, int threads);
+  Result<void> start(const PlannedJob& planned, int threads);
 
   // Waits until a job ends for any reason, and returns its outcome. At least one job must be running.
-  Performed wait();
+  JobResult wait();
 
   std::size_t running() const { return running_.size(); }
   double running_mb() const;  // sum of the estimated memory of the running jobs
 
  private:
   struct Running {
-    const Work* work;
+    const PlannedJob* planned;
     Descriptor result;  // the pipe through which the process sends its record
     std::chrono::steady_clock::time_point started;
   };
 
-  const Workshop& workshop_;
+  const RunSettings& settings_;
   std::map<pid_t, Running> running_;
 };
 

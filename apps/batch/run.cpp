@@ -23,28 +23,28 @@ int usable_processors() {
 // Starts jobs as soon as there are enough processors and memory for them.
 class Run {
  public:
-  Run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits)
-      : works_(works), processes_(workshop) {
+  Run(const std::vector<PlannedJob>& planned, const RunSettings& settings, const RunLimits& limits)
+      : jobs_(planned), processes_(settings) {
     most_processes_ = limits.processes > 0 ? limits.processes : processors_;
     memory_mb_ = limits.memory_mb > 0 ? limits.memory_mb : share_of_available * available_memory_mb();
   }
 
   Result<void> all(const Journal& journal, const RunWatcher& watcher) {
-    for (std::size_t done = 0; done < works_.size();) {
+    for (std::size_t done = 0; done < jobs_.size();) {
       RELIEVO_CHECK(start_what_fits());
-      const Performed end = processes_.wait();
-      if (!end.is_kept) RELIEVO_CHECK(journal.append(end.record));
-      watcher(end, ++done);
+      const JobResult result = processes_.wait();
+      if (!result.is_kept) RELIEVO_CHECK(journal.append(result.record));
+      watcher(result, ++done);
     }
     return {};
   }
 
  private:
   Result<void> start_what_fits() {
-    while (next_ < works_.size() && static_cast<int>(processes_.running()) < most_processes_) {
-      const Work& work = works_[next_];
-      if (processes_.running() > 0 && processes_.running_mb() + work.need_mb > memory_mb_) break;
-      RELIEVO_CHECK(processes_.start(work, threads_for(work)));
+    while (next_ < jobs_.size() && static_cast<int>(processes_.running()) < most_processes_) {
+      const PlannedJob& job = jobs_[next_];
+      if (processes_.running() > 0 && processes_.running_mb() + job.need_mb > memory_mb_) break;
+      RELIEVO_CHECK(processes_.start(job, threads_for(job)));
       ++next_;
     }
     return {};
@@ -52,14 +52,14 @@ class Run {
 
   // One process per processor is fastest. If the memory or the number of remaining jobs allows fewer
   // processes than processors, each process gets several threads.
-  int threads_for(const Work& work) const {
+  int threads_for(const PlannedJob& job) const {
     const double side_by_side =
-        std::min({static_cast<double>(most_processes_), static_cast<double>(works_.size() - next_),
-                  std::max(1.0, std::floor(memory_mb_ / std::max(work.need_mb, 1.0)))});
+        std::min({static_cast<double>(most_processes_), static_cast<double>(jobs_.size() - next_),
+                  std::max(1.0, std::floor(memory_mb_ / std::max(job.need_mb, 1.0)))});
     return std::max(1, static_cast<int>(processors_ / side_by_side));
   }
 
-  const std::vector<Work>& works_;
+  const std::vector<PlannedJob>& jobs_;
   Processes processes_;
   std::size_t next_ = 0;  // index of the next job to start
   int processors_ = usable_processors(), most_processes_ = 1;
@@ -68,9 +68,9 @@ class Run {
 
 }  // namespace
 
-Result<void> run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits,
+Result<void> run(const std::vector<PlannedJob>& planned, const RunSettings& settings, const RunLimits& limits,
                  const Journal& journal, const RunWatcher& watcher) {
-  return Run(works, workshop, limits).all(journal, watcher);
+  return Run(planned, settings, limits).all(journal, watcher);
 }
 
 }  // namespace relievo::app::batch

@@ -14,12 +14,12 @@ struct RunLimits {
 };
 
 // Called after each job. `done` is the number of jobs that have ended.
-using RunWatcher = std::function<void(const Performed& end, std::size_t done)>;
+using RunWatcher = std::function<void(const JobResult& result, std::size_t done)>;
 
 // Does all jobs in any order, as many at the same time as the limits allow. Appends a line to the journal for
 // each job that was not done before. A job that needs more memory than the limit runs alone. A failed job
 // does not end the run. Errors: kind output if the journal cannot be written or processes cannot be started.
-Result<void> run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits,
+Result<void> run(const std::vector<PlannedJob>& planned, const RunSettings& settings, const RunLimits& limits,
                  const Journal& journal, const RunWatcher& watcher);
 
 }  // namespace relievo::app::batch

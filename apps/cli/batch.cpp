@@ -34,7 +34,7 @@ struct BatchArguments : MakeOptions {
 // The jobs of a run, the folder of their outputs, and the kinds of files to make.
 struct BatchOrder {
   std::vector<batch::Job> jobs;
-  batch::Workshop workshop;
+  batch::RunSettings settings;
   std::vector<std::string> skipped = {};  // files of the folder that are the scan of no job
 };
 
@@ -95,11 +95,11 @@ std::optional<batch::MakeError> call_make(const std::vector<std::string>& argume
   return batch::MakeError{end.message, end.may_succeed};
 }
 
-Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
+Result<batch::RunSettings> settings_of(const BatchArguments& arguments) {
   if (arguments.outputs.empty()) return option_error("output", "expected a folder, found none");
   RELIEVO_TRY(std::vector<batch::OutputKind> kinds, batch::parse_output_kinds(arguments.kinds));
-  return batch::Workshop{fs::absolute(arguments.outputs).lexically_normal().string(), std::move(kinds),
-                         call_make};
+  return batch::RunSettings{fs::absolute(arguments.outputs).lexically_normal().string(), std::move(kinds),
+                            call_make};
 }
 
 Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& command) {
@@ -109,9 +109,9 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
   RELIEVO_CHECK(parse_options(arguments.order.values));
   RELIEVO_CHECK(parse_unit(arguments.units));
   BatchOrder order;
-  RELIEVO_TRY(order.workshop, workshop_of(arguments));
+  RELIEVO_TRY(order.settings, settings_of(arguments));
   const auto is_option = [](const std::string& name) { return shared_options().contains(name); };
-  const batch::Catalogue catalogue{arguments.input, arguments.match, order.workshop.outputs,
+  const batch::Catalogue catalogue{arguments.input, arguments.match, order.settings.outputs,
                                    given_options(command)};
   RELIEVO_TRY(order.jobs, batch::list_jobs(catalogue, is_option));
   order.skipped = batch::skipped_files(catalogue, order.jobs);
@@ -122,32 +122,33 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
 
 // -------------------------------------------------------------------------------------------------- modes
 
-std::vector<batch::Work> works_of(const std::vector<batch::Job>& jobs, const BatchArguments& arguments,
-                                  const batch::Workshop& workshop) {
-  const batch::Records records = batch::read_journals(workshop.outputs);
-  std::vector<batch::Work> works;
+std::vector<batch::PlannedJob> planned_jobs(const std::vector<batch::Job>& jobs,
+                                            const BatchArguments& arguments,
+                                            const batch::RunSettings& settings) {
+  const batch::Records records = batch::read_journals(settings.outputs);
+  std::vector<batch::PlannedJob> all;
   for (const batch::Job& job : jobs) {
-    batch::Work& work = works.emplace_back(job, std::nullopt, batch::memory_need_mb(job));
+    batch::PlannedJob& planned = all.emplace_back(job, std::nullopt, batch::memory_need_mb(job));
     const auto found = records.find(job.name);
     if (found == records.end() || (arguments.tries_failed_again && !found->second.is_made)) continue;
-    work.before = found->second;
+    planned.before = found->second;
   }
-  return works;
+  return all;
 }
 
 // Returns an error if a job has failed or is not done yet. Otherwise prints the number of reliefs.
-Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::Workshop& workshop, bool is_quiet,
+Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::RunSettings& settings, bool is_quiet,
                        const std::string& page) {
-  const batch::Summary sum = batch::summary_of(jobs, batch::read_journals(workshop.outputs));
+  const batch::Summary sum = batch::summary_of(jobs, batch::read_journals(settings.outputs));
   const std::string see = page.empty() ? "" : cat("; see ", page);
   if (sum.failed + sum.missing > 0)
     return std::unexpected(Error{
         ErrorKind::geometry,
-        workshop.outputs,
+        settings.outputs,
         {},
         cat("expected ", jobs.size(), jobs.size() == 1 ? " relief" : " reliefs", ", made ", sum.made, "; ",
             sum.failed, " failed", sum.missing > 0 ? cat(", ", sum.missing, " are not done yet") : "", see)});
-  if (!is_quiet) std::fprintf(stderr, "%s: %zu reliefs%s\n", workshop.outputs.c_str(), sum.made, see.c_str());
+  if (!is_quiet) std::fprintf(stderr, "%s: %zu reliefs%s\n", settings.outputs.c_str(), sum.made, see.c_str());
   return {};
 }
 
@@ -159,19 +160,19 @@ void print_facts(const BatchOrder& order, const batch::Records& records) {
 }
 
 Result<void> finish_run(const BatchOrder& order, bool is_quiet) {
-  const batch::Records records = batch::read_journals(order.workshop.outputs);
-  RELIEVO_CHECK(batch::finish(order.jobs, records, order.workshop));
+  const batch::Records records = batch::read_journals(order.settings.outputs);
+  RELIEVO_CHECK(batch::finish(order.jobs, records, order.settings));
   if (!is_quiet) print_facts(order, records);
-  return summarise(order.jobs, order.workshop, is_quiet,
-                   (fs::path(order.workshop.outputs) / "index.html").string());
+  return summarise(order.jobs, order.settings, is_quiet,
+                   (fs::path(order.settings.outputs) / "index.html").string());
 }
 
 // Prints one line per job. The flag `--job` takes such a line and does that job, on any machine.
 Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
-  for (const batch::Work& work : works_of(order.jobs, arguments, order.workshop)) {
-    nlohmann::json json = to_json(work.job);
-    json["need_mb"] = work.need_mb;
-    if (work.before) json["before"] = to_json(*work.before);
+  for (const batch::PlannedJob& planned : planned_jobs(order.jobs, arguments, order.settings)) {
+    nlohmann::json json = to_json(planned.job);
+    json["need_mb"] = planned.need_mb;
+    if (planned.before) json["before"] = to_json(*planned.before);
     std::printf("%s\n", json.dump().c_str());
   }
   return {};
@@ -180,44 +181,44 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
 // Returns the job's record if the job was done after list() printed its line; nothing if its first output or
 // its record is missing. A Dask worker (python/relievo/batch.py) may die after its program has done the job,
 // or while that program goes on. Another worker then gets the same job.
-std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::Workshop& workshop) {
-  const std::string output = batch::output_name(job, workshop.kinds.front());
-  if (std::error_code ignored; !fs::exists(fs::path(workshop.outputs) / output, ignored)) return std::nullopt;
-  const batch::Records records = batch::read_journals(workshop.outputs);
+std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::RunSettings& settings) {
+  const std::string output = batch::output_name(job, settings.kinds.front());
+  if (std::error_code ignored; !fs::exists(fs::path(settings.outputs) / output, ignored)) return std::nullopt;
+  const batch::Records records = batch::read_journals(settings.outputs);
   const auto found = records.find(job.name);
   return found == records.end() ? std::nullopt : std::optional(found->second);
 }
 
 // Does the job that a line from list() describes, and prints the job's record.
-Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& workshop,
+Result<batch::Record> do_job(const std::string& listed, const batch::RunSettings& settings,
                              const batch::Journal& journal) {
   const auto json = nlohmann::json::parse(listed, nullptr, false);
   RELIEVO_TRY(batch::Job job, batch::job_from_json(json));
-  RELIEVO_TRY(const Descriptor lock, batch::lock_job(workshop.outputs, job.name));
-  batch::Work work{std::move(job), std::nullopt, 0};
-  if (json.contains("before")) work.before = batch::record_from_line(json["before"].dump());
-  if (!work.before) work.before = made_since_listed(work.job, workshop);
-  batch::Processes processes(workshop);
-  RELIEVO_CHECK(processes.start(work, 1));
-  const batch::Performed end = processes.wait();
-  if (!end.is_kept) RELIEVO_CHECK(journal.append(end.record));
-  nlohmann::json line = to_json(end.record);
-  line["is_kept"] = end.is_kept;
+  RELIEVO_TRY(const Descriptor lock, batch::lock_job(settings.outputs, job.name));
+  batch::PlannedJob planned{std::move(job), std::nullopt, 0};
+  if (json.contains("before")) planned.before = batch::record_from_line(json["before"].dump());
+  if (!planned.before) planned.before = made_since_listed(planned.job, settings);
+  batch::Processes processes(settings);
+  RELIEVO_CHECK(processes.start(planned, 1));
+  const batch::JobResult result = processes.wait();
+  if (!result.is_kept) RELIEVO_CHECK(journal.append(result.record));
+  nlohmann::json line = to_json(result.record);
+  line["is_kept"] = result.is_kept;
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   // If nobody reads the records any more, the flush fails and the program ends.
   if (std::fflush(stdout) != 0)
-    return system_error(ErrorKind::output, work.job.name, "expected a reader of records");
-  return end.record;
+    return system_error(ErrorKind::output, planned.job.name, "expected a reader of records");
+  return result.record;
 }
 
 // Does the jobs one after the other. A failed job does not stop the others.
 Result<void> do_jobs(const BatchArguments& arguments) {
-  RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
+  RELIEVO_TRY(const batch::RunSettings settings, settings_of(arguments));
   RELIEVO_CHECK(batch::make_output_folder(arguments.outputs));
-  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
+  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(settings.outputs));
   std::string failed;
   for (const std::string& listed : arguments.jobs) {
-    RELIEVO_TRY(const batch::Record record, do_job(listed, workshop, journal));
+    RELIEVO_TRY(const batch::Record record, do_job(listed, settings, journal));
     if (!record.is_made) failed += cat(failed.empty() ? "" : "\n", record.error);
   }
   if (failed.empty()) return {};
@@ -228,16 +229,16 @@ Result<void> run_all(const BatchOrder& order, const BatchArguments& arguments, c
   const bool is_part = shard.count > 1;
   RELIEVO_TRY(
       const Descriptor lock,
-      batch::lock_run(order.workshop.outputs, is_part ? cat("-", shard.index, "-of-", shard.count) : ""));
-  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(order.workshop.outputs));
+      batch::lock_run(order.settings.outputs, is_part ? cat("-", shard.index, "-of-", shard.count) : ""));
+  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(order.settings.outputs));
   const std::vector<batch::Job> jobs = jobs_of_shard(order.jobs, shard);
   {
-    const std::vector<batch::Work> works = works_of(jobs, arguments, order.workshop);
+    const std::vector<batch::PlannedJob> planned = planned_jobs(jobs, arguments, order.settings);
     BatchProgress progress(jobs.size(), arguments.is_quiet);
-    const auto show = [&](const batch::Performed& end, std::size_t done) { progress.show(end, done); };
-    RELIEVO_CHECK(batch::run(works, order.workshop, arguments.limits, journal, show));
+    const auto show = [&](const batch::JobResult& result, std::size_t done) { progress.show(result, done); };
+    RELIEVO_CHECK(batch::run(planned, order.settings, arguments.limits, journal, show));
   }
-  if (is_part) return summarise(jobs, order.workshop, arguments.is_quiet, "");
+  if (is_part) return summarise(jobs, order.settings, arguments.is_quiet, "");
   return finish_run(order, arguments.is_quiet);
 }
 

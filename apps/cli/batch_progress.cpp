@@ -18,13 +18,13 @@ BatchProgress::~BatchProgress() {
   if (is_terminal_ && !is_quiet_) std::fputs("\r\x1b[K", stderr);
 }
 
-void BatchProgress::show(const batch::Performed& end, std::size_t done) {
-  if (end.is_kept) ++kept_;
-  if (!end.record.is_made) ++failed_;
+void BatchProgress::show(const batch::JobResult& result, std::size_t done) {
+  if (result.is_kept) ++kept_;
+  if (!result.record.is_made) ++failed_;
   const char* const clear = is_terminal_ ? "\r\x1b[K" : "";
-  if (!end.record.is_made && !end.is_kept && !is_quiet_)
-    std::fprintf(stderr, "%sfailed: %s: %s\n", clear, on_one_line(end.record.name).c_str(),
-                 on_one_line(end.record.error).c_str());
+  if (!result.record.is_made && !result.is_kept && !is_quiet_)
+    std::fprintf(stderr, "%sfailed: %s: %s\n", clear, on_one_line(result.record.name).c_str(),
+                 on_one_line(result.record.error).c_str());
   if (is_quiet_) return;
   const std::size_t twentieth = std::max<std::size_t>(1, jobs_ / 20);
   if (is_terminal_)

@@ -19,7 +19,7 @@ class BatchProgress {
   BatchProgress& operator=(const BatchProgress&) = delete;
 
   // Shows that a job has ended; `done` is the number of jobs that have ended so far.
-  void show(const batch::Performed& end, std::size_t done);
+  void show(const batch::JobResult& result, std::size_t done);
 
  private:
   std::string line(std::size_t done) const;

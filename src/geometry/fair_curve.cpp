@@ -67,7 +67,7 @@ struct Corner {
 
 // The part of a course that a fit may use: from one corner to the next, or all of the course if there are no
 // corners.
-struct Piece {
+struct CurveSection {
   double from = -1e300, to = 1e300;
   const Corner *begin = nullptr, *end = nullptr;
 };
@@ -89,7 +89,7 @@ Vec2 nearest_place(const Course& course, double at) {
 
 // Returns the value at length `at` of the quadratic that best fits the samples near it. If there are none,
 // for example between two close corners, returns the position of the nearest sample.
-Vec2 fitted(const Course& course, double at, const Piece& piece, double window) {
+Vec2 fitted(const Course& course, double at, const CurveSection& section, double window) {
   constexpr std::size_t enough = 5;
   Mat3 moments;
   Eigen::Matrix<double, 3, 2> products;
@@ -104,10 +104,10 @@ Vec2 fitted(const Course& course, double at, const Piece& piece, double window) 
       products += weight * powers * s.place.transpose();
       count += weight > 0;
     };
-    course.between(at, std::max(piece.from, at - window), std::min(piece.to, at + window), add);
+    course.between(at, std::max(section.from, at - window), std::min(section.to, at + window), add);
     const double firm = 10 * moments(0, 0);
-    if (piece.begin) add({piece.from, piece.begin->place, firm}, piece.from - at);
-    if (piece.end) add({piece.to, piece.end->place, firm}, piece.to - at);
+    if (section.begin) add({section.from, section.begin->place, firm}, section.from - at);
+    if (section.end) add({section.to, section.end->place, firm}, section.to - at);
     if (count >= enough) break;
   }
   if (!(moments(0, 0) > 0)) return nearest_place(course, at);
@@ -141,7 +141,7 @@ Course course_of(std::span<const CurveNode> nodes, bool is_closed) {
 // Returns evenly spaced points of the course, including both ends if it is open.
 std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(8, std::lround(course.length() / (.5 * options.spacing)));
-  const Piece whole = course.is_closed() ? Piece{} : Piece{course.begin(), course.end()};
+  const CurveSection whole = course.is_closed() ? CurveSection{} : CurveSection{course.begin(), course.end()};
   std::vector<Vec2> line(steps + (course.is_closed() ? 0 : 1));
   parallel_for(
       line.size(),
@@ -318,14 +318,15 @@ std::vector<Corner> corners_of(const Course& course, FairCurveOptions options) {
   return corners;
 }
 
-// Adds the points of a piece, except its end.
-void add_piece(const Course& course, const Piece& piece, const FairCurveOptions& options, FairCurve& curve) {
-  const double length = piece.to - piece.from;
+// Adds the points of a section, except its end.
+void add_section(const Course& course, const CurveSection& section, const FairCurveOptions& options,
+                 FairCurve& curve) {
+  const double length = section.to - section.from;
   const auto steps = std::max<std::size_t>(1, std::lround(length / options.spacing));
   for (std::size_t k = 0; k < steps; ++k) {
-    const double at = piece.from + length * static_cast<double>(k) / static_cast<double>(steps);
-    const bool is_corner = k == 0 && piece.begin;
-    curve.points.push_back(is_corner ? piece.begin->place : fitted(course, at, piece, options.window));
+    const double at = section.from + length * static_cast<double>(k) / static_cast<double>(steps);
+    const bool is_corner = k == 0 && section.begin;
+    curve.points.push_back(is_corner ? section.begin->place : fitted(course, at, section, options.window));
     curve.is_corner.push_back(is_corner);
   }
 }
@@ -334,13 +335,13 @@ FairCurve curve_of(const Course& course, const FairCurveOptions& options) {
   FairCurve curve;
   const std::vector<Corner> corners = corners_of(course, options);
   if (!course.is_closed()) {
-    Piece piece{course.begin(), course.end()};
+    CurveSection section{course.begin(), course.end()};
     for (const Corner& c : corners) {
-      add_piece(course, {piece.from, c.length, piece.begin, &c}, options, curve);
-      piece.from = c.length, piece.begin = &c;
+      add_section(course, {section.from, c.length, section.begin, &c}, options, curve);
+      section.from = c.length, section.begin = &c;
     }
-    add_piece(course, piece, options, curve);
-    curve.points.push_back(fitted(course, course.end(), piece, options.window));
+    add_section(course, section, options, curve);
+    curve.points.push_back(fitted(course, course.end(), section, options.window));
     curve.is_corner.push_back(0);
     return curve;
   }
@@ -355,7 +356,7 @@ FairCurve curve_of(const Course& course, const FairCurveOptions& options) {
     const bool is_last = i + 1 == corners.size();
     const Corner& next = corners[is_last ? 0 : i + 1];
     const double to = next.length + (is_last ? course.length() : 0);
-    add_piece(course, {corners[i].length, to, &corners[i], &next}, options, curve);
+    add_section(course, {corners[i].length, to, &corners[i], &next}, options, curve);
   }
   return curve;
 }

@@ -44,7 +44,7 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
   return a + t * (b - a);
 }
 
-// The room that metal and varnish reflect: a soft box around the lamp, a lower and dimmer reflector on the
+// The environment that metal and varnish reflect: a soft box around the lamp, a lower and dimmer reflector on the
 // other side, walls that are bright above and dark below, and the dark room beside the plate. The brightness
 // of box and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values
 // were chosen by eye; silver was compared with a photograph of coins.
@@ -155,7 +155,7 @@ Vec3f direction_of(const Vec3f& light) {
   return light.stableNormalized();
 }
 
-Room::Room(const Vec3f& to_lamp) {
+EnvironmentLight::EnvironmentLight(const Vec3f& to_lamp) {
   light_.reserve((cells + 1) * (cells + 1));
   for (int row = 0; row <= cells; ++row)
     for (int column = 0; column <= cells; ++column) {
@@ -168,7 +168,7 @@ Room::Room(const Vec3f& to_lamp) {
     }
 }
 
-float Room::operator()(const Vec2f& direction) const {
+float EnvironmentLight::operator()(const Vec2f& direction) const {
   if (light_.empty()) return 0;
   const auto place = [](float x) { return std::clamp((x + 1) * (cells / 2.F), 0.F, cells - 1e-3F); };
   const float x = place(direction.x()), y = place(direction.y());
@@ -187,7 +187,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
       to_sky_(Vec3f(-sky_away_x * to_lamp.x(), -sky_away_y * to_lamp.y(), sky_up).normalized()),
       exposure_(
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
-      room_(material == Material::plaster ? Room() : Room(to_lamp)) {}
+      environment_(material == Material::plaster ? EnvironmentLight() : EnvironmentLight(to_lamp)) {}
 
 // Returns the light of lamp and sky on the point `lit`, from its normal and its shadows.
 Light Shader::facing(const Lit& lit) const {
@@ -214,7 +214,7 @@ Vec3f Shader::colour(const Lit& lit) const {
 float Shader::mirrored_light(const Lit& lit) const {
   const Vec2f to_viewer = to_viewer_.head<2>() - lit.from_middle / viewer_distance;
   const float cosine = lit.normal.head<2>().dot(to_viewer) + lit.normal.z() * to_viewer_.z();
-  return room_(2 * cosine * lit.normal.head<2>() - to_viewer);
+  return environment_(2 * cosine * lit.normal.head<2>() - to_viewer);
 }
 
 // Patina remains in patches in hollows and on low ground; hands have polished the raised parts.
@@ -250,7 +250,7 @@ Vec3f Shader::wood(const Lit& lit) const {
 }
 
 // The lamp is behind the middle, and its light falls off towards the edge. The glaze reflects some of the
-// room.
+// environment.
 Vec3f Shader::porcelain(const Lit& lit) const {
   const float behind = 1 - .22F * lit.from_middle.squaredNorm();
   const float glaze = .035F * mirrored_light(lit);

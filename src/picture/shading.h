@@ -45,14 +45,14 @@ struct Lit {
 // Returns the vector scaled to unit length; zero for a zero vector.
 Vec3f direction_of(const Vec3f& light);
 
-// The light of the room around a body, as a function of direction. It is tabulated, because every pixel needs
+// The light from the environment of a body, as a function of direction. It is tabulated, because every pixel needs
 // it.
-class Room {
+class EnvironmentLight {
  public:
-  // Makes a room that is dark everywhere.
-  Room() = default;
+  // Makes an environment that is dark everywhere.
+  EnvironmentLight() = default;
 
-  explicit Room(const Vec3f& to_lamp);
+  explicit EnvironmentLight(const Vec3f& to_lamp);
 
   // Returns the light from a direction, given as x and y of a unit vector with positive z. For longer
   // vectors, returns the light from the nearest such direction.
@@ -81,7 +81,7 @@ class Shader {
   Material material_;
   Vec3f to_lamp_, to_viewer_, to_sky_;
   float exposure_;
-  Room room_;
+  EnvironmentLight environment_;
 };
 
 // Converts linear values to display values.

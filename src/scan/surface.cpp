@@ -34,7 +34,7 @@ struct ShownPoints {
 
 // A connected part that remains when the plane is removed: its box, and the number of its points high above
 // the plane.
-struct LeftPiece {
+struct ComponentExtent {
   Box box;
   std::size_t high = 0;
 };
@@ -42,10 +42,10 @@ struct LeftPiece {
 // Removes what remains of a plane: parts that are low above the plane for their size. They remain because
 // depth cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than
 // the largest one.
-void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
-                     std::vector<Index>& visible) {
+void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
+                         std::vector<Index>& visible) {
   constexpr double low = 4;          // height, in tolerances
-  constexpr double flat = .05;       // height, as a share of the diagonal of the piece's box
+  constexpr double flat = .05;       // height, as a share of the diagonal of the component's box
   constexpr double connected = 3;    // distance, in local spacings, as for floating noise in visible.cpp
   constexpr double high_share = .1;  // least share of high points in a figure
   // Size of the smallest part that is kept, as a share of the largest part.
@@ -58,16 +58,17 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
       if (j != no_index && is_left[j] &&
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
         sets.join(i, j);
-  std::unordered_map<Index, LeftPiece> pieces;  // by their representatives
-  for (const Index i : visible) pieces[sets.find(i)].box.extend(cloud.points[i]);
+  std::unordered_map<Index, ComponentExtent> components;  // by their representatives
+  for (const Index i : visible) components[sets.find(i)].box.extend(cloud.points[i]);
   for (const Index i : visible) {
-    LeftPiece& piece = pieces[sets.find(i)];
+    ComponentExtent& component = components[sets.find(i)];
     const double height = plane.normal.dot(cloud.points[i]) - plane.offset;
-    piece.high += height > std::max(low * plane.tolerance, flat * piece.box.diagonal());
+    component.high += height > std::max(low * plane.tolerance, flat * component.box.diagonal());
   }
   std::vector<Index> rest;
   for (const Index i : visible)
-    if (static_cast<double>(pieces[sets.find(i)].high) >= high_share * static_cast<double>(sets.size_of(i)))
+    if (static_cast<double>(components[sets.find(i)].high) >=
+        high_share * static_cast<double>(sets.size_of(i)))
       rest.push_back(i);
   std::size_t largest = 0;
   for (const Index i : rest) largest = std::max(largest, sets.size_of(i));
@@ -87,7 +88,7 @@ void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& c
   std::erase_if(cloud.outlines, [&](const OutlineSegment& s) {
     return plane.takes(s.from, normal) && plane.takes(s.to, normal);
   });
-  drop_low_pieces(plane, cloud, spacing, shown.visible);
+  drop_low_components(plane, cloud, spacing, shown.visible);
 }
 
 void scatter(const std::vector<double>& values, std::span<const Index> places, std::vector<double>& to) {

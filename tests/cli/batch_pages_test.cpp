@@ -93,8 +93,8 @@ TEST(IndexPage, NamesWhatFailedAndLinksWhatIsMade) {
   records["a & b"] = {"a & b", "/s/a.ply", true};
   records["a & b"].outputs["a & b.stl"] = 2500000;
   records["bad"] = {"bad", "/s/bad.ply", false, "/s/bad.ply, line 3: expected 3 numbers, found '<x>'"};
-  const Workshop workshop{"/out", *parse_output_kinds("stl"), {}};
-  const std::string page = index_page(jobs, records, workshop, {"contact-sheet.png"});
+  const RunSettings settings{"/out", *parse_output_kinds("stl"), {}};
+  const std::string page = index_page(jobs, records, settings, {"contact-sheet.png"});
   for (const char* part :
        {"1 relief is made, 1 failed, 1 is not done yet", "<b>a &amp; b</b>", "href=\"a%20%26%20b.stl\"",
         "2.5 MB", "height 4", "<td>bad.ply, line 3: expected", "found '&lt;x&gt;'", "contact-sheet.png"})

@@ -28,7 +28,7 @@ class BatchRun : public CliFolder {
   void SetUp() override {
     CliFolder::SetUp();
     fs::create_directories(folder_ / "out");
-    workshop_ = {(folder_ / "out").string(), *parse_output_kinds("stl"),
+    settings_ = {(folder_ / "out").string(), *parse_output_kinds("stl"),
                  [](const auto& arguments) { return pretend(arguments); }};
     for (const char* name : {"a", "b", "c", "d"}) {
       write_all(folder_ / (name + std::string(".ply")), name);
@@ -54,17 +54,17 @@ class BatchRun : public CliFolder {
   };
 
   Counts run_jobs(RunLimits limits = {2, 0}) {
-    const Records records = read_journals(workshop_.outputs);
-    std::vector<Work> works;
+    const Records records = read_journals(settings_.outputs);
+    std::vector<PlannedJob> works;
     for (const Job& job : jobs_) {
       works.push_back({job, std::nullopt, 100});
       if (const auto found = records.find(job.name); found != records.end())
         works.back().before = found->second;
     }
-    const auto journal = Journal::open(workshop_.outputs);
+    const auto journal = Journal::open(settings_.outputs);
     Counts counts;
     const auto done =
-        app::batch::run(works, workshop_, limits, *journal, [&](const Performed& end, std::size_t) {
+        app::batch::run(works, settings_, limits, *journal, [&](const JobResult& end, std::size_t) {
           ++(end.is_kept ? counts.kept : end.record.is_made ? counts.made : counts.failed);
         });
     EXPECT_TRUE(done);
@@ -77,13 +77,13 @@ class BatchRun : public CliFolder {
     return static_cast<std::size_t>(std::ranges::count(text, '\n'));
   }
 
-  Workshop workshop_;
+  RunSettings settings_;
   std::vector<Job> jobs_;
 };
 
 TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
-  const Records records = read_journals(workshop_.outputs);
+  const Records records = read_journals(settings_.outputs);
   EXPECT_TRUE(records.at("a").is_made);
   EXPECT_EQ(records.at("a").outputs.size(), 2U);
   EXPECT_EQ(records.at("c").error, "c.ply: expected something else");
@@ -106,7 +106,7 @@ TEST_F(BatchRun, DoesNothingTwice) {
   EXPECT_EQ(run_jobs(), (Counts{1, 1, 2}));
   write_all(folder_ / "out/b.stl", "cut");
   EXPECT_EQ(run_jobs(), (Counts{1, 1, 2}));
-  workshop_.kinds = *parse_output_kinds("obj");
+  settings_.kinds = *parse_output_kinds("obj");
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
 }
 
@@ -142,15 +142,15 @@ TEST_F(BatchRun, GivesAllProcessorsToTheFewJobsThatMemoryAllows) {
 }
 
 TEST_F(BatchRun, LocksItsFolder) {
-  const auto first = lock_run(workshop_.outputs, "");
+  const auto first = lock_run(settings_.outputs, "");
   ASSERT_TRUE(first);
-  EXPECT_FALSE(lock_run(workshop_.outputs, ""));
-  EXPECT_TRUE(lock_run(workshop_.outputs, "-1-of-2"));
+  EXPECT_FALSE(lock_run(settings_.outputs, ""));
+  EXPECT_TRUE(lock_run(settings_.outputs, "-1-of-2"));
 }
 
 TEST_F(BatchRun, WritesOneLinePerJobAndThePages) {
   run_jobs();
-  ASSERT_TRUE(finish(jobs_, read_journals(workshop_.outputs), workshop_));
+  ASSERT_TRUE(finish(jobs_, read_journals(settings_.outputs), settings_));
   std::vector<std::string> status;
   for (const std::string& line : lines_of(read_all(folder_ / "out/scans.jsonl")))
     status.push_back(nlohmann::json::parse(line)["status"]);

@@ -15,7 +15,7 @@ OUTPUTS = ("a.stl", "a.png", "a.tif")
 
 def run_with_fault(place, kind, chance, command, name):
     """Runs a program with a fault. Returns its exit code, its errors, and whether the fault came before its end."""
-    faults, most = place.faults, place.workshop.most[name]
+    faults, most = place.faults, place.setup.most[name]
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, chance.randint(1, most[0]), chance.choice([1, 1, 3, 10**9]))
     elif kind == "write":
@@ -59,9 +59,9 @@ def check_end(kind, code, errors):
     return lines
 
 
-def make(workshop, kind, chance, number):
-    with Place(workshop, number) as place:
-        whole = workshop.whole["make"]
+def make(setup, kind, chance, number):
+    with Place(setup, number) as place:
+        whole = setup.whole["make"]
         if kind == "full disk":
             place.make_disk(place.out, chance.randint(32, sum(map(len, whole.values())) // 900))
         place.add_foreign_files(place.out)
@@ -85,9 +85,9 @@ def make(workshop, kind, chance, number):
         return has_hit
 
 
-def batch(workshop, kind, chance, number):
-    with Place(workshop, number) as place:
-        whole = {name: content for name, content in workshop.whole["batch"].items() if name.endswith((".stl", ".png"))}
+def batch(setup, kind, chance, number):
+    with Place(setup, number) as place:
+        whole = {name: content for name, content in setup.whole["batch"].items() if name.endswith((".stl", ".png"))}
         if kind == "full disk":
             place.make_disk(place.out, chance.randint(32, sum(map(len, whole.values())) // 900))
         place.mark_as_batch()
@@ -161,10 +161,10 @@ print("ended")
 """
 
 
-def python(workshop, kind, chance, number):
-    if not workshop.has_python():
+def python(setup, kind, chance, number):
+    if not setup.has_python():
         raise Skip("Python's package, which is not built")
-    with Place(workshop, number) as place:
+    with Place(setup, number) as place:
         if kind == "full disk":
             place.make_disk(place.out, 8000)
         place.add_foreign_files(place.out)
@@ -174,7 +174,7 @@ def python(workshop, kind, chance, number):
         (place.folder / "work.py").write_text(PYTHON)
         here = __file__.rpartition("/")[0]
         process = place.start([sys.executable, "work.py", here, *numbers, chance.choice([1, 2])],
-                              {"PYTHONPATH": workshop.python, "EXCEPT": "python3,numpy,ld-linux,libblas,liblapack", "AT_ONCE": "1"})
+                              {"PYTHONPATH": setup.python, "EXCEPT": "python3,numpy,ld-linux,libblas,liblapack", "AT_ONCE": "1"})
         begun = process.stdout.readline()
         require(begun == b"begun\n", "Python: does not begin:", begun or process.stderr.read())
         if kind in ("kill", "folder gone", "clock"):

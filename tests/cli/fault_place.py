@@ -68,7 +68,7 @@ def failing_allocations(faults, chance):
     return int(10 ** chance.uniform(0, most)), count
 
 
-class Workshop:
+class Setup:
     """The program, its inputs, and the outputs that it writes without faults."""
 
     def __init__(self, program, source, folder, python):
@@ -94,8 +94,8 @@ class Workshop:
 class Place:
     """A folder for one fault, with inputs, older outputs, and foreign files."""
 
-    def __init__(self, workshop, number):
-        self.workshop, self.folder = workshop, workshop.folder / str(number)
+    def __init__(self, setup, number):
+        self.setup, self.folder = setup, setup.folder / str(number)
         self.out, self.state = self.folder / "out", self.folder / "state"
         self.mounted = []
         # Some file systems support files without names, and others do not. Odd and even numbers test one kind each.
@@ -105,9 +105,9 @@ class Place:
         self.out.mkdir(parents=True)
         (self.folder / "scans").mkdir()
         for sample in ("shell", "still_life", "green_man"):
-            shutil.copy(self.workshop.folder / f"{sample}.ply", self.folder / "scans")
-        shutil.copy(self.workshop.folder / "shell.ply", self.folder / "scan.ply")
-        self.program, self.groups = self.workshop.program, []
+            shutil.copy(self.setup.folder / f"{sample}.ply", self.folder / "scans")
+        shutil.copy(self.setup.folder / "shell.ply", self.folder / "scan.ply")
+        self.program, self.groups = self.setup.program, []
         self.faults = Faults(self.folder / "faults")
         return self
 
@@ -145,7 +145,7 @@ class Place:
             require(state_of(path) == before, path.name, "has changed, a foreign file")
 
     def start(self, command, environment):
-        known = {"LD_PRELOAD": str(self.workshop.preload), "FAULTS": str(self.faults.path)}
+        known = {"LD_PRELOAD": str(self.setup.preload), "FAULTS": str(self.faults.path)}
         process = subprocess.Popen(list(map(str, command)), cwd=self.folder, env={**os.environ, **known, **self.environment, **environment},
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
         self.groups.append(process.pid)

@@ -195,8 +195,8 @@ def check_studio(page, kind, document, picture):
         require(status == 200, "studio: cannot keep work:", status, content[:500])
 
 
-def studio(workshop, kind, chance, number):
-    with Place(workshop, number) as place:
+def studio(setup, kind, chance, number):
+    with Place(setup, number) as place:
         if kind == "full disk":
             place.make_disk(place.state, chance.randint(100, 400))
         place.add_foreign_files(place.out)

@@ -25,21 +25,22 @@ float brightness(Material material, const Lit& lit) {
   return shader_of(material).colour(lit).sum() / 3;
 }
 
-TEST(Room, IsBrightestWhereTheLampIs) {
-  const Room room(to_lamp);
-  const float at_lamp = room(to_lamp.head<2>());
+TEST(EnvironmentLight, IsBrightestWhereTheLampIs) {
+  const EnvironmentLight environment(to_lamp);
+  const float at_lamp = environment(to_lamp.head<2>());
   for (float x = -1; x <= 1; x += .125F)
     for (float y = -1; y <= 1; y += .125F) {
-      const float light = room({x, y});
+      const float light = environment({x, y});
       EXPECT_GT(light, 0);
       EXPECT_LE(light, at_lamp * 1.03F) << x << " " << y;  // slightly brighter above the lamp
     }
 }
 
-TEST(Room, IsContinuous) {
-  const Room room(to_lamp);
-  for (float x = -1; x <= .99F; x += .01F) EXPECT_NEAR(room({x, .3F}), room({x + .01F, .3F}), .1F) << x;
-  EXPECT_EQ(room({2, 0}), room({1, 0}));
+TEST(EnvironmentLight, IsContinuous) {
+  const EnvironmentLight environment(to_lamp);
+  for (float x = -1; x <= .99F; x += .01F)
+    EXPECT_NEAR(environment({x, .3F}), environment({x + .01F, .3F}), .1F) << x;
+  EXPECT_EQ(environment({2, 0}), environment({1, 0}));
 }
 
 TEST(Shading, LevelGroundIsOfOneToneInPlasterAlone) {

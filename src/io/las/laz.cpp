@@ -281,12 +281,12 @@ std::size_t layers_of(const LazItem& item) {
   return item.type == LazItem::layered_bytes ? item.size : 1;
 }
 
-std::optional<PointLayers> find_layers(const LazLayout& layout, const LazChunk& chunk) {
+std::optional<LazLayers> find_layers(const LazLayout& layout, const LazChunk& chunk) {
   std::size_t count = 0;
   for (const LazItem& item : layout.items) count += layers_of(item);
   LayerSizes sizes(chunk.bytes, size_of_point(layout), count);
   if (!sizes.has_sizes()) return std::nullopt;
-  PointLayers layers;
+  LazLayers layers;
   for (std::size_t i = 0; i < 9; ++i) {
     const auto layer = sizes.take();
     if (!layer) return std::nullopt;

@@ -212,7 +212,7 @@ void WavePacketItem::next(ArithmeticDecoder& decoder) {
   for (std::uint32_t i = 0; i < 3; ++i) direction_[i] = direction_decoder_.next(decoder, direction_[i], i);
 }
 
-LayeredPoint::LayeredPoint(const PointLayers& layers, const char* first, const char* colour)
+LayeredPoint::LayeredPoint(const LazLayers& layers, const char* first, const char* colour)
     : xy_(layers.xy),
       are_colours_mixed_(layers.are_colours_mixed),
       channel_(little<std::uint8_t>(first + 15) >> 4 & 3) {

@@ -145,7 +145,7 @@ class ExtraBytesItem : public PointItem {
 
 // The layers that are read. Each layer except xy is empty if all points of the chunk have the value of the
 // first point.
-struct PointLayers {
+struct LazLayers {
   std::string_view xy, z, classes, flags, colours;
   // In version 3, some colours of a scanner are stored as differences from those of another scanner; later
   // versions corrected that.
@@ -156,7 +156,7 @@ class LayeredPoint {
  public:
   // `first` points to the 30 bytes of the first point, which is not compressed. `colour` points to its
   // colour, or is null.
-  LayeredPoint(const PointLayers& layers, const char* first, const char* colour);
+  LayeredPoint(const LazLayers& layers, const char* first, const char* colour);
   void next();
 
   const std::array<std::int32_t, 3>& position() const { return channels_[channel_]->position; }

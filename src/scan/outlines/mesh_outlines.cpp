@@ -12,8 +12,8 @@
 namespace relievo {
 namespace {
 
-// In pixels; edges are divided into pieces of this length, each of which is visible or hidden.
-constexpr double piece_length = .5;
+// In pixels; edges are divided into segments of this length, each of which is visible or hidden.
+constexpr double segment_length = .5;
 constexpr double just_beyond =
     1e-3;                         // in pixels; distance from an edge at which the surface behind it is sought
 constexpr double least_jump = 1;  // in pixels
@@ -150,15 +150,15 @@ class DepthLookup {
 enum class Beyond : std::uint8_t { surface, nothing, jump };
 
 // A part of an edge, and the kind of surface beyond its midpoint.
-struct Piece {
+struct ContourSegment {
   Vec3 from, to;
   Index edge;
   Beyond beyond = Beyond::surface;
 };
 
-std::vector<Piece> pieces_of(std::span<const Vec3> points, const std::vector<ContourEdge>& edges,
-                             double length) {
-  std::vector<Piece> pieces;
+std::vector<ContourSegment> segments_of(std::span<const Vec3> points, const std::vector<ContourEdge>& edges,
+                                        double length) {
+  std::vector<ContourSegment> segments;
   for (Index e = 0; e < edges.size(); ++e) {
     const Vec3 &a = points[edges[e].from], &b = points[edges[e].to];
     const double seen = (b - a).head<2>().norm();
@@ -167,32 +167,33 @@ std::vector<Piece> pieces_of(std::span<const Vec3> points, const std::vector<Con
     for (std::size_t k = 0; k < count; ++k) {
       const double begin = static_cast<double>(k) / static_cast<double>(count),
                    end = static_cast<double>(k + 1) / static_cast<double>(count);
-      pieces.push_back({a + begin * (b - a), k + 1 == count ? b : Vec3(a + end * (b - a)), e});
+      segments.push_back({a + begin * (b - a), k + 1 == count ? b : Vec3(a + end * (b - a)), e});
     }
   }
-  return pieces;
+  return segments;
 }
 
-// Returns a position at this distance to the right of a piece's midpoint.
-Vec2 place_beyond(const Piece& piece, double distance) {
-  const Vec2 middle = (piece.from + piece.to).head<2>() / 2,
-             step = (piece.to - piece.from).head<2>().normalized();
+// Returns a position at this distance to the right of a segment's midpoint.
+Vec2 place_beyond(const ContourSegment& segment, double distance) {
+  const Vec2 middle = (segment.from + segment.to).head<2>() / 2,
+             step = (segment.to - segment.from).head<2>().normalized();
   return middle + distance * Vec2(step.y(), -step.x());
 }
 
 void look_beyond(std::span<const Vec3> points, std::span<const Triangle> triangles, double pixel,
-                 std::vector<Piece>& pieces) {
-  std::vector<Vec2> places(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) places[i] = place_beyond(pieces[i], just_beyond * pixel);
+                 std::vector<ContourSegment>& segments) {
+  std::vector<Vec2> places(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    places[i] = place_beyond(segments[i], just_beyond * pixel);
   const DepthLookup lookup(points, triangles, places, 2 * pixel);
   parallel_for(
-      pieces.size(),
+      segments.size(),
       [&](std::size_t i) {
-        const double own = (pieces[i].from.z() + pieces[i].to.z()) / 2, behind = lookup.depth(places[i]);
+        const double own = (segments[i].from.z() + segments[i].to.z()) / 2, behind = lookup.depth(places[i]);
         if (behind == -std::numeric_limits<double>::infinity())
-          pieces[i].beyond = Beyond::nothing;
+          segments[i].beyond = Beyond::nothing;
         else if (behind < own - least_jump * pixel)
-          pieces[i].beyond = Beyond::jump;
+          segments[i].beyond = Beyond::jump;
       },
       64);
 }
@@ -201,17 +202,19 @@ void look_beyond(std::span<const Vec3> points, std::span<const Triangle> triangl
 
 std::vector<OutlineSegment> seen_outlines(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                           double pixel) {
-  std::vector<Piece> pieces = pieces_of(points, contour_edges(points, triangles), piece_length * pixel);
-  look_beyond(points, triangles, pixel, pieces);
+  std::vector<ContourSegment> segments =
+      segments_of(points, contour_edges(points, triangles), segment_length * pixel);
+  look_beyond(points, triangles, pixel, segments);
   std::vector<OutlineSegment> outlines;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& piece = pieces[i];
-    if (piece.beyond == Beyond::surface) continue;
-    const bool continues = i > 0 && pieces[i - 1].edge == piece.edge && pieces[i - 1].beyond == piece.beyond;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const ContourSegment& segment = segments[i];
+    if (segment.beyond == Beyond::surface) continue;
+    const bool continues =
+        i > 0 && segments[i - 1].edge == segment.edge && segments[i - 1].beyond == segment.beyond;
     if (continues)
-      outlines.back().to = piece.to;
+      outlines.back().to = segment.to;
     else
-      outlines.push_back({piece.from, piece.to, piece.beyond == Beyond::jump});
+      outlines.push_back({segment.from, segment.to, segment.beyond == Beyond::jump});
   }
   return outlines;
 }

@@ -34,9 +34,9 @@ double area_of(const Surface& surface, const Triangle& t) {
 }
 
 // Connected components of triangles that are all inside or all outside.
-class Pieces {
+class TriangleComponents {
  public:
-  explicit Pieces(const Surface& surface)
+  explicit TriangleComponents(const Surface& surface)
       : sets_(surface.triangulation.triangles.size()),
         area_(surface.triangulation.triangles.size(), 0),
         is_open_(area_.size(), 0) {
@@ -277,14 +277,14 @@ bool is_occlusion(const Surface& surface, Index a, Index b) {
 }
 
 bool drop_crumbs(Surface& surface) {
-  Pieces pieces(surface);
+  TriangleComponents components(surface);
   const double unit = surface.rho * surface.rho;
   std::vector<double> areas;
   double all = 0;
   auto& inside = surface.boundary.is_inside;
   for (Index t = 0; t < inside.size(); ++t) {
     if (!inside[t]) continue;
-    if (pieces.is_first(t)) areas.push_back(pieces.area(t));
+    if (components.is_first(t)) areas.push_back(components.area(t));
     all += area_of(surface, surface.triangulation.triangles[t]);
   }
   const double least =
@@ -294,13 +294,13 @@ bool drop_crumbs(Surface& surface) {
   const auto most = static_cast<std::size_t>(surface.view.most_pieces);
   if (most > 0 && most < areas.size()) crumb = std::max(crumb, areas[most - 1]);
   for (Index t = 0; t < inside.size(); ++t)
-    surface.crumbs += inside[t] && pieces.is_first(t) && pieces.area(t) < crumb;
+    surface.crumbs += inside[t] && components.is_first(t) && components.area(t) < crumb;
   bool is_any = false;
   for (Index t = 0; t < inside.size(); ++t) {
     if (inside[t])
-      inside[t] = pieces.area(t) >= crumb;
+      inside[t] = components.area(t) >= crumb;
     else
-      inside[t] = !pieces.touches_hull(t) && pieces.area(t) < hole_area * unit;
+      inside[t] = !components.touches_hull(t) && components.area(t) < hole_area * unit;
     is_any |= inside[t] != 0;
   }
   return is_any;
