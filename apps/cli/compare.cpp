@@ -94,7 +94,7 @@ struct Comparer {
 
   // Returns the relief by the method of that name; by a baseline with its best parameters.
   Result<TunedRelief> relief_by(std::string_view name, double height, double unit_mm) const {
-    if (std::ranges::find(baseline_names, name) != baseline_names.end())
+    if (std::ranges::count(baseline_names(), name) != 0)
       return best_baseline(name, {model->surface(), *model->system(), metrics}, height, unit_mm);
     RELIEVO_TRY(const Method method, parse_method(name));
     const ReliefModel& own = method == Method::paper ? *paper : *model;

@@ -28,7 +28,7 @@ struct Seen {
 TEST(BaselineGrid, HasTheHeightAskedAndLiesOnTheBase) {
   const Seen seen(test::bumps_behind_a_ring(8000));
   const auto& [surface, system, metrics] = seen;
-  for (const std::string_view name : baseline_names) {
+  for (const std::string_view name : baseline_names()) {
     const TunedRelief best = value_of(best_baseline(name, seen.input(), .05, 1));
     EXPECT_EQ(best.parameters.empty(), name == "linear" || name == "mimicking") << name;
     EXPECT_EQ(best.shading, metrics.measure(best.relief.heights).shading) << name;
@@ -55,7 +55,7 @@ TEST(BaselineGrid, IsAtLeastAsGoodAsTheFixedParameters) {
 
 TEST(BaselineGrid, RefusesAHeightThatNothingHas) {
   const Seen seen(test::sheet(2000, 1, 0));
-  for (const std::string_view name : baseline_names) {
+  for (const std::string_view name : baseline_names()) {
     const Result<TunedRelief> made = best_baseline(name, seen.input(), .1, 20);
     ASSERT_FALSE(made) << name;
     EXPECT_EQ(made.error().kind, ErrorKind::geometry);
@@ -65,7 +65,7 @@ TEST(BaselineGrid, RefusesAHeightThatNothingHas) {
 
 TEST(ComparedMethods, AreThoseWithAShapeAndTheBaselines) {
   const std::vector<std::string_view> names = compared_methods();
-  EXPECT_EQ(names.size(), 2 + baseline_names.size());
+  EXPECT_EQ(names.size(), 2 + baseline_names().size());
   for (const MethodInfo& info : methods)
     EXPECT_NE(std::ranges::find(names, info.name), names.end()) << info.name;
 }

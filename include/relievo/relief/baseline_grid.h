@@ -3,7 +3,6 @@
 // parameters.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,9 +15,8 @@ namespace relievo {
 
 class ReliefMetrics;
 
-// Four of them are also methods; docs/quality.md describes the others.
-inline constexpr std::array<std::string_view, 7> baseline_names{
-    "linear", "equalise", "gradient", "detail", "mimicking", "normal-layers", "bounded"};
+// Returns the names of all baselines. Four of them are also methods; docs/quality.md describes the others.
+std::vector<std::string_view> baseline_names();
 
 // Returns the names of everything that `compare` shows: the methods with a shape, then the baselines.
 std::vector<std::string_view> compared_methods();
@@ -30,7 +28,7 @@ struct TunedRelief {
   double shading = 0;  // Measures::shading
 };
 
-// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names; `system`
+// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names(); `system`
 // is the system of all points of the surface. Errors: kind geometry if the baseline has no height that could
 // be scaled. Messages give heights in millimetres; one unit is `unit_mm`.
 struct BaselineInput {

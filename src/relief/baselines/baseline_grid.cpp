@@ -88,18 +88,31 @@ Result<void> each_bounded(const GridInput& in) {
   return {};
 }
 
-// In the order of baseline_names.
-constexpr std::array<Result<void> (*)(const GridInput&), baseline_names.size()> grids{
-    add_linear,    each_equalised,        each_gradient, each_detail,
-    add_mimicking, each_of_normal_layers, each_bounded};
+struct BaselineGrid {
+  std::string_view name;
+  Result<void> (*add_all)(const GridInput&);
+};
+constexpr std::array<BaselineGrid, 7> grids{{{"linear", add_linear},
+                                             {"equalise", each_equalised},
+                                             {"gradient", each_gradient},
+                                             {"detail", each_detail},
+                                             {"mimicking", add_mimicking},
+                                             {"normal-layers", each_of_normal_layers},
+                                             {"bounded", each_bounded}}};
 
 }  // namespace
+
+std::vector<std::string_view> baseline_names() {
+  std::vector<std::string_view> names;
+  for (const BaselineGrid& grid : grids) names.push_back(grid.name);
+  return names;
+}
 
 std::vector<std::string_view> compared_methods() {
   std::vector<std::string_view> names;
   for (const MethodInfo& info : methods)
     if (!info.make) names.push_back(info.name);
-  names.insert(names.end(), baseline_names.begin(), baseline_names.end());
+  for (const BaselineGrid& grid : grids) names.push_back(grid.name);
   return names;
 }
 
@@ -113,8 +126,8 @@ Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& in
     const double shading = input.metrics.shading(relief.heights);
     if (shading > best.shading) best = {std::move(relief), std::move(parameters), shading};
   };
-  const auto row = std::ranges::find(baseline_names, name) - baseline_names.begin();
-  RELIEVO_CHECK(grids[static_cast<std::size_t>(row)]({input.surface, input.system, height, add}));
+  RELIEVO_CHECK(std::ranges::find(grids, name, &BaselineGrid::name)
+                    ->add_all({input.surface, input.system, height, add}));
   if (!(best.relief.height > 0)) return out_of_reach(0, height * unit_mm);
   return best;
 }
