@@ -119,7 +119,8 @@ struct OwnFrames {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of that shape without the last step of its style, which does not change frame.height.
+  // Makes the relief of `shape` up to raise() of its style. The last step, finish() of the style, does not
+  // change frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = shape;
     if (const HeightSystem* system = model.system())

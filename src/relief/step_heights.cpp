@@ -86,9 +86,9 @@ std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
   return numbers;
 }
 
-// The means of the places on each side of the walls, over about two sampling distances. Where a part of the
-// front turns away so far that its last rows of points are nearly as deep as the back, such as a chin before
-// its neck, the means still differ by the whole depth.
+// The means of the places on each side of the walls, over about two sampling distances. At a chin before a
+// neck, for example, the front can turn away so far that its last rows of points are nearly as deep as the
+// back. The means still differ by the whole depth.
 class MeansBesideWalls {
  public:
   explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {
@@ -155,7 +155,7 @@ StepFields StepFields::find(const Surface& surface, const HeightSystem& system) 
     return step_between(place_of(surface, a), place_of(surface, b));
   };
   const auto plane = [&](Index a, Index b) {
-    // Single precision hides the last bits, in which the standard libraries differ.
+    // Rounding to single precision removes the last bits of tanh, in which standard libraries differ.
     return static_cast<double>(static_cast<float>(std::tanh(step_between(means.at(a), means.at(b)) / scale)));
   };
   StepFields found;

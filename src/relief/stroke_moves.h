@@ -44,7 +44,7 @@ template <typename Real>
 struct InFront {
   std::span<const Crossing> crossings;
   Real step;    // least rise of each crossing
-  Real height;  // of the relief
+  Real height;  // the height of the relief
 };
 
 // Raises the heights z under a stroke by their weights times r (1 - z / height), so that nothing exceeds the height and

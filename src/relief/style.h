@@ -59,8 +59,9 @@ struct RaisedHeights {
 // into very large changes of slopes.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order: slope() for every point, with the w_k of weighted(); the solution of (9) for
-// the heights; raise(), which determines the relief's height; and, if this is the requested height, finish().
+// A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of
+// (9), which gives the heights; raise(), which determines the relief's height; and, if this is the requested
+// height, finish().
 
 // Equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which adds detail in
 // proportion to the curvature.

@@ -88,7 +88,7 @@ Result<void> each_bounded(const GridInput& in) {
   return {};
 }
 
-// In the order of baseline_names.
+// The functions that add the reliefs of each baseline, in the order of baseline_names.
 constexpr std::array<Result<void> (*)(const GridInput&), baseline_names.size()> grids{
     add_linear,    each_equalised,        each_gradient, each_detail,
     add_mimicking, each_of_normal_layers, each_bounded};

@@ -31,7 +31,8 @@ constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
 // The least tension, as a share of the tension inside. It continues the field smoothly outside the
 // silhouette.
 constexpr float least_tension = .1F;
-// The stiffness of a tie, per length of silhouette in cells; the unit is the tension across a cell.
+// The stiffness of a tie is this value times the length of silhouette in its cell, in cell widths. The unit
+// is the tension across a cell.
 constexpr float tie_per_cell = .8F;
 // The forces that keep the near order (docs/decisions/near-order.md). `pair_distances` are the distances of
 // paired nodes, as shares of the longer side. If the depths of a pair differ by d, as a share of the depth
