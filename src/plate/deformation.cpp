@@ -217,7 +217,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // Let e be the split edge; of two split edges, the one before the other.
+    // If one edge is split, e is that edge. If two are split, they are e and the next one.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-constexpr double rounding = 1.002;  // factor of slopes, because corners are rounded
+constexpr double rounding = 1.002;  // slopes may exceed the walls' by this factor, due to rounding
 constexpr double clear_mm = .02;    // least distance of shapes from the relief, the rim and each other
 
 // The level ground of a surface.

@@ -247,7 +247,7 @@ std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit
 }  // namespace
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
-  constexpr std::string_view cross_sign = "\u00d7";  // accepted like x
+  constexpr std::string_view cross_sign = "\u00d7";  // accepted instead of x
   if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)
     return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);

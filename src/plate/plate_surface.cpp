@@ -160,7 +160,7 @@ HeightFieldMesh as_front(const PlateSurface& surface) {
   return front;
 }
 
-// Simplifies a surface that already follows its target.
+// Simplifies a surface that already follows its target surface.
 Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& options) {
   RELIEVO_TRY(SimplifiedMesh simpler, simplify(as_front(surface), options));
   surface.solid.points = std::move(simpler.front.points);

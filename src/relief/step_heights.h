@@ -1,5 +1,5 @@
-// The heights of steps at depth jumps. Equation (9) uses only slopes, so without these steps depth jumps
-// vanish. See docs/decisions/steps.md and docs/decisions/near-order.md.
+// Computes the heights of steps at depth jumps. Equation (9) uses only slopes, so without these steps depth
+// jumps vanish. See docs/decisions/steps.md and docs/decisions/near-order.md.
 #pragma once
 
 #include <cmath>

@@ -88,7 +88,7 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {
-    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // is_jump() is called last, because it takes longer
+    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // last, because is_jump() takes longer
   });
 }
 

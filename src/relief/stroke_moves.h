@@ -1,4 +1,4 @@
-// The brushes that move shapes as a whole: Brush::protect and Brush::in_front.
+// Implements the brushes that move parts as a whole: Brush::protect and Brush::in_front.
 #pragma once
 
 #include <span>

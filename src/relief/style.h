@@ -1,4 +1,4 @@
-// The two styles of reliefs. All differences between the styles are in this file.
+// Defines the two styles of reliefs. All differences between the styles are in this file.
 #pragma once
 
 #include <array>

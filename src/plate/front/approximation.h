@@ -1,5 +1,5 @@
-// A height field over the Delaunay triangulation of points that are added one at a time, with point location and
-// walks along segments. Tested by tests/plate/simplify_test.cpp.
+// Defines a height field over the Delaunay triangulation of points that are added one at a time. It locates
+// points and walks along segments. Tested by tests/plate/simplify_test.cpp.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// The height correction: a smooth field that compresses the heights of a layered relief to the height asked
-// for.
+// Computes the height correction: a smooth field that compresses the heights of a layered relief to the
+// height asked for.
 #pragma once
 
 #include <span>
