@@ -120,8 +120,8 @@ class Refiner {
   }
 
   // Returns the first sample inside the triangle that deviates too much. Samples lie on lines parallel to the
-  // longest edge. This is needed only if all three edges are within the tolerance, for example on top of a
-  // hill.
+  // longest edge. Such samples are needed only if all three edges are within the tolerance, for example on
+  // top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();

@@ -56,8 +56,8 @@ void sink_lines(std::span<const float> lines, double depth, std::span<Real> z) {
   if (lines.empty() || !(depth > 0)) return;
   const std::vector<Real> before(z.begin(), z.end());
   const double wanted = static_cast<double>(span_of(std::span<const Real>(before)).highest);
-  // The highest height is a convex, piecewise linear function of the factor, so Newton's method converges in
-  // a few steps.
+  // The highest height is a convex, piecewise linear function of `factor`, so Newton's method converges in a
+  // few steps.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

@@ -35,8 +35,8 @@ struct Crossing {
   Index behind;  // the point of the surface behind it
 };
 
-// Returns the edges from points of a mask, with at least half of the weight, across depth jumps to points behind it
-// that are not in the mask.
+// Returns the edges across depth jumps that begin at points of the mask with a weight of at least 1/2, and end at
+// deeper points outside of the mask.
 std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask);
 
 // The heights by which a stroke is to stand above the surface behind it.

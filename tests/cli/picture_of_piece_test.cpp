@@ -51,7 +51,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Removes the camera's angles, which are not options, from a piece. Returns the camera.
+// Removes the angles of the camera from a piece, because they are not options. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);

@@ -85,7 +85,7 @@ TEST(BoundedFit, IsTheSolutionAmongAllSetsOfActiveBounds) {
     }
 }
 
-// The test computes the gap again. The gap must bound the energy of fields that are solved more exactly.
+// The test computes the duality gap again. The gap must bound how much less energy a more exact solution has.
 TEST(BoundedFit, KeepsItsBoundsAndItsTolerance) {
   for (const bool is_plate : {false, true}) {
     const BoundedFit fit = problem(30, 20, is_plate, 5);

@@ -179,7 +179,7 @@ class Sampler {
       }
   }
 
-  // Divides the edge on which these triangle sides lie, unless none of its triangles is smooth.
+  // Divides the edge on which these triangle sides lie, if at least one of its triangles is smooth.
   void divide_edge(std::span<const TriangleSide> sides) {
     const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
     if (std::ranges::none_of(sides, is_smooth)) return;

@@ -92,9 +92,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns 6 times the area of each point: of a third of each of its triangles inside the relief. Scans have
-// more points per area of the view plane where the surface is steep, so an unweighted mean over points would
-// give slopes that are too steep.
+// Returns 6 times the area of each point: the sum of a third of each of its triangles inside the relief.
+// Scans have more points per area of the view plane where the surface is steep, so an unweighted mean over
+// points would give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (const Triangle corners : triangles_inside(surface)) {
