@@ -61,7 +61,7 @@ class LivePlate {
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane
   std::vector<Vec2f> slopes_;      // slopes of the base under these points; empty for a plane
   std::vector<float>
-      rise_;  // heights above the base of the points after those of the surface, for a rim of height 1
+      rise_;  // heights above the base of the points that follow relief_, for a rim of height 1
   std::vector<Vec2> below_;         // points of the bottom
   std::optional<BentPoints> bent_;  // the points of front and bottom around a wrap
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();

@@ -51,8 +51,8 @@ struct CircleSides {
   double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns a polygon in the unit circle with so many sides that it deviates from the circle, both scaled to
-// the radius, by at most finest_mm, or by finest_share of the radius if that is more.
+// Returns a polygon in the unit circle. It has so many sides that, scaled to the radius, it deviates from the
+// circle by at most finest_mm or finest_share of the radius, whichever is more.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));

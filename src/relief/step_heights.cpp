@@ -52,7 +52,7 @@ struct Place {
   Vec3f normal;
 };
 
-// Returns by how much the depth of b exceeds that of a beyond the difference that their slopes explain.
+// Returns the part of the difference in z from a to b that their slopes do not explain.
 double step_between(const Place& a, const Place& b) {
   const Vec3 step = b.point - a.point;
   const auto rise = [&](const Vec3f& n) {
@@ -127,8 +127,8 @@ class MeansBesideWalls {
   std::vector<Place> means_;
 };
 
-// Returns the least-squares solution of (9) for a difference across each of the edges, and 0 across all others:
-// difference(a, b) is by how much the height of b should exceed that of a.
+// Returns the least-squares solution of (9) for given height differences. Across each of the edges, the height
+// of b should exceed that of a by difference(a, b); across all others, both should be equal.
 template <typename Difference>
 StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> edges,
                         const HeightSystem& system, Difference difference) {

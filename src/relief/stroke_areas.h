@@ -24,9 +24,9 @@ struct StrokePoints {
 // and they lie at most half of the lasso's size behind its deepest corner. So a lasso does not change parts that were
 // hidden behind it, also in other views.
 //
-// A region has the points that can be reached from the point nearest to its own point without crossing a depth jump or
-// a point at which the surface turns by more than the tolerance. In lassos and regions, the distance is the radius
-// minus the distance from the edge, at least 0.
+// A region has the points that can be reached from the point nearest to its own point. Ways across depth jumps, or
+// across points at which the surface turns by more than the tolerance, do not count. In lassos and regions, the
+// distance is the radius minus the distance from the edge, at least 0.
 StrokePoints points_of(const Surface& surface, const Stroke& stroke);
 
 }  // namespace relievo

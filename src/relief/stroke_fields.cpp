@@ -121,7 +121,7 @@ void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
 template <typename Real>
 void StrokeFields<Real>::sum_masks() {
   const std::vector<Index> number = places_in(changed_, surface_->points.size());
-  std::array<std::vector<Real>, 2> amounts;  // of the narrow blurs and of the wide ones
+  std::array<std::vector<Real>, 2> amounts;  // first for the narrow blurs, then for the wide ones
   for (std::vector<Real>* sums : {&amounts[0], &amounts[1], &risen_}) sums->assign(changed_.size(), 0);
   const auto each_share = [&](Layer& layer, auto&& f) {
     const auto amount = static_cast<Real>(signed_amount(layer.stroke));

@@ -22,7 +22,7 @@ inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayer
 }
 
 // Returns the rho to use in equation (7), so that the soft rim is `width` times the surface's rho wide. With
-// its own rho (7) makes a rim of 2 rho.
+// the surface's own rho, (7) makes a rim that is 2 rho wide.
 inline double boundary_rho(const Surface& surface, double width) {
   return surface.rho * width / 2;
 }
@@ -185,8 +185,8 @@ void write_slopes(const SlopeInput& input, const Style& style, const Weight& wei
 
 class WeightTable;
 
-// Writes the slopes of the layered style in single precision, eight points at a time. The bits are those of
-// write_slopes().
+// Writes the slopes of the layered style in single precision, eight points at a time. The results have the
+// same bits as those of write_slopes().
 void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
                            std::span<Vec2f> slopes);
 

@@ -1,4 +1,4 @@
-// Tests ZIP archives like those of web sites for models.
+// Tests ZIP archives as web sites for models offer them.
 #include "common/archive.h"
 
 #include <gtest/gtest.h>

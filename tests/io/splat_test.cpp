@@ -31,7 +31,7 @@ PlyTable splats(const std::vector<std::vector<double>>& rows) {
 class Splats : public testing::TestWithParam<PlyEncoding> {};
 
 TEST_P(Splats, FaintOnesAreLeftOutAndColoursAreHarmonics) {
-  const double brightest = .5 / .28209479177387814;  // f_dc of the byte 255; that of 0 is its negative
+  const double brightest = .5 / .28209479177387814;  // f_dc of the byte 255; the byte 0 has its negative
   const auto file =
       file_of(encode_ply({splats({splat({1, 2, 3}, {brightest, 0, -brightest}, .01),
                                   splat({4, 5, 6}, {0, 0, 0}, -.01), splat({7, 8, 9}, {9, -9, 0}, 8)})},

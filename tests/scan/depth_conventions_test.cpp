@@ -1,4 +1,4 @@
-// Tests depth images in the conventions of different programs, which differ in how they store depths, in the
+// Tests depth images in the conventions of different programs. These differ in how they store depths, in the
 // value where nothing was measured, and in the background behind the figure.
 #include <gtest/gtest.h>
 

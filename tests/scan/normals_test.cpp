@@ -43,8 +43,8 @@ double mean_angle(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-// Moves the points of a cloud along its normals, which become axes with errors and any sign, as those of
-// Gaussian splats. `offset` is in sampling distances.
+// Moves the points of a cloud along its normals by noise of `offset` sampling distances. Replaces the normals
+// by axes with errors and random signs, as Gaussian splats have them.
 Cloud with_noisy_axes(const Cloud& truth, double offset, double slant_deg) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
