@@ -127,7 +127,7 @@ class DraftSearch {
   }
 
  private:
-  // Beyond u = e^4.5 the weights of (6) are nearly 1 in all layers, unless gamma is large.
+  // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
   // A baseline's relief grows with the scale until it consists of walls only. The largest scale gives a

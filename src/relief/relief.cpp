@@ -48,7 +48,7 @@ struct ReliefModel::State {
 
   static Result<Parts> prepare_parts(const Surface& surface, Progress* progress);
 
-  // Returns the solution of (9) for the target slopes of the shape.
+  // Returns the solution of equation (9) for the target slopes of the shape.
   std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
 };
 

@@ -20,7 +20,8 @@ struct SteppedEdge {
   float weight;
 };
 
-// Returns the edges of triangles inside the relief that `is_wanted` takes, with their weights in (9).
+// Returns the edges that have triangle sides with is_wanted(side). Their weights are those of equation (9),
+// but only from these sides.
 template <typename IsWanted>
 std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wanted) {
   std::vector<SteppedEdge> edges;
@@ -127,8 +128,8 @@ class MeansBesideWalls {
   std::vector<Place> means_;
 };
 
-// Returns the least-squares solution of (9) for given height differences. Across each of the edges, the height
-// of b should exceed that of a by difference(a, b); across all others, both should be equal.
+// Returns the least-squares solution of equation (9) for given height differences. Across each of the edges,
+// the height of b should exceed that of a by difference(a, b); across all others, both should be equal.
 template <typename Difference>
 StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> edges,
                         const HeightSystem& system, Difference difference) {

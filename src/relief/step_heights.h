@@ -25,7 +25,7 @@ struct StepHeights {
   bool empty() const { return z.empty(); }
 };
 
-// The least-squares solutions of (9) for given height differences along the edges.
+// The least-squares solutions of equation (9) for given height differences along the edges.
 struct StepFields {
   // Across a depth jump the difference is the part of the depth difference that the slopes do not explain;
   // along all other edges it is 0. These heights keep forms that consist of steps, such as letters on a

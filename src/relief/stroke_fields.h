@@ -13,9 +13,9 @@
 
 namespace relievo {
 
-// Returns the mask of a stroke: its points_of(). At distance d the weight is (1 - x^2)^2, where x rises from 0 to 1 over
-// the outer part `softness` of the radius. Near the boundary the weight fades like w_b of (7). The mask is empty if the
-// visible surface has no point of the stroke.
+// Returns the mask of a stroke: points_of() with weights. At distance d the weight is (1 - x^2)^2, where x rises from 0
+// to 1 over the outer part `softness` of the radius. Near the boundary the weight fades like w_b of equation (7). The
+// mask is empty if the visible surface has no point of the stroke.
 StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke);
 
 // The strokes of a relief on one surface, which must outlive this object. `Real` is the type of the heights.

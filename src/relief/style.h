@@ -60,8 +60,8 @@ struct RaisedHeights {
 inline constexpr float least_gain_divisor = .25F;
 
 // A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of
-// (9), which gives the heights; raise(), which determines the relief's height; and, if this is the requested
-// height, finish().
+// equation (9), which gives the heights; raise(), which determines the relief's height; and, if this is the
+// requested height, finish().
 
 // Equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which adds detail in
 // proportion to the curvature.
@@ -105,8 +105,8 @@ class PaperWeightsStyle {
   const Shape& shape_;
 };
 
-// The layered style uses layers of the normals instead of (5). Afterwards HeightCorrection compresses the
-// heights.
+// The layered style uses layers of the normals instead of equation (5). Afterwards HeightCorrection
+// compresses the heights.
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)

@@ -93,8 +93,8 @@ def batch(workshop, kind, chance, number):
         place.mark_as_batch()
         place.add_foreign_files(place.out)
         code, errors, has_hit = run_with_fault(place, kind, chance, batch_command(place), "batch")
-        # A folder whose mark was removed, but whose other files were not, is not empty and not known to be a batch's.
-        # So the program refuses it.
+        # The mark of a batch's folder may be removed before its other files. Then the program finds a folder that is
+        # neither empty nor a batch's, and refuses it.
         if kind == "folder gone" and code == 2 and "expected an empty folder, or one of relievo batch" in errors:
             return has_hit
         check_end(kind, code, errors)

@@ -1,5 +1,5 @@
-// Tests that the studio shows the content of its files: compares its picture of a piece with a picture of the
-// exported STL, for which only the triangles are used.
+// Tests that the studio's picture of a finished piece, such as a coin, shows the content of its file. The
+// picture is compared with one of the exported STL, for which only the triangles are used.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -84,7 +84,8 @@ TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   EXPECT_TRUE(is_picture(bytes_of(npy("<u2", numbers<std::uint16_t>(200, 6, counted), "200, 6"))));
 }
 
-// The points of a plane at distance 2 that a camera with y down sees, with ripples of a tenth of a pixel.
+// Returns an array of the points that a camera with y down sees of a plane at distance 2, with ripples of a
+// tenth of a pixel.
 std::string point_map(float missing) {
   constexpr int columns = 24, rows = 18;
   std::string data;

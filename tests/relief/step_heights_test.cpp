@@ -193,7 +193,7 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
 }
 
-// Even if steps get a part of the height, the heights are corrected. The terraces must keep their order.
+// The height correction also applies if steps get a part of the height. The terraces must keep their order.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();

@@ -161,7 +161,8 @@ double width_of(const Surface& surface) {
   return box.size().x();
 }
 
-// From left to right: a sphere, the larger button, and a smaller sphere. None of them is a crumb.
+// From left to right: a sphere, the larger button, and a smaller sphere. None of them is so small that it is
+// left out as a crumb.
 TEST(Outlines, LeaveOutAllButTheLargestPieces) {
   const Cloud button = test::button(40000, 1, .15);
   const Cloud cloud = test::joined(test::joined(button, test::moved(test::sphere(6000, .4), {-1.8, 0, 0})),
