@@ -21,7 +21,7 @@ BentPoints::BentPoints(const Wrap& wrap, std::span<const Vec2> places) : wrap_(w
 }
 
 // The normal is perpendicular to the derivatives of the relief's position by x and y. Both derivatives are multiplied
-// by z of the flat normal, because x and y of that normal are then minus the flat relief's slopes.
+// by z of the flat normal, because its x and y are minus the slopes of the flat relief times this z.
 Vec3f BentPoints::normal(std::size_t i, float height_mm, const Vec3f& flat) const {
   const Point& p = points_[i];
   const Vec3f by_x = flat.z() * (p.at_by_x + height_mm * p.out_by_x) - flat.x() * p.out;

@@ -18,7 +18,7 @@ class LivePlate {
  public:
   // Makes the plate of a surface; `mm_per_unit` is the length of the surface's unit. Mirrors the relief or makes a die
   // of it if the options say so. A plate without ground must have a plane base and no wrap. Errors: those of
-  // make_plate() and wrap_plate(), except that the wrap's axis is too near.
+  // make_plate() and wrap_plate(), except the error of a plate that would reach the wrap's axis.
   static Result<LivePlate> make(const Surface& surface, const PlateOptions& plate, double mm_per_unit);
 
   // Returns whether the plate was made with these options. If the picture need not be exact, the height of the rim
@@ -55,7 +55,7 @@ class LivePlate {
   double mm_per_unit_ = 1;
   std::vector<Triangle> triangles_;
   PlateParts parts_;
-  std::vector<Index> relief_;      // the surface's points that the plate shows; first in its front
+  std::vector<Index> relief_;      // the surface's points that the plate shows; they come first
   std::vector<AddedPoint> added_;  // points of the relief that are not points of the surface
   std::vector<Vec2> places_;       // points of the front from the middle of the body, in mm; bent by body()
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane

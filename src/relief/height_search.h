@@ -62,7 +62,7 @@ class HeightSearch {
 
   // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and
   // elasticity predict, and takes secant steps; one or two calls are usually enough. After six secant steps
-  // it brackets u instead: after large changes, and for heights at or above the largest.
+  // it brackets u instead. This happens after large changes, and for heights at or above the largest.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;

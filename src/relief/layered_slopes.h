@@ -24,8 +24,7 @@ RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights&
 }
 
 // make_slopes() computes with single numbers or with vectors of eight. These types select between them.
-// Float8 itself cannot be the template argument, because GCC would then drop its attribute that it needs no
-// alignment.
+// Float8 itself cannot be the template argument, because GCC would then ignore that it needs no alignment.
 template <typename Real>
 struct OneNumber {
   using Values = Real;

@@ -111,7 +111,7 @@ template <typename Real>
 OwnHeights::Top OwnHeights::raise(std::size_t number, const Limits& limits, std::span<Real> z,
                                   Workspace<Real>& workspace) const {
   const Model& model = models_[number];
-  // The height over the harmonic surface has the Laplacian of the height, and is 0 around the model.
+  // The height above the harmonic surface has the same Laplacian as the height, and is 0 around the model.
   std::vector<Real>& over = workspace.over;
   over.assign(z.size(), 0);
   for (const auto& [a, b, weight] : model.links) {

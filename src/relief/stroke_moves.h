@@ -24,8 +24,8 @@ struct CorrectedHeights {
 };
 
 // Moves the heights under a stroke, by their weights times `amount`, towards the uncorrected heights plus the plane
-// that fits the height correction best. If that exceeds the height of the relief anywhere, the plane is lower. The mask
-// must not be empty. Instantiated for float and double.
+// that fits the height correction best. If the result would exceed the height of the relief anywhere, the plane is
+// lowered. The mask must not be empty. Instantiated for float and double.
 template <typename Real>
 void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, double amount);
 

@@ -126,7 +126,7 @@ TEST(SplatFile, RowsOfBytesAreRead) {
       "opaque; --doubtful keep keeps them");
 }
 
-// A quarter turn around x, in bytes, turns the thin y into z.
+// A quarter turn around x, given in bytes, turns the thin y axis to z.
 TEST(SplatFile, AxesAreThoseOfTheSmallestScale) {
   const std::string row = raw(1.F) + raw(2.F) + raw(3.F) + raw(.1F) + raw(.001F) + raw(.2F) +
                           std::string(3, '\1') + '\xFF' + raw(std::uint8_t{218}) + raw(std::uint8_t{218}) +

@@ -108,7 +108,7 @@ Judgement judge(const Figure& figure, const DepthStorage& how, const BesideFigur
   options.range = figure.range_px / side;
   if (how.is_pinhole && how.kind == DepthValues::depth) {
     options.camera = PictureCamera{side, true}.as_depth_camera();
-    if (beside.wall_m > 0) options.background = Removal::drop;  // a camera alone keeps the wall
+    if (beside.wall_m > 0) options.background = Removal::drop;  // with a camera, walls are kept by default
   }
   DepthCloud read = value_of(depth_cloud(test::depth_picture(figure.heights, how, beside), options));
   test::Mask drawn = filled_image(side, side, std::uint8_t{0}), used = drawn;

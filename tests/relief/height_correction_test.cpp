@@ -235,7 +235,7 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as solutions of equation (9) have it
+    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as in solutions of equation (9)
   correction.compress_heights<double>({z, weight, {.15}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);

@@ -37,7 +37,7 @@ BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   return fit;
 }
 
-// The energy 1/2 x^T H x - f^T x of a problem with dense matrices. For a plate a constant is missing.
+// The energy 1/2 x^T H x - f^T x of a problem with dense matrices. For a plate the constant term is missing.
 struct DenseEnergy {
   Matrix H;
   Vector f;
