@@ -50,7 +50,6 @@ void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground
   });
 }
 
-// Adds the ornaments to the ground inside the outline.
 Result<void> add_ornaments(Solid& surface, const PlateOutline& outline, const PlateOptions& options) {
   if (options.ornaments.empty()) return {};
   const OrnamentFrame frame = ornament_frame(outline, options);

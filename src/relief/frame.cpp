@@ -166,8 +166,7 @@ struct OwnFrames {
     heights.span = heights.change_all([&](std::size_t, float& z) { z *= static_cast<float>(factor); });
   }
 
-  // Scales a relief down if it exceeds the requested height by over twice the tolerance, see
-  // HeightSearch::bracket().
+  // Scales a relief down if it is too high by over twice the tolerance, see HeightSearch::bracket().
   void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))

@@ -16,7 +16,6 @@ class TriangleSlopes {
  public:
   TriangleSlopes(std::span<const Vec2> points, const Triangulation& triangulation, const Boundary& boundary);
 
-  // Returns the number of triangles.
   std::size_t size() const { return triangles_.size(); }
 
   // Returns the slope of triangle t for heights, one per point.

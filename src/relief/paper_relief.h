@@ -77,7 +77,6 @@ bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& 
   });
 }
 
-// Returns the relief of that shape.
 inline Relief make_paper_relief(const PaperModel& model, const Shape& shape) {
   std::vector<float> heights(model.size());
   const double height = PaperRelief(model).raise(shape, heights);

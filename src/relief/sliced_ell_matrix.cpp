@@ -106,7 +106,6 @@ RELIEVO_INLINE void normals_of(const Slices& slices, const float* heights, Vec3f
   for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
 }
 
-// The entries of each row.
 using Rows = Groups<MatrixEntry>;
 
 SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {

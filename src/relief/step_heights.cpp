@@ -31,7 +31,6 @@ std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wan
   return edges;
 }
 
-// Returns the edges across which the depth jumps.
 std::vector<SteppedEdge> jump_edges(const Surface& surface) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
   return stepped_edges(surface, [&](const TriangleSide& side) {
@@ -39,7 +38,6 @@ std::vector<SteppedEdge> jump_edges(const Surface& surface) {
   });
 }
 
-// Returns the edges across walls.
 std::vector<SteppedEdge> wall_edges(const Surface& surface) {
   const Boundary& boundary = surface.boundary;
   return stepped_edges(surface, [&](const TriangleSide& side) {

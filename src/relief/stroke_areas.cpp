@@ -25,8 +25,7 @@ double distance_to_segment_sq(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * along).squaredNorm();
 }
 
-// A polyline in pieces of a few corners. A point's distance is computed only from pieces whose box is near
-// it.
+// A polyline in pieces of a few corners. A point is compared only with pieces whose box is near it.
 class Line {
  public:
   explicit Line(std::span<const Vec3> corners) : corners_(corners) {
@@ -83,8 +82,7 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
   return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
-// Calls f(a, b) for each triangle side inside the relief that does not cross a depth jump and for which is_wanted(a,
-// b).
+// Calls f(a, b) for the wanted triangle sides inside the relief that do not cross a depth jump.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {
@@ -165,8 +163,7 @@ StrokePoints points_in_lasso(const Surface& surface, const SeenLasso& lasso, dou
 
 // Returns how fast the surface turns at each point, in degrees per 1 % of the longer side: the angle between the
 // normals of neighbouring points over their distance, as a root mean square. The factor sqrt(2) makes it the rate
-// across a crease, because a crease turns in one direction only. The normals are means over a width that removes
-// noise.
+// across a crease, because a crease turns in one direction only. The normals are blurred to remove noise.
 std::vector<float> turning_of(const Surface& surface) {
   constexpr double width = .008, least_width_rho = 1.5;
   const double side = surface.longer_side();
@@ -195,8 +192,7 @@ std::vector<float> turning_of(const Surface& surface) {
   return turning;
 }
 
-// Returns the points of the region with an edge to a point outside of it. Edges across depth jumps do not
-// count.
+// Returns the points of the region with an edge to a point outside of it, except across depth jumps.
 std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) {
   std::vector<std::uint8_t> is_in(surface.points.size(), 0), is_rim(surface.points.size(), 0);
   for (const Index i : region) is_in[i] = 1;
@@ -233,8 +229,7 @@ std::vector<Index> without_holes(const Surface& surface, std::span<const Index> 
   return all;
 }
 
-// Returns the position in `points` of the point nearest to `place`; no_index if none is nearer than
-// `most_rho` times rho.
+// Returns the position in `points` of the point nearest to `place`; no_index if it is over 4 rho away.
 Index nearest_of(const Surface& surface, std::span<const Index> points, const Vec3& place) {
   constexpr double most_rho = 4;
   double least = most_rho * surface.rho;

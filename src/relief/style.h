@@ -49,7 +49,6 @@ struct RaisedHeights {
     return all;
   }
 
-  // Returns the span of the current heights.
   HeightSpan<Real> measured() const {
     return change_all([](std::size_t, Real&) {});
   }
@@ -118,7 +117,6 @@ class LayeredStyle {
 
   Compression weighted() const { return saturation_alone(shape_.compression); }
 
-  // Returns the layer weights of a point.
   const LayerWeights& layer_weights(const SlopeInput& input, std::size_t i) const {
     return input.attention.empty() ? weights_ : by_attention_[input.attention[i]];
   }

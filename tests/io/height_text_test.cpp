@@ -148,7 +148,6 @@ TEST(HeightTable, IsNotTakenForACloudNorACloudForIt) {
   EXPECT_FALSE(is_picture_text(""));
 }
 
-// Returns the lines of a text.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)

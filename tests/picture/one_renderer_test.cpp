@@ -183,8 +183,7 @@ Result<Solid> solid_on(const PlateOptions& plate) {
   return plate.wrap.kind == WrapKind::none ? std::move(solid) : wrap_plate(solid, plate);
 }
 
-// On a curved base the normals of the solid are those of its triangles. The normals of the frame are those of
-// relief and base.
+// A solid on a curved base has the normals of its triangles, a frame those of relief and base.
 TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
   FrameRenderer renderer(bodies().model);
   for (const auto& [name, plate] : plates_of_all_kinds()) {
@@ -231,8 +230,7 @@ TEST(OneRenderer, RefusesAWrapAsTheSolidThatIsMadeOfTheFrame) {
   }
 }
 
-// While the height of the rim grows, a quick picture shows this height but keeps the bevel; a fine one also
-// shows the new bevel.
+// If the rim gets another height, a quick picture keeps the bevel; a fine one has the new bevel, too.
 TEST(OneRenderer, FollowsTheHeightOfARim) {
   FrameRenderer used(bodies().model), fresh(bodies().model);
   const RenderOptions quick = options_for(Material::plaster, false, 40),

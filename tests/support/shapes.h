@@ -115,7 +115,6 @@ inline Cloud without_normals(Cloud cloud) {
   return cloud;
 }
 
-// Returns the same points in the opposite order.
 inline Cloud reversed(Cloud cloud) {
   std::ranges::reverse(cloud.points);
   std::ranges::reverse(cloud.normals);

@@ -40,7 +40,6 @@ class Approximation {
   // hull.
   Index across(const Vec2& place, Index t) const;
 
-  // Returns the squared slope of a triangle.
   double slope_sq(Index t) const;
 
   // Returns the height of a triangle's plane at `place`.

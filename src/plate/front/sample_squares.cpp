@@ -26,7 +26,6 @@ bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, 
   return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;
 }
 
-// The range of the slopes in a square.
 struct SlopeRange {
   Vec2f least = Vec2f::Constant(std::numeric_limits<float>::infinity()), most = -least;
 

@@ -172,7 +172,6 @@ std::vector<float> depth_of(const Surface& surface, const Lattice& lattice) {
   return depth;
 }
 
-// Returns the highest minus the lowest depth.
 float depth_range(const Surface& surface) {
   if (surface.points.empty()) return 0;
   const auto [low, high] = std::ranges::minmax(surface.points, {}, [](const Vec3& p) { return p.z(); });
