@@ -69,7 +69,7 @@ class Limiter {
   // become wider instead.
   void keep_own_heights(Relief& relief) {
     if (model_->paper() || model_->own_heights().empty()) return;
-    constexpr double share = .9;  // of the limit; the rest is for the slope of the surface behind
+    constexpr double share = .9;  // share of the limit; the rest is for the slope of the surface behind
     OwnHeights::Workspace<double> workspace;
     model_->own_heights().apply<double>(relief.height, relief.heights, workspace, share * options_.max_slope);
   }
