@@ -1,4 +1,5 @@
-// The triangles of a body, with the data for rendering. A body is a finished solid, or a frame on its plate.
+// Defines the triangles of a body, with the data for rendering. A body is a finished solid, or a frame on its
+// plate.
 #pragma once
 
 #include <array>

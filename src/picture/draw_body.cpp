@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Draws the soft shadow of a body on the ground behind it.
+// The following functions draw the soft shadow of a body on the ground behind it.
 
 // Soft shadows need few pixels: the longer side of their coarse grid has at most this many cells.
 constexpr int most_cells = 160;

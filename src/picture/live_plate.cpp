@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// Returns a front with these heights of the surface's points, mirrored if the plate is.
+// Returns a front with these heights of the surface's points, mirrored if the plate is mirrored.
 HeightFieldMesh front_of(const Surface& surface, const PlateOptions& plate, double mm_per_unit,
                          std::span<const double> heights) {
   HeightFieldMesh front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
@@ -39,8 +39,8 @@ std::vector<double> uneven_heights(const Surface& surface) {
   return heights;
 }
 
-// Returns which points of the front the solid has, in their order. make_plate() moves all of them by the same vector,
-// and leaves some out if there is no ground.
+// Returns the points of the front that the solid has, in the solid's order. make_plate() moves all of them by the
+// same vector, and leaves some out if there is no ground.
 std::vector<Index> points_kept(const HeightFieldMesh& front, const Solid& solid) {
   constexpr double rounding_mm = 1e-9;
   std::vector<Index> kept;
@@ -51,7 +51,7 @@ std::vector<Index> points_kept(const HeightFieldMesh& front, const Solid& solid)
   return kept;
 }
 
-// Returns the number of points of the front, behind which those of the bottom stand.
+// Returns the number of points of the front. The points of the bottom follow them in the list.
 std::size_t front_points(const Solid& solid) {
   Index last = 0;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
@@ -59,7 +59,8 @@ std::size_t front_points(const Solid& solid) {
   return last + std::size_t{1};
 }
 
-// Returns the options with a rim of height 1, in which plates that differ in the rim's height agree.
+// Returns the options with a rim of height 1 and no bevel, so that options that differ only in the rim's
+// height become equal.
 PlateOptions of_unit_rim(PlateOptions plate) {
   plate.rim.height_mm = 1;
   plate.rim.bevel_mm = 0;
@@ -94,8 +95,8 @@ Result<LivePlate> LivePlate::make(const Surface& surface, const PlateOptions& pl
   return made;
 }
 
-// Finds where the points of front and bottom lie from the middle of the plate. Returns the middle in the solid's
-// coordinates.
+// Computes the positions of the points of front and bottom relative to the middle of the plate. Returns the
+// middle in the solid's coordinates.
 Vec2 LivePlate::find_places(const Solid& solid) {
   const Box box = Box::of(solid.points);
   const Vec2 middle = box.centre().head<2>();
@@ -111,7 +112,7 @@ Vec2 LivePlate::find_places(const Solid& solid) {
 // Finds the points that make_plate() has added to the relief, where it divided triangles to follow the base.
 void LivePlate::find_added_points(const Solid& solid) {
   std::vector<std::uint8_t> is_added(places_.size(), 0);
-  for (const bool is_relief : {true, false})  // the ground comes last, as it decides where both meet
+  for (const bool is_relief : {true, false})  // points where relief and ground meet belong to the ground
     for (std::size_t t = 0; t < solid.front_triangles; ++t)
       if ((solid.regions[t] == Region::relief) == is_relief)
         for (const Index i : solid.triangles[t]) is_added[i] = is_relief;
@@ -122,7 +123,7 @@ void LivePlate::find_added_points(const Solid& solid) {
     AddedPoint added{i, {}, {}};
     std::array<double, 3> distances_sq;
     tree->nearest(places_[i], 3, added.from.data(), distances_sq.data());
-    for (std::size_t k = 0; k < 3; ++k)  // an added point is between the two nearest ones
+    for (std::size_t k = 0; k < 3; ++k)  // fourth powers: an added point lies between the two nearest ones
       added.share[k] = static_cast<float>(1 / (distances_sq[k] * distances_sq[k] + 1e-12));
     const float sum = added.share[0] + added.share[1] + added.share[2];
     for (float& share : added.share) share /= sum;
@@ -130,9 +131,9 @@ void LivePlate::find_added_points(const Solid& solid) {
   }
 }
 
-// Finds the base under all points of the front, and how far those of the rim rise above it.
+// Computes the base under all points of the front, and the heights of the rim's points above the base.
 void LivePlate::find_base(const Solid& solid, const Base& base) {
-  constexpr double step_mm = .01;  // between the two places whose heights give a slope
+  constexpr double step_mm = .01;  // distance between the two places whose heights give a slope
   const std::size_t count = places_.size();
   const auto place = [&](std::size_t i) -> Vec2 { return (solid.points[i] - solid.shift).head<2>(); };
   rise_.assign(count - relief_.size(), 0.F);
@@ -155,7 +156,7 @@ void LivePlate::find_base(const Solid& solid, const Base& base) {
   });
 }
 
-// Prepares the points for bending, and shades ground and rim as they are when they are bent.
+// Prepares the points for bending. Computes the normals of ground and rim from the bent solid.
 void LivePlate::find_wrap(Solid solid, const Wrap& wrap) {
   std::vector<Vec2> places = in_plane(solid.points);
   for (std::size_t i = 0; i < solid.points.size(); ++i) {
@@ -167,8 +168,8 @@ void LivePlate::find_wrap(Solid solid, const Wrap& wrap) {
   bent_.emplace(wrap, places);
 }
 
-// Returns the normal of the relief at a point of the front from that of the frame: the slopes of relief and base are
-// added.
+// Returns the normal of the relief at a point of the front. Its slopes are those of the frame's normal plus those of
+// the base.
 Vec3f LivePlate::normal_on_base(std::size_t i, const Vec3f& normal, float stretch) const {
   Vec2f xy = stretch * normal.head<2>();
   if (options_.is_mirrored || options_.is_die) xy.x() = -xy.x();
@@ -221,7 +222,7 @@ Result<DrawnBody> LivePlate::body(const Shown& shown, double rim_mm) {
   return body;
 }
 
-// Bends a body whose heights are those on the flat plate, and whose bottom has that height there.
+// Bends a body. Its heights are those on the flat plate, and `bottom` is the height of its bottom there.
 void LivePlate::bend(DrawnBody& body, float bottom) {
   std::vector<Vec3f> points(places_.size() + below_.size());
   parallel_for(points.size(), [&](std::size_t i) {

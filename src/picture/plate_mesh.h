@@ -1,5 +1,5 @@
-// The triangles of a relief on a rectangular plate. They do not depend on the heights, so all frames of a
-// model (see frame.h) have the same triangles.
+// Makes the triangles of a relief on a rectangular plate. They do not depend on the heights, so all frames of
+// a model (see frame.h) have the same triangles.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Triangles refer to the surface's points and, with the following indices, to the plate's eight corners.
+// Triangles refer to the surface's points and, with the next higher indices, to the plate's eight corners.
 struct PlateMesh {
   std::vector<Triangle> triangles;
   PlateParts parts;
@@ -21,7 +21,7 @@ struct PlateMesh {
 
 PlateMesh plate_mesh(const Surface& surface);
 
-// Returns the parts of a plate whose relief will have other heights than the solid, in which they are 0.
+// Returns the parts of a plate whose relief changes. In the given solid all heights of the relief are 0.
 PlateParts parts_of_frames(const Solid& level, const Surface& surface);
 
 // Returns the body of a frame on its plate. It refers to the mesh and to `shown`.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double preview_padding =
     .06;  // space for the shadow around the plate, as a share of the picture's longer side
-// For each of the two pictures, with 3 samples per pixel.
+// The limit for each of the two pictures, which have 3 samples per pixel in each direction.
 constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;
 
 // Linear brightness of the background, at the top and at the bottom. It contrasts with the plate, and is
@@ -68,8 +68,8 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// Returns the transform for the front view of one body, in a picture with that longer side, and for the
-// oblique view of another body in a picture of the same size.
+// Returns the transforms for two pictures of the same size with that longer side: one for the front view of
+// the first body, one for the oblique view of the other.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
   const Mat3 rotation = oblique_rotation();

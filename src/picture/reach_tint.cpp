@@ -6,7 +6,7 @@ namespace relievo {
 namespace {
 
 const Vec3f little_left(1, .4F, .05F), much_left(.6F, .01F, .01F);  // linear colours
-constexpr float tint_strength = .85F;                               // the rest is the colour of the material
+constexpr float tint_strength = .85F;                               // the rest is the material's colour
 
 float luminance(const Vec3f& colour) {
   return .21F * colour.x() + .72F * colour.y() + .07F * colour.z();

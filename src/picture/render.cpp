@@ -112,7 +112,7 @@ struct FrameRenderer::State {
   float deepest = std::ranges::max(depths);
   DrawCache cache = {};
   CachedVisibility profile = {};
-  std::optional<LivePlate> plate = {};  // of the last render_on()
+  std::optional<LivePlate> plate = {};  // the plate of the last render_on()
 };
 
 FrameRenderer::FrameRenderer(std::shared_ptr<const Surface> surface)

@@ -56,7 +56,6 @@ constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 // level ground reflect different parts of the room, and the ground does not have a uniform tone.
 constexpr float viewer_distance = 3.6F;
 
-// The properties of a metal.
 struct Metal {
   Vec3f bare, worn;       // colours of the bare metal, and of edges polished by hands
   Vec3f patina;           // colour in hollows

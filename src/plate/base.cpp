@@ -223,7 +223,7 @@ Vec2 Base::from_middle(const Vec2& place) const {
 
 double Base::profile(const Vec2& p) const {
   const double t = across_.dot(p);
-  // The argument is negative only outside the plate.
+  // The square root has a negative argument only outside the plate.
   const auto cap = [&](double square) { return std::sqrt(std::max(0.0, size_ * size_ - square)) - size_; };
   switch (kind_) {
     case BaseKind::plane:

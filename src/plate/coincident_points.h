@@ -1,5 +1,5 @@
-// The points of a solid in a file's single precision. Finds and separates those that coincide; dense scans
-// sometimes contain such pairs. Tested by solid_test.
+// Finds and separates points of a solid that coincide in a file's single precision. Dense scans sometimes
+// contain such pairs. Tested by solid_test.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// Returns the points as files store them. They are stored, because g++ 12 removes the rounding in
-// double(float(x)) when it vectorises.
+// Returns the points rounded as files store them. They are kept as floats in memory, because g++ 12 removes
+// the rounding in double(float(x)) when it vectorises.
 std::vector<Vec3f> stored_points(const Solid& solid);
 
 // Returns the pairs of used points that coincide in single precision. The second index of a pair is the

@@ -120,8 +120,8 @@ class Refiner {
   }
 
   // Returns the first sample inside the triangle that deviates too much. Samples lie on lines parallel to the
-  // longest edge. This is needed only if all three edges are within the tolerance, for example on top of a
-  // hill.
+  // longest edge. Such samples are needed only if all three edges are within the tolerance, for example on
+  // top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();
@@ -217,7 +217,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // Let e be the split edge; of two split edges, the one before the other.
+    // If one edge is split, e is that edge. If two are split, they are e and the next one.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];

@@ -1,4 +1,4 @@
-// The front of a solid as an image: heights at the centres of the pixels.
+// Measures the heights of a solid's front at the centres of the pixels of an image.
 #pragma once
 
 #include <algorithm>
@@ -40,15 +40,15 @@ struct HeightField {
 // number of pixels along a side is not in [1, RasterInput::most_pixels].
 HeightField flat_height_field(const Box& box, const FieldSampling& sampling);
 
-// Returns the heights of a solid's front by fast rasterisation. The field has no pixels in the same cases as
-// that of flat_height_field().
+// Returns the heights of a solid's front by fast rasterisation. In the cases that flat_height_field() names,
+// the field has no pixels.
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
 // Returns the exact heights of a solid's front, with corners rounded as in files. A pixel has the height of
 // the highest triangle that contains its centre, edges included. (draw_height_field() rounds corners to 1/256
 // pixel, which at a wall can change a height by the height of the wall.) Around a relief that is shown alone,
-// the field has the height of the ground. The field has no pixels in the same cases as that of
-// flat_height_field(). `is_beside` is empty.
+// the field has the height of the ground. In the cases that flat_height_field() names, the field has no
+// pixels. `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, const FieldSampling& sampling);
 
 // Returns the number of samples along the longer side, from 2048 to 4096. Within these limits the distance

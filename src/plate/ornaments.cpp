@@ -15,10 +15,9 @@
 namespace relievo {
 namespace {
 
-constexpr double rounding = 1.002;  // factor of slopes, because corners are rounded
+constexpr double rounding = 1.002;  // slopes may exceed the walls' by this factor, due to rounding
 constexpr double clear_mm = .02;    // least distance of shapes from the relief, the rim and each other
 
-// The level ground of a surface.
 struct LevelGround {
   std::vector<std::uint8_t> is_ground;  // per triangle
   std::vector<BoundaryEdge> boundary;

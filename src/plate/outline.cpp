@@ -51,8 +51,8 @@ struct CircleSides {
   double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns a polygon in the unit circle with so many sides that it deviates from the circle, both scaled to
-// the radius, by at most finest_mm, or by finest_share of the radius if that is more.
+// Returns a polygon in the unit circle. It has so many sides that, scaled to the radius, it deviates from the
+// circle by at most finest_mm or finest_share of the radius, whichever is more.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
@@ -247,7 +247,7 @@ std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit
 }  // namespace
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
-  constexpr std::string_view cross_sign = "\u00d7";  // accepted like x
+  constexpr std::string_view cross_sign = "\u00d7";  // accepted instead of x
   if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)
     return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);

@@ -11,9 +11,9 @@
 
 namespace relievo {
 
-// Returns the spacing in mm at which triangles between points at height z, deformed, are approximately within
-// the tolerance. `polygon` is convex. The spacing is at most a quarter of the diagonal of the polygon's box,
-// and never so small that more than about 200,000 points are needed.
+// Returns the spacing in mm of points at height z whose triangles, after the deformation, deviate by about
+// the tolerance at most. `polygon` is convex. The spacing is at most a quarter of the diagonal of the
+// polygon's box, and never so small that more than about 200,000 points are needed.
 double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
                       double tolerance_mm);
 

@@ -50,7 +50,6 @@ void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground
   });
 }
 
-// Adds the ornaments to the ground inside the outline.
 Result<void> add_ornaments(Solid& surface, const PlateOutline& outline, const PlateOptions& options) {
   if (options.ornaments.empty()) return {};
   const OrnamentFrame frame = ornament_frame(outline, options);
@@ -160,7 +159,7 @@ HeightFieldMesh as_front(const PlateSurface& surface) {
   return front;
 }
 
-// Simplifies a surface that already follows its target.
+// Simplifies a surface that already follows its target surface.
 Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& options) {
   RELIEVO_TRY(SimplifiedMesh simpler, simplify(as_front(surface), options));
   surface.solid.points = std::move(simpler.front.points);

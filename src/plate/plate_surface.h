@@ -1,4 +1,4 @@
-// The front side of a plate: relief, ground and rim, before walls and bottom are added. Tested by
+// Makes the front side of a plate: relief, ground and rim, before walls and bottom are added. Tested by
 // plate_base_test.
 #pragma once
 

@@ -19,7 +19,7 @@ namespace {
 // The share of the distance to the axis that the body must leave free, so that no point reaches the axis.
 constexpr double least_free = .01;
 
-// Returns the points of the flat back, which has the extent of the plate.
+// Returns the points of the back, which is flat before bending and has the extent of the plate.
 std::vector<Vec2> back_of(const Solid& plate) {
   std::vector<Vec2> places;
   for (std::size_t t = plate.front_triangles; t < plate.triangles.size(); ++t)

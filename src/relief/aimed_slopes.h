@@ -1,4 +1,4 @@
-// Changes target slopes for a relief that is made for one light.
+// Changes target slopes so that a relief shows a given shading under one given light.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,8 @@ std::vector<float> local_contrast(const Surface& surface, const LightDirection& 
 
 // Returns the slope whose shading under the light l is `shading`. Its component across the light's direction
 // in the view plane is the same as that of s. If two such slopes exist, the one nearer to s is returned; if
-// none exists, s. A shading is the cosine of the angle between normal and light, or 0 where that is negative.
+// none exists, s is returned. A shading is the cosine of the angle between normal and light, or 0 where that
+// is negative.
 template <typename Real>
 Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vector3<Real>& l, Real shading) {
   const Real h = l.template head<2>().norm();

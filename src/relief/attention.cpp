@@ -14,11 +14,11 @@ namespace {
 // Standard deviations of the narrower Gaussian, as shares of the longer side. Lee et al. take 2 to 6 times 0.3 % of
 // the diagonal of the model's box, which is about 1.3 longer sides. The wider Gaussian has twice the width.
 constexpr std::array widths{.008, .012, .016, .02, .024};
-// Standard deviations of the prior around the middle and of the last smoothing, as shares of the longer side. Slopes
-// that are scaled by a sharper field would no longer be those of a surface.
+// Standard deviations, as shares of the longer side: of the prior, a Gaussian around the middle of the view, and of
+// the last blur of the attention. Slopes that are scaled by a less smooth field would not fit any surface.
 constexpr double prior_width = .35, smoothing = .02;
 
-// Returns the mean of all values that no neighbour exceeds, without the highest value.
+// Returns the mean of all local maxima except those equal to `highest`; 0 if there are none.
 double mean_of_other_maxima(const Surface& surface, std::span<const float> values, float highest) {
   std::vector<std::uint8_t> is_exceeded(values.size(), 0);
   for (const Triangle& corners : surface.triangulation.triangles)
@@ -34,8 +34,8 @@ double mean_of_other_maxima(const Surface& surface, std::span<const float> value
   return count > 0 ? sum / count : 0;
 }
 
-// Adds the differences between two means of the curvature, scaled to at most 1, and weighted by the square of what the
-// other maxima lack of the highest one (the suppression S of Lee et al.).
+// Adds the absolute differences between two Gaussian means of the curvature. They are scaled to at most 1, then
+// multiplied by (1 - m)^2, where m is the mean of the other local maxima (the suppression S of Lee et al.).
 void add_differences(const Surface& surface, double width, std::span<float> sums) {
   const auto blurred_by = [&](double share) {
     return blurred(surface.points, surface.curvature.k, share * surface.longer_side());

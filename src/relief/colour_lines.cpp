@@ -19,8 +19,8 @@ constexpr double narrow = .0025, wide = .025, least_narrow_rho = 1.5;
 // get none of the depth below `least_darker`, all of it above `most_darker`.
 constexpr float least_darker = .04F, most_darker = .12F;
 
-// Writes factor * z minus the depth of the lines, at least the base. Returns the highest result and its
-// point.
+// Writes factor * z minus the depth of the lines to `to`, but at least min(z, 0), where 0 is the base.
+// Returns the highest result and its point.
 template <typename Real>
 std::pair<double, std::size_t> lowered(std::span<const float> lines, double depth, double factor,
                                        std::span<const Real> z, std::span<Real> to) {
@@ -56,8 +56,8 @@ void sink_lines(std::span<const float> lines, double depth, std::span<Real> z) {
   if (lines.empty() || !(depth > 0)) return;
   const std::vector<Real> before(z.begin(), z.end());
   const double wanted = static_cast<double>(span_of(std::span<const Real>(before)).highest);
-  // The highest height is a convex, piecewise linear function of the factor, so Newton's method converges in
-  // a few steps.
+  // The highest height is a convex, piecewise linear function of `factor`, so Newton's method converges in a
+  // few steps.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

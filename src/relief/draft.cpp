@@ -69,7 +69,7 @@ class Limiter {
   // become wider instead.
   void keep_own_heights(Relief& relief) {
     if (model_->paper() || model_->own_heights().empty()) return;
-    constexpr double share = .9;  // share of the limit; the surface behind the model has a slope, too
+    constexpr double share = .9;  // share of the limit; the rest is for the slope of the surface behind
     OwnHeights::Workspace<double> workspace;
     model_->own_heights().apply<double>(relief.height, relief.heights, workspace, share * options_.max_slope);
   }
@@ -127,12 +127,12 @@ class DraftSearch {
   }
 
  private:
-  // Beyond u = e^4.5 the weights of (6) are nearly 1 in all layers, unless gamma is large.
+  // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief grows with the scale until it consists of walls only. The scale is limited, so that
-  // the relief without walls would be 64 times as high as one with the largest slope over half the longer
-  // side. That height does not depend on the requested one, so the largest height is the same for all
+  // A baseline's relief grows with the scale until it consists of walls only. The largest scale gives a
+  // relief that would be 64 times as high as half the longer side at the largest slope, if its slopes were
+  // not limited. This does not depend on the requested height, so the largest height is the same for all
   // requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;

@@ -1,6 +1,6 @@
-// The weight of an edge in equation (9), for the systems of all points and of control points, and for the
-// steps at depth jumps. TriangleSlopes uses half_edge_weight() and needle_share(), because its weights belong
-// to triangles. tests/support/least_squares.h computes the weight independently.
+// Computes the weight of an edge in equation (9): for the systems of all points and of control points, and
+// for the steps at depth jumps. TriangleSlopes uses half_edge_weight() and needle_share(), because its
+// weights belong to triangles. tests/support/least_squares.h computes the weight independently.
 #pragma once
 
 #include <algorithm>

@@ -119,7 +119,8 @@ struct OwnFrames {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of that shape without the last step of its style, which does not change frame.height.
+  // Makes the relief of `shape` up to raise() of its style. The last step, finish() of the style, does not
+  // change frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = shape;
     if (const HeightSystem* system = model.system())
@@ -165,7 +166,7 @@ struct OwnFrames {
     heights.span = heights.change_all([&](std::size_t, float& z) { z *= static_cast<float>(factor); });
   }
 
-  // Scales a relief down that is over twice the tolerance too high, see HeightSearch::bracket().
+  // Scales a relief down if it is too high by over twice the tolerance, see HeightSearch::bracket().
   void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))

@@ -62,7 +62,7 @@ class HeightSearch {
 
   // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and
   // elasticity predict, and takes secant steps; one or two calls are usually enough. After six secant steps
-  // it brackets u instead: after large changes, and for heights at or above the largest.
+  // it brackets u instead. This happens after large changes, and for heights at or above the largest.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
@@ -99,8 +99,8 @@ class HeightSearch {
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // Steps are a tenth longer than the secant's. A bracket whose upper end is slightly too high saves a
-    // relief.
+    // Steps are a tenth longer than the secant's, so that they end slightly above the requested height. Then
+    // the bracket is closed, which saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
     // Heights grow with u, but more slowly where the slopes of the steepest walls are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;

@@ -124,8 +124,8 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
   });
 }
 
-// Returns the matrix of the normal equations of (9), a weighted Laplacian. Boundary points have height 0 and
-// drop out.
+// Returns the matrix of the normal equations of the least squares (9), a weighted Laplacian. Boundary points
+// have height 0 and drop out.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
   const auto n = static_cast<int>(free_points.size());
@@ -156,8 +156,8 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-// Returns the coefficients of the right-hand side of (9). The right-hand side of point p is the sum over its
-// edges of weight / 2 (s_p + s_q) . (p - q).
+// Returns the coefficients of the right-hand side of equation (9). The right-hand side of point p is the sum
+// over its edges of weight / 2 (s_p + s_q) . (p - q).
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {

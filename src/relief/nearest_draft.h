@@ -16,7 +16,6 @@ class TriangleSlopes {
  public:
   TriangleSlopes(std::span<const Vec2> points, const Triangulation& triangulation, const Boundary& boundary);
 
-  // Returns the number of triangles.
   std::size_t size() const { return triangles_.size(); }
 
   // Returns the slope of triangle t for heights, one per point.
@@ -50,9 +49,10 @@ class TriangleSlopes {
 
 // Minimises the weighted sum over triangles of |slope - target slope|^2 under |slope + slope of the base| <=
 // limit. The method is ADMM (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
-// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit, fits heights to the
-// projected slopes by a system that is factored once, and adds the remaining difference to a dual variable,
-// until slopes and heights agree. Each call starts from the result of the last one. Not for concurrent use.
+// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit, and fits heights to the
+// projected slopes by a system that is factored once. Then it adds the remaining difference to a dual
+// variable. Iterations end when slopes and heights agree. Each call starts from the result of the last one.
+// Not for concurrent use.
 class NearestDraft {
  public:
   // `system` is the system of `surface`; both must outlive this object. `base` has a height per point, or is

@@ -111,7 +111,7 @@ template <typename Real>
 OwnHeights::Top OwnHeights::raise(std::size_t number, const Limits& limits, std::span<Real> z,
                                   Workspace<Real>& workspace) const {
   const Model& model = models_[number];
-  // The height over the harmonic surface has the Laplacian of the height, and is 0 around the model.
+  // The height above the harmonic surface has the same Laplacian as the height, and is 0 around the model.
   std::vector<Real>& over = workspace.over;
   over.assign(z.size(), 0);
   for (const auto& [a, b, weight] : model.links) {
@@ -144,9 +144,9 @@ void OwnHeights::apply(double height, std::span<Real> z, Workspace<Real>& worksp
     workspace.solvers.push_back(models_[m].laplacian.make_workspace());
   workspace.before.assign(z.begin(), z.end());
   const double wanted = static_cast<double>(*std::ranges::max_element(z));
-  // The highest height is a convex, piecewise linear function of the factor of the other heights. Newton's
-  // method finds its root in a few steps, and in one step if the highest point belongs to none of these
-  // models.
+  // The highest height is a convex, piecewise linear function of the factor that scales the other heights.
+  // Newton's method finds its root in a few steps. It needs one step if the highest point belongs to none of
+  // these models.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

@@ -56,7 +56,8 @@ class OwnHeights {
     std::vector<Link> links;       // edges with at least one end in `points`
     solver::Cholesky laplacian;
   };
-  // The highest height of a relief, and the part of it that scales with the factor of the other heights.
+  // The highest height of a relief. `scaled` is the part of it that is proportional to the factor of the
+  // other heights.
   struct Top {
     double z = 0, scaled = 0;
   };

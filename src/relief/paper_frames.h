@@ -1,4 +1,4 @@
-// Frames of a model of Method::paper, used by FrameMaker.
+// Makes the frames of a model of Method::paper for FrameMaker.
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@ class PaperRelief {
         solved_(model.control_points()),
         mapped_(model.control_points()) {}
 
-  // Solves (9) for the shape. Parameters of the shape that the paper does not have are ignored.
+  // Solves equation (9) for the shape. Parameters of the shape that the paper does not have are ignored.
   void solve(const Shape& shape) {
     const Compression& c = shape.compression;
     model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, solved_);
@@ -77,7 +77,6 @@ bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& 
   });
 }
 
-// Returns the relief of that shape.
 inline Relief make_paper_relief(const PaperModel& model, const Shape& shape) {
   std::vector<float> heights(model.size());
   const double height = PaperRelief(model).raise(shape, heights);

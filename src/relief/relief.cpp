@@ -48,7 +48,7 @@ struct ReliefModel::State {
 
   static Result<Parts> prepare_parts(const Surface& surface, Progress* progress);
 
-  // Returns the heights that (9) finds for the slopes of that shape.
+  // Returns the solution of equation (9) for the target slopes of the shape.
   std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
 };
 
@@ -105,7 +105,7 @@ Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const P
   RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
   const SubspaceOptions options{.control = {.count = control_points}};
   const auto reference = [&] {
-    // Freed at once, because this system takes most of the memory.
+    // The system is freed at the end of this block, because it takes most of the memory.
     const HeightSystem all = std::move(system);
     return reference_heights(surface, all, options.max_slope);
   }();

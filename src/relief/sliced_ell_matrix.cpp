@@ -35,7 +35,7 @@ RELIEVO_INLINE Pairs eight_pairs(const Vec2f* from, const Index* at) {
 }
 
 RELIEVO_INLINE Pairs pairs(const SlicedEllMatrix::Coefficients& values) {
-  // The type is not `auto`, because GCC then ignores that these vectors need no alignment.
+  // With `auto` instead of this type, GCC would ignore that these vectors need no alignment.
   const Float8* const v = reinterpret_cast<const Float8*>(values.data());
   return {v[0], v[1]};
 }
@@ -106,7 +106,6 @@ RELIEVO_INLINE void normals_of(const Slices& slices, const float* heights, Vec3f
   for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
 }
 
-// The entries of each row.
 using Rows = Groups<MatrixEntry>;
 
 SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {

@@ -1,5 +1,5 @@
-// A sparse matrix of 2-vectors over points and their neighbours. A frame needs two products with it: the
-// right-hand side of equation (9), and vertex normals (stage 13).
+// Defines a sparse matrix of 2-vectors over points and their neighbours. A frame needs two products with it:
+// the right-hand side of equation (9), and vertex normals (stage 13).
 #pragma once
 
 #include <array>

@@ -20,7 +20,8 @@ struct SteppedEdge {
   float weight;
 };
 
-// Returns the edges of triangles inside the relief that `is_wanted` takes, with their weights in (9).
+// Returns the edges that have triangle sides with is_wanted(side). Their weights are those of equation (9),
+// but only from these sides.
 template <typename IsWanted>
 std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wanted) {
   std::vector<SteppedEdge> edges;
@@ -30,7 +31,6 @@ std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wan
   return edges;
 }
 
-// Returns the edges across which the depth jumps.
 std::vector<SteppedEdge> jump_edges(const Surface& surface) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
   return stepped_edges(surface, [&](const TriangleSide& side) {
@@ -38,7 +38,6 @@ std::vector<SteppedEdge> jump_edges(const Surface& surface) {
   });
 }
 
-// Returns the edges across walls.
 std::vector<SteppedEdge> wall_edges(const Surface& surface) {
   const Boundary& boundary = surface.boundary;
   return stepped_edges(surface, [&](const TriangleSide& side) {
@@ -52,7 +51,7 @@ struct Place {
   Vec3f normal;
 };
 
-// Returns by how much the depth of b exceeds that of a beyond the difference that their slopes explain.
+// Returns the part of the difference in z from a to b that their slopes do not explain.
 double step_between(const Place& a, const Place& b) {
   const Vec3 step = b.point - a.point;
   const auto rise = [&](const Vec3f& n) {
@@ -86,9 +85,9 @@ std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
   return numbers;
 }
 
-// The means of the places on each side of the walls, over about two sampling distances. Where a part of the
-// front turns away so far that its last rows of points are nearly as deep as the back, such as a chin before
-// its neck, the means still differ by the whole depth.
+// The means of the places on each side of the walls, over about two sampling distances. At a chin before a
+// neck, for example, the front can turn away so far that its last rows of points are nearly as deep as the
+// back. The means still differ by the whole depth.
 class MeansBesideWalls {
  public:
   explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {
@@ -127,8 +126,8 @@ class MeansBesideWalls {
   std::vector<Place> means_;
 };
 
-// Returns the least-squares solution of (9) for a difference across each of the edges, and 0 across all others:
-// difference(a, b) is by how much the height of b should exceed that of a.
+// Returns the least-squares solution of equation (9) for given height differences. Across each of the edges,
+// the height of b should exceed that of a by difference(a, b); across all others, both should be equal.
 template <typename Difference>
 StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> edges,
                         const HeightSystem& system, Difference difference) {
@@ -155,7 +154,7 @@ StepFields StepFields::find(const Surface& surface, const HeightSystem& system) 
     return step_between(place_of(surface, a), place_of(surface, b));
   };
   const auto plane = [&](Index a, Index b) {
-    // Single precision hides the last bits, in which the standard libraries differ.
+    // Rounding to single precision removes the last bits of tanh, in which standard libraries differ.
     return static_cast<double>(static_cast<float>(std::tanh(step_between(means.at(a), means.at(b)) / scale)));
   };
   StepFields found;

@@ -1,5 +1,5 @@
-// The heights of steps at depth jumps. Equation (9) uses only slopes, so without these steps depth jumps
-// vanish. See docs/decisions/steps.md and docs/decisions/near-order.md.
+// Computes the heights of steps at depth jumps. Equation (9) uses only slopes, so without these steps depth
+// jumps vanish. See docs/decisions/steps.md and docs/decisions/near-order.md.
 #pragma once
 
 #include <cmath>
@@ -25,16 +25,16 @@ struct StepHeights {
   bool empty() const { return z.empty(); }
 };
 
-// The least-squares solutions of (9) for given height differences along the edges.
+// The least-squares solutions of equation (9) for given height differences along the edges.
 struct StepFields {
   // Across a depth jump the difference is the part of the depth difference that the slopes do not explain;
   // along all other edges it is 0. These heights keep forms that consist of steps, such as letters on a
   // plate.
   StepHeights steps;
-  // Across a wall the height difference is tanh(d / (0.05 side)), where d is the depth difference that slopes
-  // do not explain between the means of both sides over about two sampling distances; along all other edges
-  // it is 0. So these steps are 1 high at deep jumps, and fade out at the ends of a jump. They raise each
-  // part above the surface behind it.
+  // Across a wall the height difference is tanh(d / (0.05 side)); along all other edges it is 0. Means are
+  // taken on both sides of the wall over about two sampling distances, and d is the part of their depth
+  // difference that slopes do not explain. So these steps are 1 high at deep jumps, and fade out at the ends
+  // of a jump. They raise each part above the surface behind it.
   StepHeights planes;
 
   // `system` is the system of all points of the surface.

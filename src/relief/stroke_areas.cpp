@@ -25,7 +25,7 @@ double distance_to_segment_sq(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * along).squaredNorm();
 }
 
-// A line in pieces of a few corners, so that most points need the distances from few of them.
+// A polyline in pieces of a few corners. A point is compared only with pieces whose box is near it.
 class Line {
  public:
   explicit Line(std::span<const Vec3> corners) : corners_(corners) {
@@ -36,7 +36,7 @@ class Line {
     }
   }
 
-  // Returns the square of a point's distance from the line; `most_sq` if that is no less.
+  // Returns the square of a point's distance from the line, but at most `most_sq`.
   double distance_sq(const Vec3& p, double most_sq) const {
     double least = most_sq;
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
@@ -56,7 +56,7 @@ class Line {
   std::vector<Box> boxes_;  // one per piece
 };
 
-// Returns the points with distances for which is_kept(i) is true.
+// Returns the points and distances of `all` for which is_kept(i) is true; i is the position in the lists.
 template <typename IsKept>
 StrokePoints kept(const StrokePoints& all, IsKept&& is_kept) {
   const std::vector<Index> some = indices_where(all.points.size(), is_kept);
@@ -82,15 +82,15 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
   return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
-// Calls f(a, b) for the sides of the triangles inside the relief for which is_wanted(a, b), except across depth jumps.
+// Calls f(a, b) for the wanted triangle sides inside the relief that do not cross a depth jump.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {
-    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // the test for a jump takes longer
+    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // last, because is_jump() takes longer
   });
 }
 
-// Returns connected components of the given points, by each_link().
+// Returns the connected components of the given points; each_link() gives the edges.
 DisjointSets connected(const Surface& surface, std::span<const Index> points) {
   const std::vector<Index> number = places_in(points, surface.points.size());
   DisjointSets sets(points.size());
@@ -110,7 +110,7 @@ StrokePoints points_at_line(const Surface& surface, std::span<const Vec3> line, 
   return kept(near, [&](Index i) { return is_touched[sets.find(i)] != 0; });
 }
 
-// A lasso seen along its direction, in coordinates whose z is towards its viewer.
+// A lasso seen along its direction, in coordinates whose z axis points towards the viewer.
 class SeenLasso {
  public:
   SeenLasso(std::span<const Vec3> corners, const Vec3& to_viewer)
@@ -144,7 +144,7 @@ class SeenLasso {
   Mat3 turn_;
   Vec3 to_viewer_, low_, high_;
   double deepest_ = 0;
-  std::vector<Vec3> rim_;  // closed
+  std::vector<Vec3> rim_;  // first corner repeated at the end
   Outlines outline_ = Outlines(1);
 };
 
@@ -161,9 +161,9 @@ StrokePoints points_in_lasso(const Surface& surface, const SeenLasso& lasso, dou
   return {std::move(inside), std::move(distances)};
 }
 
-// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side: the angle between normals
-// over the length of the edges around the point, as a root mean square times sqrt(2), which is the rate across a
-// crease. The normals are means over a width that removes noise.
+// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side: the angle between the
+// normals of neighbouring points over their distance, as a root mean square. The factor sqrt(2) makes it the rate
+// across a crease, because a crease turns in one direction only. The normals are blurred to remove noise.
 std::vector<float> turning_of(const Surface& surface) {
   constexpr double width = .008, least_width_rho = 1.5;
   const double side = surface.longer_side();
@@ -178,7 +178,7 @@ std::vector<float> turning_of(const Surface& surface) {
     return Vec3(Vec3f(xy[i].x(), xy[i].y(), z[i].x()).cast<double>().normalized());
   };
   std::vector<double> angles(xy.size(), 0),
-      lengths(xy.size(), 0);  // sums of squares, degrees and 1 % of the side
+      lengths(xy.size(), 0);  // sums of squares: degrees^2, (% of the longer side)^2
   const auto all = [](Index, Index) { return true; };
   each_link(surface, all, [&](Index a, Index b) {
     const double angle =
@@ -192,7 +192,7 @@ std::vector<float> turning_of(const Surface& surface) {
   return turning;
 }
 
-// Returns the points that an edge, except across a depth jump, connects to a point outside of the region.
+// Returns the points of the region with an edge to a point outside of it, except across depth jumps.
 std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) {
   std::vector<std::uint8_t> is_in(surface.points.size(), 0), is_rim(surface.points.size(), 0);
   for (const Index i : region) is_in[i] = 1;
@@ -205,7 +205,8 @@ std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) 
   return rim;
 }
 
-// Returns the points of a region, with those of its holes: parts outside of it with less than a tenth of its points.
+// Returns the region with its holes filled. A hole is a connected part outside of the region that touches it and has
+// less than a tenth of its points.
 std::vector<Index> without_holes(const Surface& surface, std::span<const Index> region) {
   constexpr std::size_t times_less = 10;
   std::vector<std::uint8_t> is_in(surface.points.size(), 0);
@@ -228,7 +229,7 @@ std::vector<Index> without_holes(const Surface& surface, std::span<const Index> 
   return all;
 }
 
-// Returns the number among `points` of the one that is nearest to a place; no_index if none is near.
+// Returns the position in `points` of the point nearest to `place`; no_index if it is over 4 rho away.
 Index nearest_of(const Surface& surface, std::span<const Index> points, const Vec3& place) {
   constexpr double most_rho = 4;
   double least = most_rho * surface.rho;

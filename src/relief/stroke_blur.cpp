@@ -44,14 +44,14 @@ SurfaceLinks surface_links(const Surface& surface) {
   return {std::move(links), point_areas(surface)};
 }
 
-// With g = z + e for the blurred heights, areas (g - z) = -variance L g becomes a system for e, which is 0 around
-// the points: (areas + variance L) e = -variance L z.
+// The blurred heights g solve areas (g - z) = -variance L g, one implicit step of diffusion. With g = z + e this
+// is the system (areas + variance L) e = -variance L z. Around the points e is 0.
 template <typename Real>
 StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, std::span<const Index> points,
                              double sigma)
     : points_(points.begin(), points.end()) {
   std::vector<Index> number = places_in(points_, surface.points.size());
-  // Two solves, each with half of the variance, are nearer to a Gaussian than one.
+  // Two solves, each with half of the variance, approximate a Gaussian better than one.
   const double variance = sigma * sigma / 4, least_area = 1e-3 * surface.rho * surface.rho;
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Vec2> places;
@@ -83,7 +83,7 @@ StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, 
   }
 }
 
-// The second solve blurs g instead of z.
+// Solves twice. The second solve blurs g instead of z.
 template <typename Real>
 void StrokeBlur<Real>::take(std::span<const Real> z) {
   removed_.assign(points_.size(), 0);

@@ -39,7 +39,8 @@ class StrokeBlur {
   const std::vector<Real>& removed() const { return removed_; }
 
  private:
-  // A link from a point, or from one around the points, to a point. Numbers are those in points_, then in around_.
+  // A link to a point from another point, or from one around the points. A number below the size of points_ is a
+  // position there; higher numbers continue in around_.
   struct Link {
     Index to, from;
     Real pull;

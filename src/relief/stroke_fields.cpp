@@ -76,7 +76,7 @@ void StrokeFields<Real>::take_layers(const Strokes& strokes) {
   std::vector<std::optional<Layer>> old;
   for (Layer& layer : layers_) old.emplace_back(std::move(layer));
   layers_.clear();
-  std::size_t next = 0;  // after the layer that was kept last, as most strokes keep their order
+  std::size_t next = 0;  // most strokes keep their order, so the layer after the last kept one is tried first
   for (const Stroke& stroke : strokes) {
     const auto is_same = [&](const std::optional<Layer>& layer) { return layer && layer->stroke == stroke; };
     const auto found = next < old.size() && is_same(old[next])
@@ -103,7 +103,7 @@ void StrokeFields<Real>::take(const Strokes& strokes) {
   sum_masks();
 }
 
-// Computes what blurs remove, unless it is known for these heights.
+// Computes StrokeBlur::removed() of all layers, except where it is already known for these heights.
 template <typename Real>
 void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
   const bool is_same = std::ranges::equal(z, blurred_);
@@ -111,16 +111,17 @@ void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
   std::vector<StrokeBlur<Real>*> blurs;
   for (Layer& layer : layers_)
     if (layer.blur && !(is_same && !layer.blur->removed().empty())) blurs.push_back(&*layer.blur);
-  if (blurs.size() == 1) return blurs[0]->take(z);  // with all threads
+  if (blurs.size() == 1) return blurs[0]->take(z);  // one blur may use all threads
   parallel_for(
       blurs.size(), [&](std::size_t i) { blurs[i]->take(z); }, 1);
 }
 
-// Sums what depends on the strokes alone. Several strokes together may not subtract more than a blur removes.
+// Computes the sums that depend on the strokes alone. Several strokes together may not subtract more than a
+// blur removes.
 template <typename Real>
 void StrokeFields<Real>::sum_masks() {
   const std::vector<Index> number = places_in(changed_, surface_->points.size());
-  std::array<std::vector<Real>, 2> amounts;  // of the narrow blurs and of the wide ones
+  std::array<std::vector<Real>, 2> amounts;  // first for the narrow blurs, then for the wide ones
   for (std::vector<Real>* sums : {&amounts[0], &amounts[1], &risen_}) sums->assign(changed_.size(), 0);
   const auto each_share = [&](Layer& layer, auto&& f) {
     const auto amount = static_cast<Real>(signed_amount(layer.stroke));
@@ -151,7 +152,7 @@ void StrokeFields<Real>::each_of(Brush brush, F&& f) const {
     if (layer.stroke.brush == brush && !layer.mask.points.empty()) f(layer);
 }
 
-// Adds what does not depend on the order of the strokes.
+// Adds the changes of blurs, Brush::raise and Brush::sink, which do not depend on the order of the strokes.
 template <typename Real>
 void StrokeFields<Real>::add_sums(double height, std::span<Real> z) {
   take_blurs(z);

@@ -13,9 +13,9 @@
 
 namespace relievo {
 
-// Returns the mask of a stroke: its points_of(). At distance d the weight is (1 - x^2)^2, where x rises from 0 to 1 over
-// the outer part `softness` of the radius. Near the boundary the weight fades like w_b of (7). The mask is empty if the
-// visible surface has no point of the stroke.
+// Returns the mask of a stroke: points_of() with weights. At distance d the weight is (1 - x^2)^2, where x rises from 0
+// to 1 over the outer part `softness` of the radius. Near the boundary the weight fades like w_b of equation (7). The
+// mask is empty if the visible surface has no point of the stroke.
 StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke);
 
 // The strokes of a relief on one surface, which must outlive this object. `Real` is the type of the heights.
@@ -37,7 +37,7 @@ class StrokeFields {
   void apply(double height, std::span<const Real> uncorrected, std::span<Real> z);
 
  private:
-  // The share of the detail removed by a stroke's blur that is added to one point.
+  // How much of the detail that a stroke's blur removes is added to one point, as a factor.
   struct Share {
     Index at;  // number of the point in changed_
     Real share;
@@ -45,8 +45,8 @@ class StrokeFields {
   struct Layer {
     Stroke stroke;
     StrokeMask mask;                       // empty for muted strokes
-    std::optional<StrokeBlur<Real>> blur;  // of brushes that need it
-    std::vector<Crossing> crossings;       // of Brush::in_front
+    std::optional<StrokeBlur<Real>> blur;  // only if the brush needs it
+    std::vector<Crossing> crossings;       // only for Brush::in_front
     std::vector<Share> shares;             // one per point of the mask, if the brush needs a blur
   };
 
@@ -59,19 +59,19 @@ class StrokeFields {
   void each_of(Brush brush, F&& f) const;
 
   const Surface* surface_;
-  std::optional<SurfaceLinks> links_;  // once a blur needs them
+  std::optional<SurfaceLinks> links_;  // computed when a blur first needs them
   std::vector<Layer> layers_;          // one per stroke
   std::vector<Index> changed_;         // the points under at least one stroke
-  std::vector<Real> blurred_;          // the heights of which the blurs are known
-  // One per point of changed_: the shares of the height that strokes raise it, and scratch memory for what they add.
+  std::vector<Real> blurred_;          // the heights that were blurred last
+  // One per point of changed_: by how much strokes raise it, as a share of the height; and scratch memory.
   std::vector<Real> risen_, added_;
 };
 
 // Returns whether apply() needs the uncorrected heights for these strokes.
 bool needs_uncorrected(const SharedStrokes& strokes);
 
-// Applies the strokes of the relief's shape to its heights, and restores the height of the relief. `uncorrected` is that
-// of apply().
+// Applies the strokes of the relief's shape to its heights, and restores the height of the relief. `uncorrected` is the
+// same as for StrokeFields::apply().
 void apply_strokes(const Surface& surface, std::span<const double> uncorrected, Relief& relief);
 
 }  // namespace relievo

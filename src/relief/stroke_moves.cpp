@@ -19,7 +19,7 @@ void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, doub
     return Vec3(away.x(), away.y(), heights.surface.rho);
   };
   Mat3 squares =
-      Mat3::Identity() * 1e-12 * heights.surface.rho * heights.surface.rho;  // for masks without width
+      Mat3::Identity() * 1e-12 * heights.surface.rho * heights.surface.rho;  // if the mask has no width
   Vec3 sums = Vec3::Zero();
   for (std::size_t k = 0; k < mask.points.size(); ++k) {
     const Vec3 terms = terms_at(mask.points[k]);

@@ -1,4 +1,4 @@
-// The brushes that move shapes as a whole: Brush::protect and Brush::in_front.
+// Implements the brushes that move parts as a whole: Brush::protect and Brush::in_front.
 #pragma once
 
 #include <span>
@@ -24,8 +24,8 @@ struct CorrectedHeights {
 };
 
 // Moves the heights under a stroke, by their weights times `amount`, towards the uncorrected heights plus the plane
-// that fits the height correction best. If that exceeds the height of the relief anywhere, the plane is lower. The mask
-// must not be empty. Instantiated for float and double.
+// that fits the height correction best. If the result would exceed the height of the relief anywhere, the plane is
+// lowered. The mask must not be empty. Instantiated for float and double.
 template <typename Real>
 void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, double amount);
 
@@ -35,8 +35,8 @@ struct Crossing {
   Index behind;  // the point of the surface behind it
 };
 
-// Returns the edges from points of a mask, with at least half of the weight, across depth jumps to points behind it
-// that are not in the mask.
+// Returns the edges across depth jumps that begin at points of the mask with a weight of at least 1/2, and end at
+// deeper points outside of the mask.
 std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask);
 
 // The heights by which a stroke is to stand above the surface behind it.
@@ -44,7 +44,7 @@ template <typename Real>
 struct InFront {
   std::span<const Crossing> crossings;
   Real step;    // least rise of each crossing
-  Real height;  // of the relief
+  Real height;  // the height of the relief
 };
 
 // Raises the heights z under a stroke by their weights times r (1 - z / height), so that nothing exceeds the height and

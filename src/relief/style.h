@@ -1,4 +1,4 @@
-// The two styles of reliefs. All differences between the styles are in this file.
+// Defines the two styles of reliefs. All differences between the styles are in this file.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayer
 }
 
 // Returns the rho to use in equation (7), so that the soft rim is `width` times the surface's rho wide. With
-// its own rho (7) makes a rim of 2 rho.
+// the surface's own rho, (7) makes a rim that is 2 rho wide.
 inline double boundary_rho(const Surface& surface, double width) {
   return surface.rho * width / 2;
 }
@@ -49,7 +49,6 @@ struct RaisedHeights {
     return all;
   }
 
-  // Returns the span of the current heights.
   HeightSpan<Real> measured() const {
     return change_all([](std::size_t, Real&) {});
   }
@@ -59,8 +58,9 @@ struct RaisedHeights {
 // into very large changes of slopes.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order: slope() for every point, with the w_k of weighted(); the solution of (9) for
-// the heights; raise(), which determines the relief's height; and, if this is the requested height, finish().
+// A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of
+// equation (9), which gives the heights; raise(), which determines the relief's height; and, if this is the
+// requested height, finish().
 
 // Equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which adds detail in
 // proportion to the curvature.
@@ -104,8 +104,8 @@ class PaperWeightsStyle {
   const Shape& shape_;
 };
 
-// The layered style uses layers of the normals instead of (5). Afterwards HeightCorrection compresses the
-// heights.
+// The layered style uses layers of the normals instead of equation (5). Afterwards HeightCorrection
+// compresses the heights.
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)
@@ -117,7 +117,6 @@ class LayeredStyle {
 
   Compression weighted() const { return saturation_alone(shape_.compression); }
 
-  // Returns the layer weights of a point.
   const LayerWeights& layer_weights(const SlopeInput& input, std::size_t i) const {
     return input.attention.empty() ? weights_ : by_attention_[input.attention[i]];
   }
@@ -184,8 +183,8 @@ void write_slopes(const SlopeInput& input, const Style& style, const Weight& wei
 
 class WeightTable;
 
-// Writes the slopes of the layered style in single precision, eight points at a time. The bits are those of
-// write_slopes().
+// Writes the slopes of the layered style in single precision, eight points at a time. The results have the
+// same bits as those of write_slopes().
 void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
                            std::span<Vec2f> slopes);
 

@@ -1,4 +1,4 @@
-// A table of equation (6). Frames look weights up, because the formula needs an exponential and a logarithm.
+// Tabulates equation (6). Frames look weights up, because the formula needs an exponential and a logarithm.
 #pragma once
 
 #include <bit>

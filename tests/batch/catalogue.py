@@ -34,7 +34,7 @@ BAD = [("ply", b"ply\nformat ascii 1.0\nelement vertex 3\n"),
 
 
 def write_catalogue(folder, good, bad):
-    """Writes that many good and bad scans, mixed, and returns the names of the good ones and those of the bad ones."""
+    """Writes `good` good and `bad` bad scans, mixed. Returns the names of the good ones and of the bad ones."""
     os.makedirs(folder)
     names = [f"scan-{i:04}" for i in range(good + bad)]
     is_bad = set(names[:: max(1, (good + bad) // max(1, bad))][:bad])

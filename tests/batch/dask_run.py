@@ -63,12 +63,12 @@ def processes():
 
 
 def worker_processes(parent):
-    """Returns the processes of Dask's workers below that process."""
+    """Returns the processes of Dask's workers whose parent has the number `parent`."""
     return [number for number, above, command in processes() if above == parent and b"spawn_main" in command]
 
 
 def wait_for_the_end_of(workers, output):
-    """Waits for the end of those workers and their programs, which outlive the run for a moment."""
+    """Waits until these workers and their programs have ended, which can be shortly after the run."""
     deadline = time.time() + 120
     while True:
         left = [number for number, _, command in processes() if number in workers or output.encode() in command]

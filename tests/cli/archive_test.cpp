@@ -1,4 +1,4 @@
-// Tests ZIP archives like those of web sites for models.
+// Tests ZIP archives as web sites for models offer them.
 #include "common/archive.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(Archive, BackslashesSeparateFoldersToo) {
   EXPECT_EQ(file->mesh.triangles.size(), 1U);
 }
 
-// Slicers write such files: the main model has a component in another part of the archive.
+// Slicers write 3MF files whose main model has a component in another file of the archive.
 TEST(Archive, AThreeMfIsReadWithItsParts) {
   const auto model = [](const std::string& objects, const std::string& items) {
     return "<model><resources>" + objects + "</resources><build>" + items + "</build></model>";

@@ -110,8 +110,8 @@ TEST_F(BatchRun, DoesNothingTwice) {
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
 }
 
-// If an option is changed and changed back, the outputs still are those of the change, so they must be made
-// again.
+// If an option is changed and changed back, the last outputs are those of the changed option. So the outputs
+// must be made again.
 TEST_F(BatchRun, KeepsOnlyWhatWasMadeLast) {
   jobs_.resize(1);
   run_jobs();
@@ -125,7 +125,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
   jobs_.resize(2);
   run_jobs();
   const std::string text = read_all(journal_path());
-  write_all(journal_path(), text.substr(0, text.size() - 20));  // such as a power failure leaves it
+  write_all(journal_path(), text.substr(0, text.size() - 20));  // as after a power failure
   EXPECT_EQ(run_jobs(), (Counts{1, 0, 1}));
   EXPECT_EQ(run_jobs(), (Counts{0, 0, 2}));
 }

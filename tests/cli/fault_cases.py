@@ -93,8 +93,8 @@ def batch(setup, kind, chance, number):
         place.mark_as_batch()
         place.add_foreign_files(place.out)
         code, errors, has_hit = run_with_fault(place, kind, chance, batch_command(place), "batch")
-        # The program refuses the folder if the mark was already removed when it looked for it, but the other files were
-        # not.
+        # The mark of a batch's folder may be removed before its other files. Then the program finds a folder that is
+        # neither empty nor a batch's, and refuses it.
         if kind == "folder gone" and code == 2 and "expected an empty folder, or one of relievo batch" in errors:
             return has_hit
         check_end(kind, code, errors)
@@ -109,7 +109,7 @@ def batch(setup, kind, chance, number):
         place.faults[Faults.CLOCK] = 0
         is_of_others = place.out.is_dir() and any(place.out.iterdir()) and not place.is_marked()
         code, _, errors = finish(place.start(batch_command(place), {}))
-        # If files were written after the mark was removed, the folder no longer counts as that of a batch.
+        # If files were written after the mark was removed, the folder no longer counts as a batch's.
         if kind == "folder gone" and is_of_others:
             require(code == 2, "a folder of others is taken", code, errors[:2000])
             return has_hit

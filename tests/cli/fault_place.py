@@ -63,7 +63,7 @@ class Faults:
 
 
 def failing_allocations(faults, chance):
-    """Chooses the allocations that fail: one, or all large ones from one on. Returns (first, count)."""
+    """Chooses the allocations that fail: one, or all large ones from a chosen one on. Returns (first, count)."""
     count, faults[Faults.LEAST_BYTES], most = chance.choice([(1, 0, 4.7), (1, 4096, 3), (10**9, 4096, 3)])
     return int(10 ** chance.uniform(0, most)), count
 

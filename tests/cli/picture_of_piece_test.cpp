@@ -1,5 +1,5 @@
-// Tests that the studio shows the content of its files: compares its picture of a piece with a picture of the
-// exported STL, for which only the triangles are used.
+// Tests that the studio's picture of a finished piece, such as a coin, shows the content of its file. The
+// picture is compared with one of the exported STL, for which only the triangles are used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Removes the camera's angles, which are not options, from a piece. Returns the camera.
+// Removes the angles of the camera from a piece, because they are not options. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);

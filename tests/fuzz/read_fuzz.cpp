@@ -1,7 +1,7 @@
-// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names, which
-// scripts/fuzz reads, too, by the word before the colon.
-// The first byte of an input chooses one of these names, the rest is the file. In texts of meshes a zero byte ends the
-// file, and the files beside it follow: materials or a buffer up to another zero byte, then a picture.
+// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names.
+// scripts/fuzz finds the same list by the word before the colon in the comment at its end. The first byte of an input
+// chooses one of these names, the rest is the file. In texts of meshes a zero byte ends the file, and the files beside
+// it follow: materials or a buffer up to another zero byte, then a picture.
 #include <array>
 #include <cstdlib>
 #include <string>
@@ -47,7 +47,7 @@ std::string_view next_part(std::string_view& content) {
   return part;
 }
 
-// Returns the files beside a text, which it may call as it likes.
+// Returns the files beside a text, under any names by which the text refers to them.
 FilesBeside files_beside(std::string_view rest) {
   const std::string_view words = next_part(rest);
   return [words, rest](const std::string& name) -> Result<std::vector<std::byte>> {

@@ -58,5 +58,4 @@ TEST(Inset, EveryCornerIsAsFarInsideAsAsked) {
 }
 
 }  // namespace
-   // inset.
 }  // namespace relievo

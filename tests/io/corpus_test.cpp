@@ -88,7 +88,8 @@ std::size_t all_points(const CloudFile& file) {
          (file.cloud.has_normals() ? file.dropped_normals : 0);
 }
 
-// Returns the number in the first line that begins so; nothing if there is no such line.
+// Returns the number after `beginning` in the first line that begins with it; nothing if there is no such
+// line.
 std::optional<std::size_t> number_after(const std::string& text, const std::string& beginning) {
   const std::size_t found = text.find("\n" + beginning);
   if (found == std::string::npos) return std::nullopt;

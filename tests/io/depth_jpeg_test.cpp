@@ -158,7 +158,7 @@ TEST(DepthJpeg, AnyDamagedByteGivesAnAnswer) {
     }
 }
 
-// Each scan takes as much time as the whole picture.
+// Decoding each scan takes as much time as decoding a whole picture.
 TEST(DepthJpeg, HasAHundredScansAtMost) {
   JpegSquares picture = grey_squares();
   picture.is_progressive = true;

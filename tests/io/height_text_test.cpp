@@ -54,8 +54,8 @@ TEST(EsriGrid, ReadsOtherSpellings) {
   EXPECT_TRUE(std::isnan(commas.values.at(3, 3)));
 }
 
-// A grid a few units wide with heights of hundreds of metres, in the range of degrees, has degrees as its
-// unit.
+// A grid is in degrees if its corner is a position on the globe and its heights, in metres, would be far too
+// large for its width.
 TEST(EsriGrid, ConvertsDegrees) {
   const std::string heights = " 0 300 200 100 0 300 200 100 0 300 200 100 0 300 200 100";
   const auto size_at = [&](const std::string& corner, const std::string& cell) {
@@ -148,7 +148,6 @@ TEST(HeightTable, IsNotTakenForACloudNorACloudForIt) {
   EXPECT_FALSE(is_picture_text(""));
 }
 
-// Returns the lines of a text.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
@@ -156,7 +155,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Returns the hill with the given number before each row, and the number 0 above the first column.
+// Returns the hill as a table with the position of each row before it, the position of each column above it,
+// and `corner` in the first cell.
 std::string with_places(const std::string& corner, double wide, double high) {
   const std::vector<std::string> rows = lines_of(hill(12, 9, ","));
   std::string text = corner;

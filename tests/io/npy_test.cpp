@@ -47,7 +47,7 @@ TEST(NpyPoints, KeepTheDigitsOfLargeCoordinates) {
             Vec3(far(1, 0), far(1, 1), far(1, 2)));
 }
 
-// Picture (a, b) of a batch, in the order of Fortran: the first index runs fastest.
+// Two pictures of 3 x 4 points. In Fortran's order, the first index runs fastest.
 TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
   const auto far = [](std::size_t row, std::size_t column) { return counted(row + 100, column); };
   std::vector<Vec3> points = counted_points(124);
@@ -62,7 +62,7 @@ TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
   EXPECT_EQ(file_of(npy("<f4", data, "2, 3, 4, 3", true), "scan").cloud.points, points);
 }
 
-// Rows of more numbers have normals and colours if the values show it; a short table is a depth image, as before.
+// Rows of more than three numbers have normals and colours if the values show it. A short table is a depth image.
 TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   const auto value = [](std::size_t r, std::size_t c) {
     const double turn = .1 * static_cast<double>(r);
@@ -84,7 +84,8 @@ TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   EXPECT_TRUE(is_picture(bytes_of(npy("<u2", numbers<std::uint16_t>(200, 6, counted), "200, 6"))));
 }
 
-// The points of a plane at distance 2 that a camera with y down sees, with ripples of a tenth of a pixel.
+// Returns an array of the points that a camera with y down sees of a plane at distance 2, with ripples of a
+// tenth of a pixel.
 std::string point_map(float missing) {
   constexpr int columns = 24, rows = 18;
   std::string data;

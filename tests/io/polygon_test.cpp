@@ -135,7 +135,7 @@ TEST(Triangulate, FansOutWhatNothingCovers) {
 TEST(Triangulate, TakesSecondsForTheLargestPolygons) {
   expect_covered(comb(3300), "large comb");
   expect_covered(spiral(9900), "large spiral");
-  EXPECT_EQ(triangulate(comb(100000)).size(), 300000U);  // a fan
+  EXPECT_EQ(triangulate(comb(100000)).size(), 300000U);  // so large that it becomes a fan
 }
 
 }  // namespace

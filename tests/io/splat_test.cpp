@@ -31,7 +31,7 @@ PlyTable splats(const std::vector<std::vector<double>>& rows) {
 class Splats : public testing::TestWithParam<PlyEncoding> {};
 
 TEST_P(Splats, FaintOnesAreLeftOutAndColoursAreHarmonics) {
-  const double brightest = .5 / .28209479177387814;  // f_dc of the byte 255; that of 0 is its negative
+  const double brightest = .5 / .28209479177387814;  // f_dc of the byte 255; the byte 0 has its negative
   const auto file =
       file_of(encode_ply({splats({splat({1, 2, 3}, {brightest, 0, -brightest}, .01),
                                   splat({4, 5, 6}, {0, 0, 0}, -.01), splat({7, 8, 9}, {9, -9, 0}, 8)})},
@@ -126,7 +126,7 @@ TEST(SplatFile, RowsOfBytesAreRead) {
       "opaque; --doubtful keep keeps them");
 }
 
-// A quarter turn around x, in bytes, turns the thin y into z.
+// A quarter turn around x, given in bytes, turns the thin y axis to z.
 TEST(SplatFile, AxesAreThoseOfTheSmallestScale) {
   const std::string row = raw(1.F) + raw(2.F) + raw(3.F) + raw(.1F) + raw(.001F) + raw(.2F) +
                           std::string(3, '\1') + '\xFF' + raw(std::uint8_t{218}) + raw(std::uint8_t{218}) +

@@ -171,7 +171,7 @@ TEST(Xyz, NumbersOfPointsAreNoCoordinates) {
     std::string words = place;
     std::ranges::replace(words, ',', ' ');
     numbered += cat(1000 + 3 * i, " ", words, "\n");
-    profiles += cat(i / 20, " ", .5 + i % 20, " .25 ", 7 + i % 9, "\n");  // x of a profile is no number
+    profiles += cat(i / 20, " ", .5 + i % 20, " .25 ", 7 + i % 9, "\n");  // x is not the point's number
   }
   for (const std::string& text : {numbered, commas}) {
     const auto file = file_of(text);

@@ -48,7 +48,7 @@ Vec2 middle_of(const std::vector<Vec2>& outline) {
 }
 
 TEST(OrnamentShapes, LettersStandInTheMiddleOfTheMargin) {
-  // The margin is 5, so capitals of height 3 leave 1 to the rim.
+  // The margin is 5 mm. Capitals of 3 mm in its middle are 1 mm from the rim.
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::top, "I")));
   EXPECT_NEAR(low, 26, .01);
   EXPECT_NEAR(high, 29, .02);
@@ -70,7 +70,7 @@ TEST(OrnamentShapes, LettersStandAsFarFromTheRimAsTheirInsetSays) {
 }
 
 TEST(OrnamentShapes, LettersKeepClearOfBorders) {
-  // Beads take 1.2 of the margin of 5: capitals of 3 stand in the middle of the 3.8 that are left.
+  // Beads take 1.2 mm of the margin of 5 mm. Capitals of 3 mm stand in the middle of the other 3.8 mm.
   Ornament beads{.kind = OrnamentKind::beads};
   beads.inset_mm = .2;
   beads.size_mm = 1;
@@ -220,7 +220,7 @@ TEST(OrnamentShapes, RefuseWhatHasNoRoom) {
   Ornament sizeless{.kind = OrnamentKind::drawing};
   sizeless.outlines = {{{0, 0}, {2, 0}, {2, 1}}};
   EXPECT_NE(refusal(sizeless).find("expected a drawing with its size, found none"), std::string::npos);
-  // A drawing without almost any width is as high as its size demands.
+  // A drawing with almost no width is as high as its size demands.
   Ornament thin = sizeless;
   thin.outlines = {{{0, 0}, {1, 0}, {1, 1e14}}};
   thin.size_mm = 10;

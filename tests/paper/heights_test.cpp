@@ -14,8 +14,8 @@
 namespace relievo::paper {
 namespace {
 
-// Solves (9) as printed: with one equation for each boundary point, and one for each pair of a point and one
-// of its six nearest points, which are found by sorting.
+// Solves equation (9) as printed: with one equation for each boundary point, and one for each pair of a point
+// and one of its six nearest points, which are found by sorting.
 Eigen::VectorXd dense_heights(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& is_boundary,
                               const std::vector<Vec2f>& slopes) {
   const auto n = static_cast<Eigen::Index>(points.size());

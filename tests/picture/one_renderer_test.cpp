@@ -41,7 +41,7 @@ struct Bodies {
     solid = *make_plate(front, {});
     normals = relief_normals(solid);
     normals.resize(heights.size());
-    std::ranges::replace(normals, Vec3f(Vec3f::Zero()), Vec3f(Vec3f::UnitZ()));  // those of level parts
+    std::ranges::replace(normals, Vec3f(Vec3f::Zero()), Vec3f(Vec3f::UnitZ()));  // normals of level parts
   }
   Shown shown() const { return {heights, normals}; }
 };
@@ -183,7 +183,7 @@ Result<Solid> solid_on(const PlateOptions& plate) {
   return plate.wrap.kind == WrapKind::none ? std::move(solid) : wrap_plate(solid, plate);
 }
 
-// On a curved base the solid's normals are those of its triangles, and the frame's those of relief and base.
+// A solid on a curved base has the normals of its triangles, a frame those of relief and base.
 TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
   FrameRenderer renderer(bodies().model);
   for (const auto& [name, plate] : plates_of_all_kinds()) {
@@ -230,7 +230,7 @@ TEST(OneRenderer, RefusesAWrapAsTheSolidThatIsMadeOfTheFrame) {
   }
 }
 
-// While the rim rises, a quick picture shows its height, and a fine one its bevel, too.
+// If the rim gets another height, a quick picture keeps the bevel; a fine one has the new bevel, too.
 TEST(OneRenderer, FollowsTheHeightOfARim) {
   FrameRenderer used(bodies().model), fresh(bodies().model);
   const RenderOptions quick = options_for(Material::plaster, false, 40),

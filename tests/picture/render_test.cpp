@@ -84,7 +84,6 @@ PlatePixels plate_in(const Picture& picture) {
   return plate;
 }
 
-// Returns the red value of a pixel.
 int red(const Picture& picture, int column, int row) {
   return picture.image.at(column, row);
 }

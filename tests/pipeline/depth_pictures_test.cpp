@@ -48,8 +48,8 @@ Image<double> heights_mm(const MadeRelief& made, int side) {
   return heights;
 }
 
-// Returns the relief as a lamp shows it, in half the picture's resolution: nothing smaller than two of its pixels is in
-// a picture.
+// Returns the relief in the light of a lamp, at half the picture's resolution, because a picture has no details smaller
+// than two of its pixels.
 Image8 shading_of(const MadeRelief& made, int side) {
   const Image<double> heights = heights_mm(made, side);
   const Vec3 lamp = Vec3(-1, 1, 1.5).normalized();
@@ -68,12 +68,12 @@ Image8 shading_of(const MadeRelief& made, int side) {
   return shading;
 }
 
-// A cloud as a camera's picture shows it, with its own relief.
+// A cloud as drawn in a camera's picture, with the relief of the cloud itself.
 struct Figure {
   Image<double> heights;
   double range_px = 0;
   Image8 shading;
-  double exact_similarity = 0;  // of the relief of the picture's exact heights with that of the cloud
+  double exact_similarity = 0;  // between the reliefs of the picture's exact heights and of the cloud
 
   double similarity_of(Cloud read) const {
     return test::structural_similarity(shading_of(relief_of(std::move(read)), heights.width), shading);
@@ -95,10 +95,10 @@ Figure figure_of(const Cloud& cloud, const PictureCamera& camera) {
 }
 
 struct Judgement {
-  double share_used = 0;  // of the figure's pixels
-  int farthest_px = 0;    // of a used pixel from the figure, or of a pixel of the figure from a used one
-  int crumbs = 0;         // parts of used pixels smaller than 0.5 %, beyond those of the figure
-  double similarity = 0;  // of the relief with that of the cloud
+  double share_used = 0;  // share of the figure's pixels that are used
+  int farthest_px = 0;    // largest distance between used pixels and pixels of the figure, both ways
+  int crumbs = 0;         // number of used parts smaller than 0.5 %, minus that of the figure
+  double similarity = 0;  // between the reliefs of the read picture and of the cloud
 };
 
 Judgement judge(const Figure& figure, const DepthStorage& how, const BesideFigure& beside) {
@@ -108,7 +108,7 @@ Judgement judge(const Figure& figure, const DepthStorage& how, const BesideFigur
   options.range = figure.range_px / side;
   if (how.is_pinhole && how.kind == DepthValues::depth) {
     options.camera = PictureCamera{side, true}.as_depth_camera();
-    if (beside.wall_m > 0) options.background = Removal::drop;  // a camera keeps it
+    if (beside.wall_m > 0) options.background = Removal::drop;  // with a camera, walls are kept by default
   }
   DepthCloud read = value_of(depth_cloud(test::depth_picture(figure.heights, how, beside), options));
   test::Mask drawn = filled_image(side, side, std::uint8_t{0}), used = drawn;
@@ -137,14 +137,15 @@ std::vector<DepthStorage> storages() {
           {"disparity of 8 bits", inverse, 1, [](double d) { return std::round(200 / d); }, true}};
 }
 
-// Returns values that mark missing depths in the type of the values.
+// Returns values that can mark missing depths in this type.
 std::vector<float> markers_of(const DepthStorage& how) {
   const float most = how.name.contains("8 bits") ? 255.F : 65535.F;
   if (how.step > 0) return {0, most, nan};  // NaN where the picture is transparent
   return how.kind == DepthValues::depth ? std::vector<float>{0, inf, nan, 1e10F} : std::vector<float>{0, nan};
 }
 
-// Judges pictures of a cloud with these numbers; from number to number storages, walls and markers change.
+// Makes pictures of a cloud, numbered from `first`, and judges how they are read. The number determines the
+// storage, the wall and the marker.
 void judge_pictures(const Cloud& cloud, int side, int first, int count) {
   std::map<bool, Figure> figures;
   for (int i = first; i < first + count; ++i) {

@@ -78,9 +78,9 @@ struct FacetBounds {
 class SmoothSolid : public testing::TestWithParam<FacetBounds> {};
 
 // At the small button's edge, the normal turns by 14 degrees from one point to the next if there are 20,000
-// points, and by 3 degrees if there are 250,000. The step at the jump has the requested height. That differs
-// from the height of the slopes beside it, so the rows next to the jump bend. A wide boundary weight bends
-// the surface by 13 degrees along the whole silhouette.
+// points, and by 3 degrees if there are 250,000. The step at the jump has the requested height. It differs
+// from the height that the slopes beside the jump give, so the rows next to the jump bend. A wide boundary
+// weight bends the surface by 13 degrees along the whole silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);

@@ -113,7 +113,7 @@ TEST(Turntable, HasAboutAsManyPointsAsItSays) {
   }
 }
 
-// Turns a sphere of radius 1, whose former model has a support plane at that height. Returns the diameter of
+// Turns a sphere of radius 1. The model before it has a support plane at `height`. Returns the diameter of
 // the part of the sphere that is left.
 double diameter_before_plane(const Turntable& table, const MeasuredCloud& measured, double height) {
   Surface surface = find_surface(measured, {}).value();

@@ -93,7 +93,8 @@ TEST(OrderKept, CountsPairs) {
   EXPECT_EQ(order_kept({}, {}, {}), 0);
 }
 
-// For near pairs, the slope rises everywhere except at one cliff. For random pairs, the cliff dominates.
+// The heights rise with the depths everywhere except at one cliff. The cliff separates half of the random
+// pairs, but only few near pairs.
 TEST(NearOrderKept, CountsNearPairsAlone) {
   constexpr int size = 400;
   Image8 inside = filled_image<std::uint8_t>(size, size, 0);

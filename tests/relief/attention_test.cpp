@@ -158,7 +158,7 @@ TEST(AttentionWeights, RaiseSlopesWhereAttentionIsHighAndLowerThemElsewhere) {
   EXPECT_GT(higher, 3000U);
   EXPECT_GT(lower, 3000U);
   EXPECT_LT(wrong,
-            (higher + lower) / 100);  // where the fine and the middle layer point in opposite directions
+            (higher + lower) / 100);  // if the fine and the middle layer point in opposite directions
 }
 
 TEST(AttentionOfReliefs, ShiftsContrastToWhereItIsHigh) {

@@ -65,7 +65,7 @@ TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
   test::expect_same_for_any_threads([&] { return mimicking(surface, .05); });
 }
 
-// Heights that do not reach a bound are those of (9).
+// Heights that do not reach a bound are those of equation (9) without bounds.
 TEST(Bounded, WithEnoughHeightSolvesTheEquations) {
   const Surface surface = test::surface_of(test::sphere(20000, 1));
   const HeightSystem system =

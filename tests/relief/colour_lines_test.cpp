@@ -71,7 +71,7 @@ TEST(SinkLines, KeepTheHeightIfTheTopIsOnALine) {
   const std::vector<float> lines{1, 0, .5F};
   std::vector<double> z{1, .7, .4};
   sink_lines<double>(lines, .2, z);
-  // The heights are first multiplied by 1.2: 1.2 - 0.2, 0.84, 0.48 - 0.1.
+  // The heights are multiplied by 1.2 before lines are sunk: 1.2 - 0.2, 0.84, 0.48 - 0.1.
   EXPECT_NEAR(z[0], 1, 1e-6);
   EXPECT_NEAR(z[1], .84, 1e-6);
   EXPECT_NEAR(z[2], .38, 1e-6);

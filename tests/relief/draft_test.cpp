@@ -101,7 +101,7 @@ TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
   EXPECT_EQ(limited->heights, free->heights);
 }
 
-// The nearest relief is the cone whose slope is the limit, if the given slope exceeds it.
+// If a cone is steeper than the limit, the nearest relief is the cone whose slope is the limit.
 TEST(Draft, ACone) {
   const ReliefModel model = prepared(test::sheet(20000, 1, 0));
   const auto cone = [](double slope) {

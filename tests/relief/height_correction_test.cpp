@@ -177,7 +177,7 @@ TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
     ASSERT_NEAR(height, .05, 1e-4);
 }
 
-// At the silhouette, the field is pulled up to the planes, even if all heights are 0.
+// At the silhouette, the field rises to about the share `planes` of the height, even if all heights are 0.
 TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
   const HeightCorrection correction(surface);
@@ -235,7 +235,7 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as in (9)
+    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as in solutions of equation (9)
   correction.compress_heights<double>({z, weight, {.15}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);

@@ -63,8 +63,8 @@ TEST(StepHeights, ThereAreNoneWithoutAJump) {
   EXPECT_TRUE(test::prepared(test::sphere(20000, 1)).steps().empty());
 }
 
-// A step that grows along its edge from nothing to 6 rho. No part of its wall is left level because the depth
-// differs by less there than a jump needs.
+// A step grows along its edge from 0 to 6 rho. Its wall must rise everywhere, even where the depths differ
+// too little for a depth jump.
 TEST(Planes, StepWhereverTheDepthDoes) {
   constexpr double growth = .0425, scale = .05 * 2;
   const auto step = [](double y) { return growth * (1 + y); };
@@ -89,8 +89,8 @@ TEST(Planes, StepWhereverTheDepthDoes) {
   EXPECT_LT(low, .02 * static_cast<double>(count));
 }
 
-// A chin: within 3 rho of its edge the front falls by a quarter of an ellipse from .2 to .05 above the back. The
-// step is that of the parts, not that of the rows of points at the wall, which are only .05 apart.
+// A chin: within 3 rho of its edge the front falls by a quarter of an ellipse from 0.2 to 0.05 above the back.
+// The step must follow the depth between both parts, and not the 0.05 between the rows of points at the wall.
 TEST(Planes, StepByTheDepthOfAPartThatTurnsAway) {
   constexpr double top = .2, edge = .05, width = .042, scale = .05 * 2;
   const auto chin = [=](double x) {
@@ -193,7 +193,7 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
 }
 
-// Even if steps get a part of the height, the heights are corrected. The terraces must keep their order.
+// The height correction also applies if steps get a part of the height. The terraces must keep their order.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();

@@ -59,7 +59,7 @@ TEST(Lasso, HasWhatItEnclosesAndMeasuresFromItsEdge) {
   }
 }
 
-// In every view a lasso has the visible part of the same points.
+// A lasso selects the same points of the model in every view, as far as they are visible.
 TEST(Lasso, BelongsToTheModelInEveryView) {
   const Cloud ball = test::sphere(40000, 1);
   const Stroke stroke = lasso_of(ellipse(.5, .3, .85), Vec3::UnitZ());
@@ -82,7 +82,8 @@ TEST(Lasso, BelongsToTheModelInEveryView) {
 }
 
 TEST(Lasso, LeavesOutWhatIsFarBehind) {
-  // The square is .8 deep on the right, and the lasso is as wide as half of that on the left.
+  // The right half of the square lies 0.8 behind the left half. The lasso is 0.4 wide and at the height of
+  // the left half.
   const Surface surface = surface_of(test::height_field(
       40000, 1, [](double x, double) { return x < 0 ? .8 : 0.; }, [](double, double) { return Vec2(0, 0); }));
   const Stroke stroke = lasso_of({{-.2, -.2, .8}, {.2, -.2, .8}, {.2, .2, .8}, {-.2, .2, .8}}, Vec3::UnitZ());

@@ -58,7 +58,7 @@ TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
   std::vector<float> weights(surface.points.size(), 0);
   const StrokeMask mask = stroke_mask(surface, stroke);
   for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
-  const auto nearest = [&](const Vec3& p) {  // from places on the line that are less than a 500th apart
+  const auto nearest = [&](const Vec3& p) {  // distance from points on the line less than 1/500 apart
     double least = 9;
     for (std::size_t i = 1; i < stroke.points.size(); ++i)
       for (int t = 0; t <= 300; ++t)
@@ -241,7 +241,7 @@ TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
     }
 }
 
-// A stroke that grows while it is drawn, beside others that stay, changes the same as when it is made at once.
+// A stroke that grows step by step, beside strokes that stay, must have the same effect as if all were new.
 TEST(StrokeFields, KeepWhatDidNotChangeOnlyForTheSameHeights) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   StrokeFields<double> fields(surface);

@@ -45,7 +45,7 @@ std::vector<double> protect(const Surface& surface, const Stroke& stroke, const 
   return z;
 }
 
-// Under a protected stroke, only a plane lies between the heights before and after the correction.
+// Under a protected stroke, the heights differ from those before the correction only by a plane.
 TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
@@ -130,7 +130,7 @@ TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
   }
   for (Index i = 0; i < z.size(); ++i)
     if (surface.points[i].z() > 0) z[i] += .5;
-  EXPECT_EQ(in_front(surface, stroke, z), z);  // what is in front already stays
+  EXPECT_EQ(in_front(surface, stroke, z), z);  // parts that are in front already stay
 }
 
 Shape painted(const Stroke& stroke) {
@@ -139,7 +139,7 @@ Shape painted(const Stroke& stroke) {
   return shape;
 }
 
-// The parts of the correction that a stroke takes back stay under it.
+// A stroke that takes back a part of the correction changes nothing outside of the stroke.
 TEST(StrokeMoves, ProtectNothingElse) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
   Stroke stroke = dab({-.2, .2, -1.117}, .3);

@@ -95,8 +95,8 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// The first error is 1.02 % with rows of points beside the outlines. With scattered points only, it would be
-// below 1 %.
+// The first error is 1.02 %, because of the rows of points beside the outlines. With scattered points only,
+// it would be below 1 %.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
   const Surface surface = surface_of(bumps_behind_a_ring());
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .012);

@@ -1,4 +1,4 @@
-// Tests depth images in the conventions of different programs, which differ in how they store depths, in the
+// Tests depth images in the conventions of different programs. These differ in how they store depths, in the
 // value where nothing was measured, and in the background behind the figure.
 #include <gtest/gtest.h>
 
@@ -161,7 +161,7 @@ TEST(DepthConventions, EveryPixelHasItsUse) {
     }
 }
 
-// A camera that counts in steps of 10 mm, with a tooth one pixel wide on the figure's upper side.
+// The depths are in steps of 10 mm. A tooth one pixel wide stands on the upper side of the figure.
 TEST(DepthConventions, TeethHaveTheUseOfBlur) {
   DepthImage image{filled_image(120, 90, 0.F), 1, "test"};
   for (int r = 20; r < 90; ++r)
@@ -231,7 +231,7 @@ TEST(DepthConventions, BackgroundIsKeptIfAskedAndInHeightsUnlessAsked) {
   EXPECT_GE(share_used(value_of(depth_cloud(picture(heights, 1, 0), options))), .98);
 }
 
-// The column stands on the floor, so there is no jump all around it.
+// The column extends to the lower edge of the picture, so no jump surrounds it on that side.
 TEST(DepthConventions, FarDepthsAreTakenOutIfAsked) {
   const Convention metres = conventions().front();
   const auto column = [](int c, int r) { return c > 80 && c < 110 && r > 40 ? 2 + .001 * c : 4 - .0001 * r; };

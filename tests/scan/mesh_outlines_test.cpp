@@ -98,7 +98,6 @@ TEST_P(MeshOutlines, OfATorusAreAtTheTubesRadiusFromAnEllipse) {
 constexpr int teeth = 12;
 constexpr double root = .8, tip = 1;
 
-// Returns the distance of a point from the outline of the gear.
 double distance_from_gear(const Vec2& p) {
   const double sector = pi / teeth, angle = std::atan2(p.y(), p.x()) + 2 * pi;
   const bool is_tooth = std::fmod(std::floor(angle / sector), 2) == 0;

@@ -22,7 +22,8 @@ Vec3 ray(std::size_t pixel) {
   return {(c - 47.5) / focal, (r - 35.5) / focal, 1};
 }
 
-// A cloud of a ball of radius .5 at a distance of 2, before nothing, with noise along the rays.
+// The cloud of a ball of radius 0.5 at a distance of 2, with nothing behind it, and with noise along the
+// rays.
 struct Ball {
   Vec3 middle{.1, -.05, 2};
   double radius = .5;
@@ -81,7 +82,7 @@ TEST(SmoothOrganised, GivesNormalsOfTheSurfaceThatFaceTheCamera) {
   EXPECT_GT(seen, 600U);
 }
 
-// Turned about the camera, a cloud becomes the turned result.
+// Rotating a cloud about the camera must rotate the smoothed cloud in the same way.
 TEST(SmoothOrganised, IsTheSameInAnyAttitude) {
   const Mat3 turn = (Eigen::AngleAxisd(2.1, Vec3::UnitX()) * Eigen::AngleAxisd(.4, Vec3::UnitZ())).matrix();
   OrganisedCloud scan = Ball().cloud(.003), turned = scan;
@@ -102,7 +103,7 @@ TEST(SmoothOrganised, LeavesPointsThatAreNoPictureAsTheyAre) {
   OrganisedCloud scattered{{}, width};
   for (std::size_t i = 0; i < width * height; ++i)
     scattered.cloud.points.emplace_back(any(random), any(random), any(random));
-  OrganisedCloud parallel = Ball().cloud(0);  // parallel rays
+  OrganisedCloud parallel = Ball().cloud(0);  // becomes a cloud of parallel rays
   for (std::size_t i = 0; i < parallel.cloud.size(); ++i)
     parallel.cloud.points[i].head<2>() = Vec2(ray(i).head<2>());
   OrganisedCloud ragged = Ball().cloud(0);
@@ -116,7 +117,7 @@ TEST(SmoothOrganised, LeavesPointsThatAreNoPictureAsTheyAre) {
   }
 }
 
-// A camera that counts disparities blurs its outlines; such points go unless they are wanted.
+// Pictures of disparities have blurred outlines. Points of the blur are removed, unless they are to be kept.
 TEST(SmoothOrganised, TakesOutBlurUnlessItIsKept) {
   OrganisedCloud scan{{}, width};
   for (std::size_t i = 0; i < width * height; ++i) {

@@ -18,7 +18,7 @@ Cloud two_buttons(std::size_t n) {
   return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
-// Returns the distances from the model's z axis of the surface points i for which holds(i) is true.
+// Returns the distances of the surface's points from the model's z axis, for the points i with holds(i).
 template <typename Condition>
 std::vector<double> radii(const Surface& surface, Condition holds) {
   std::vector<double> found;
@@ -28,7 +28,7 @@ std::vector<double> radii(const Surface& surface, Condition holds) {
 }
 
 struct Spread {
-  double mean = 0, deviation = 0, farthest = 0;  // of the differences from a given radius, in rho
+  double mean = 0, deviation = 0, farthest = 0;  // differences from a given radius, in rho
 };
 
 Spread spread(const std::vector<double>& radii, double radius, double rho) {
@@ -161,7 +161,8 @@ double width_of(const Surface& surface) {
   return box.size().x();
 }
 
-// From left to right: a sphere, the larger button, and a smaller sphere. None of them is a crumb.
+// From left to right: a sphere, the larger button, and a smaller sphere. None of them is so small that it is
+// left out as a crumb.
 TEST(Outlines, LeaveOutAllButTheLargestPieces) {
   const Cloud button = test::button(40000, 1, .15);
   const Cloud cloud = test::joined(test::joined(button, test::moved(test::sphere(6000, .4), {-1.8, 0, 0})),

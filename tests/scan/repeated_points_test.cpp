@@ -43,7 +43,6 @@ Cloud repeated(const Cloud& cloud, const Repeats& repeats) {
   return all;
 }
 
-// Returns the largest distance of the surface's points from the torus.
 double farthest_from_torus(const Surface& surface) {
   double farthest = 0;
   for (const Vec3& p : surface.points)

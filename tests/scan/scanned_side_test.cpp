@@ -211,7 +211,7 @@ TEST(ScannedSide, IsTheFrontOfScansAlongAnAxis) {
 }
 
 TEST(ScannedSide, IsNeverTheHollowBackWhateverTheAttitude) {
-  const double least_cosine = std::cos(26 * std::numbers::pi / 180);  // 25 degrees is the limit for an axis
+  const double least_cosine = std::cos(26 * std::numbers::pi / 180);  // snaps to an axis within 25 degrees
   std::uint64_t seed = 0;
   for (const Scan& scan : one_sided_scans())
     for (int i = 0; i < 3; ++i) {

@@ -31,7 +31,7 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   const auto seen = [](double half_width, double z) {
     return points_at(*find_surface(window(half_width, z), View{}), z);
   };
-  EXPECT_EQ(seen(.035, -.5), 0U);  // there are about 49 points
+  EXPECT_EQ(seen(.035, -.5), 0U);  // the patch has about 49 points
   EXPECT_GT(seen(.1, -.5), 200U);
   EXPECT_GT(seen(.035, .5), 20U);  // a stud in front of a wall is visible
 }

@@ -54,8 +54,9 @@ TEST(Surface, RefusesACloudThatFacesAway) {
   EXPECT_TRUE(message.contains("--view back or --view auto")) << message;
 }
 
-// A camera at the origin, with its y axis down and its z axis away from the viewer, has scanned the near half
-// of a ball and a little of the other half. In the front view, only that little would be left.
+// A camera at the origin has scanned the near half of a ball and a little of the other half. Its y axis
+// points down, and its z axis away from the viewer. In the front view, only points of the other half would be
+// visible.
 TEST(Surface, NamesTheSideThatWasScanned) {
   const auto is_scanned = [](const Vec3& p) { return p.z() < .2; };
   Cloud scan = test::where(test::sphere(20'000, 1), is_scanned);

@@ -82,7 +82,7 @@ TEST(Visible, SpecksAreRemovedAndCounted) {
   for (int speck = 0; speck < 7; ++speck)
     for (int k = 0; k < 5; ++k) test::add(cloud, {.2 * speck - .6, .001 * k, 1}, Vec3::UnitZ());
   const VisiblePoints found = find_visible(cloud, measure_spacing(cloud));
-  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may also be specks
+  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may also be removed
   EXPECT_EQ(share(found.points, n, cloud.size()), 0);
   EXPECT_GT(share(found.points, 0, n), .999);
 }

@@ -37,7 +37,7 @@ BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   return fit;
 }
 
-// The energy 1/2 x^T H x - f^T x of a problem with dense matrices. For a plate a constant is missing.
+// The energy 1/2 x^T H x - f^T x of a problem with dense matrices. For a plate the constant term is missing.
 struct DenseEnergy {
   Matrix H;
   Vector f;
@@ -85,7 +85,7 @@ TEST(BoundedFit, IsTheSolutionAmongAllSetsOfActiveBounds) {
     }
 }
 
-// The test computes the gap again. The gap must bound the energy of fields that are solved more exactly.
+// The test computes the duality gap again. The gap must bound how much less energy a more exact solution has.
 TEST(BoundedFit, KeepsItsBoundsAndItsTolerance) {
   for (const bool is_plate : {false, true}) {
     const BoundedFit fit = problem(30, 20, is_plate, 5);

@@ -27,7 +27,7 @@ std::vector<float> depths() {
   return depth;
 }
 
-// Returns shares that increase to the right and are 0 in a corner.
+// Returns a share of the pull for each node. The shares increase to the right and are 0 in a corner.
 std::vector<float> shares() {
   std::vector<float> share(nodes);
   for (std::size_t n = 0; n < nodes; ++n)

@@ -20,12 +20,12 @@ struct PictureCamera {
   bool is_pinhole = false;
 
   double metre_px() const { return side / 1.25; }
-  double focal_px() const { return 1.1 * side; }  // the one that is assumed for inverse depths
+  double focal_px() const { return 1.1 * side; }  // the value assumed for inverse depths
 
   DepthCamera as_depth_camera() const { return {focal_px(), focal_px(), (side - 1) / 2., (side - 1) / 2.}; }
 
-  // Maps metres about the figure's middle to the picture: x and y in pixels about its middle, z as depth_cloud() has
-  // it.
+  // Maps a point, in metres from the figure's middle, to the picture: x and y in pixels from its middle, z as in the
+  // clouds of depth_cloud().
   Vec3 map(const Vec3& p) const {
     const double depth = distance_m - p.z();
     if (!is_pinhole) return metre_px() * p;
@@ -59,8 +59,8 @@ inline Cloud in_picture(Cloud cloud, const PictureCamera& camera) {
 
 inline constexpr double no_figure = -std::numeric_limits<double>::infinity();
 
-// Calls visit(pixel, height of the point's tangent plane there, squared distance) for the pixels near each point that
-// faces the viewer.
+// Calls visit(pixel, height of the point's tangent plane at the pixel, squared distance of both) for the pixels near
+// each point that faces the viewer.
 template <typename Visit>
 void visit_pixels(const Cloud& cloud, int side, const Visit& visit) {
   const double middle = (side - 1) / 2.;
@@ -81,8 +81,8 @@ void visit_pixels(const Cloud& cloud, int side, const Visit& visit) {
   }
 }
 
-// Returns the heights that the picture shows: in each pixel the mean of what is nearest to the viewer, in which points
-// count by their distance from the pixel's centre.
+// Returns the heights that the picture shows: in each pixel the mean of the points nearest to the viewer, weighted by
+// their distance from the pixel's centre.
 inline Image<double> heights_in_picture(const Cloud& cloud, int side) {
   constexpr double thickness_px = 1.5, spread_px = .4;
   Image<double> nearest = filled_image(side, side, no_figure);
@@ -102,10 +102,10 @@ struct DepthStorage {
   DepthValues kind = DepthValues::depth;
   double step = 0;                      // 1 for integers, 0 for fractions
   std::function<double(double)> value;  // returns the stored value of a depth
-  bool is_pinhole = false;  // whether the camera is one; if so, metric depths come with its numbers
+  bool is_pinhole = false;              // then metric depths come with its focal length
 };
 
-// The pixels of a depth picture beside its figure.
+// The values of the pixels beside the figure in a depth picture.
 struct BesideFigure {
   double wall_m = 0;  // distance of a slightly tilted wall behind the figure; 0 for none
   float missing = 0;  // the value of pixels without a depth

@@ -35,7 +35,6 @@ double largest_difference(const A& a, const B& b) {
   return largest;
 }
 
-// Returns the root mean square of the differences.
 template <typename A, typename B>
 double root_mean_square(const A& a, const B& b) {
   if (std::size(a) != std::size(b)) return std::numeric_limits<double>::infinity();

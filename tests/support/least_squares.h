@@ -13,8 +13,8 @@
 
 namespace relievo::test {
 
-// The points and edges of (9), and the weights of the points. If there are no weights, all points have weight
-// 1.
+// The points and edges of equation (9), and the weights of the points. If there are no weights, all points
+// have weight 1.
 struct EquationNine {
   std::vector<Vec2> points;
   const Triangulation& mesh;

@@ -59,7 +59,6 @@ inline Mesh button_mesh(double face, double edge, double z, int sides) {
       sides, sides / 2);
 }
 
-// Returns both meshes as one mesh.
 inline Mesh joined(Mesh mesh, const Mesh& other) {
   const auto first = static_cast<Index>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());

@@ -73,8 +73,8 @@ inline std::string packed_column(const std::string& differences, const Widths& w
   return codes + bytes;
 }
 
-// Returns the differences of byte number `byte` of each element from the same byte of the previous element,
-// for the elements from `first` up to but not including `end`.
+// Returns the differences of byte number `byte` of each element from the same byte of the previous element.
+// Covers the elements from `first` up to but not including `end`.
 inline std::string differences_of(const std::string& elements, std::size_t stride, std::size_t byte,
                                   std::size_t first, std::size_t end) {
   std::string stored;

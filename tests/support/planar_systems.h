@@ -63,7 +63,6 @@ inline solver::Graph graph_of(const Sparse& A) {
   return graph;
 }
 
-// Returns the positions in random order.
 inline std::vector<Vec2> shuffled(std::vector<Vec2> positions, std::uint64_t seed = 8) {
   Random random(seed);
   for (std::size_t i = positions.size(); i > 1; --i)

@@ -28,8 +28,8 @@ struct RayCamera {
   }
 };
 
-// Returns the axes after a rotation about the vertical axis, which brings the right side nearer, and a
-// rotation about the horizontal axis, which brings the lower side nearer.
+// Returns the axes after two rotations. The one about the vertical axis brings the right side nearer, the one
+// about the horizontal axis the lower side.
 inline Mat3 axes_after(double yaw_deg, double pitch_deg) {
   const double a = yaw_deg * std::numbers::pi / 180, b = pitch_deg * std::numbers::pi / 180;
   Mat3 yaw, pitch;

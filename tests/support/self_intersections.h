@@ -114,7 +114,6 @@ inline bool intersect(const Corners& s, const Corners& t) {
   return edge_meets(s, t) || edge_meets(t, s);
 }
 
-// A triangle with its bounding box.
 struct BoundedTriangle {
   Corners corners;
   Vec3 min, max;

@@ -115,7 +115,6 @@ inline Cloud without_normals(Cloud cloud) {
   return cloud;
 }
 
-// Returns the same points in the opposite order.
 inline Cloud reversed(Cloud cloud) {
   std::ranges::reverse(cloud.points);
   std::ranges::reverse(cloud.normals);
@@ -138,8 +137,9 @@ inline Cloud joined(Cloud a, const Cloud& b) {
 }
 
 // Returns a square that is tilted by 25 degrees about the y axis, in front of a level sheet. Seen from the
-// front it is 2 * flap_half_width wide. The relief's slopes do not contain the depth between flap and sheet,
-// so the centre of the flap gets the height of the sheet, and its lower half would be below the sheet.
+// front it is 2 * flap_half_width wide. The relief's slopes do not contain the depth between flap and sheet.
+// So the centre of the flap gets the height of the sheet, and the lower half of the flap would be below the
+// sheet.
 inline constexpr double flap_half_width = .5;
 inline Cloud flap_before_a_sheet(std::size_t points = 8000, double distance = 1) {
   const double half = flap_half_width / std::cos(25 * std::numbers::pi / 180);

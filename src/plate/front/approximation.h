@@ -1,5 +1,5 @@
-// A height field over the Delaunay triangulation of points that are added one at a time, with point location and
-// walks along segments. Tested by tests/plate/simplify_test.cpp.
+// Defines a height field over the Delaunay triangulation of points that are added one at a time. It locates
+// points and walks along segments. Tested by tests/plate/simplify_test.cpp.
 #pragma once
 
 #include <optional>
@@ -40,7 +40,6 @@ class Approximation {
   // hull.
   Index across(const Vec2& place, Index t) const;
 
-  // Returns the squared slope of a triangle.
   double slope_sq(Index t) const;
 
   // Returns the height of a triangle's plane at `place`.

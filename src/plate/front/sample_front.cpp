@@ -60,7 +60,7 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   return grid;
 }
 
-constexpr int band_rings = 3;  // number of rings of triangles around creases that keep their points
+constexpr int band_rings = 3;  // rings around creases; they form the band, whose points are kept
 constexpr int most_divisions = 16;
 // Smallest distances, in grid steps. `apart` is the distance from samples to points of the band; half of it
 // applies to samples of quartered squares. `apart_in_band` is the distance between points of the band that
@@ -179,7 +179,7 @@ class Sampler {
       }
   }
 
-  // Divides the edge on which these triangle sides lie, unless none of its triangles is smooth.
+  // Divides the edge on which these triangle sides lie, if at least one of its triangles is smooth.
   void divide_edge(std::span<const TriangleSide> sides) {
     const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
     if (std::ranges::none_of(sides, is_smooth)) return;

@@ -17,9 +17,10 @@ struct FrontSampling {
 };
 
 // Returns a front with the same hull whose points lie on the smooth surface through the given front. Most
-// points lie on a square grid. Near creases the given front's triangles are kept and divided as finely.
-// `is_smooth` marks the smooth triangles; the others stay plane, and creases are the edges between smooth
-// triangles and others. The highest and the lowest point are kept. Errors: kind cancelled.
+// points lie on a square grid. Near creases the given front's triangles are kept, and divided until their
+// edges are about as long. `is_smooth` marks the smooth triangles; the others stay plane, and creases are the
+// edges between smooth triangles and others. The highest and the lowest point are kept. Errors: kind
+// cancelled.
 Result<HeightFieldMesh> sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
                                      const FrontSampling& options, const Progress* progress = nullptr);
 

@@ -20,14 +20,12 @@ float turn_between(const Vec2f& a, const Vec2f& b) {
                    ((1 + a.squaredNorm()) * (1 + b.squaredNorm())));
 }
 
-// Returns whether the curvature over three consecutive cells is even, and larger than facets of this angle
-// show smoothly.
+// Returns whether the curvature over three consecutive cells is even, and too large for facets of this angle.
 bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, float facet_angle) {
   const float turn = turn_between(before, after) / 2, change = turn_between(before + after - middle, middle);
   return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;
 }
 
-// The range of the slopes in a square.
 struct SlopeRange {
   Vec2f least = Vec2f::Constant(std::numeric_limits<float>::infinity()), most = -least;
 

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int most_insertion_rounds = 200;
 constexpr std::size_t grain = 8192;  // points or edges that one task measures
-// The tolerance of triangles that are steeper than allowed. With this tolerance, which is too small for files
-// to store, a triangle is only as steep as the original's triangles, which are within the limit.
+// The tolerance of triangles that are steeper than allowed. It is smaller than files can store, so such
+// triangles are divided until they are only as steep as the original's triangles, which are within the limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
 // A position where a triangle of the approximation exceeds its tolerance: a point of the original, or a
@@ -87,8 +87,8 @@ class Simplifier {
     if (!now_.start()) return fault;
     for (int round = 0; round < most_insertion_rounds; ++round) {
       RELIEVO_CHECK(begin_stage(progress, "simplify", .95));
-      // This happens if almost all points are needed, and points on edges in addition. Then the front itself
-      // has fewer triangles than the approximation.
+      // The approximation becomes as large as the front if it needs almost all points, and points on edges in
+      // addition. Then the front itself is returned.
       if (triangle_count() >= front_.triangles.size()) return SimplifiedMesh{front_, 0};
       std::vector<Candidate> worst = find_worst();
       if (worst.empty()) worst = find_worst_of_all();

@@ -168,7 +168,7 @@ class Flipper {
   }
 
   // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the
-  // neighbour's opposite corner, if the thinner of both triangles gets wider.
+  // neighbour's opposite corner. Does nothing if the thinner of both triangles would not get wider.
   bool flip(Index thin, const Triangle& abc, Index neighbour) {
     const auto [a, b, c] = abc;
     const Triangle& other = front_.triangles[neighbour];

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// The surface, the height of all reliefs, and a function that is called with the parameters and the heights
-// of each relief.
+// What every grid needs. `height` is the height of all reliefs. `add` is called with the parameters of each
+// relief, as text, and with its heights, one per point.
 struct GridInput {
   const Surface& surface;
   const HeightSystem& system;
@@ -88,6 +88,7 @@ Result<void> each_bounded(const GridInput& in) {
   return {};
 }
 
+// A baseline, and the function that adds its reliefs for all parameters of its grid.
 struct BaselineGrid {
   std::string_view name;
   Result<void> (*add_all)(const GridInput&);

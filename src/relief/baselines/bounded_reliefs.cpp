@@ -97,7 +97,8 @@ SheetFit assemble(const Surface& surface, const Sheet& sheet, Rise&& rise) {
 Result<std::vector<double>> solved(SheetFit sheet, double height) {
   std::vector<double> heights(sheet.unknown.size(), 0.0);
   const auto n = static_cast<Eigen::Index>(sheet.free_points.size());
-  // A level surface has no slopes. The solver's rounding errors would be scaled up to the relief's height.
+  // A level surface has no slopes. Without this test, rounding errors of the solver would be scaled up to the
+  // relief's height.
   if (n == 0 || sheet.fit.load.cwiseAbs().maxCoeff() <= 1e-9 * height) return heights;
   sheet.fit.lowest = Eigen::VectorXd::Zero(n), sheet.fit.highest = Eigen::VectorXd::Constant(n, height);
   RELIEVO_TRY(const solver::BoundedFitResult found, solver::minimise(sheet.fit, tolerance));
@@ -147,7 +148,7 @@ Result<std::vector<double>> bounded_heights(const Surface& surface, double heigh
                             const Vec2 step = (surface.points[a] - surface.points[b]).head<2>();
                             return (slope(a) + slope(b)).dot(step) / 2;
                           });
-  fit.fit.mass.resize(0);  // a membrane, not a plate
+  fit.fit.mass.resize(0);  // no second derivatives: a membrane, not a thin plate
   return solved(std::move(fit), height);
 }
 

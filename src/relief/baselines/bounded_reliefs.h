@@ -34,9 +34,9 @@ namespace relievo {
 // reproduces less of the shading.
 Result<std::vector<double>> mimicking_heights(const Surface& surface, double height);
 
-// An ablation of the layered method: even compression by (5) with the same weight w_k at all points, then
-// equation (9) under the bounds of the height. It has no layers, no height correction and no near order.
-// `weight` is w_k, in [0, 1].
+// An ablation of the layered method. It applies even compression by equation (5), with the same weight w_k at
+// all points, and then equation (9) under the bounds of the height. It has no layers, no height correction,
+// and no forces for the order of depths. `weight` is w_k, in [0, 1].
 Result<std::vector<double>> bounded_heights(const Surface& surface, double height, double weight);
 
 }  // namespace relievo

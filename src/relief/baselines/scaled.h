@@ -1,4 +1,4 @@
-// Functions that several baselines use.
+// Declares functions that several baselines use.
 #pragma once
 
 #include "relievo/relief/baselines.h"

@@ -26,18 +26,20 @@ constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 // Nodes are free if their coverage is above `least_coverage`. They have a lower limit if their coverage is
 // above `limited_coverage`. Nearer to the silhouette heights rise steeply, so the limits of neighbouring
-// nodes would differ widely. There the ties keep the field up instead.
+// nodes would differ widely. There the ties, springs along the silhouette, hold the field instead.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
 // The least tension, as a share of the tension inside. It continues the field smoothly outside the
 // silhouette.
 constexpr float least_tension = .1F;
-// The stiffness of a tie, per length of silhouette in cells; the unit is the tension across a cell.
+// The stiffness of a tie is this value times the length of silhouette in its cell, in cell widths. The unit
+// is the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// The forces that keep the near order (docs/decisions/near-order.md). `pair_distances` are the distances of
-// paired nodes, as shares of the longer side. If the depths of a pair differ by d, as a share of the depth
-// range, the nearer node should be higher by `largest_step` * tanh(d / `large_difference`) of the relief's
-// height. `order_stiffness` is in units of the tension across a cell of `cell_size`. The forces fade out at
-// the silhouette, where the relief stands off the base anyway.
+// The forces that keep nearer parts higher than farther parts beside them, the near order
+// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer
+// side. If the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher
+// by `largest_step` * tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of
+// the tension across a cell of `cell_size`. The forces fade out at the silhouette, where the relief stands
+// off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
@@ -170,7 +172,6 @@ std::vector<float> depth_of(const Surface& surface, const Lattice& lattice) {
   return depth;
 }
 
-// Returns the highest minus the lowest depth.
 float depth_range(const Surface& surface) {
   if (surface.points.empty()) return 0;
   const auto [low, high] = std::ranges::minmax(surface.points, {}, [](const Vec3& p) { return p.z(); });
@@ -263,9 +264,9 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   const std::span<Real> z = heights.values;
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
-  // (9) gives height 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. The few
-  // points that stay below the base are raised to it. Otherwise the scaling below would take their depth from
-  // all other heights.
+  // Equation (9) gives height 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. The
+  // few points that stay below the base are raised to it. Otherwise the scaling below would take their depth
+  // from all other heights.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));

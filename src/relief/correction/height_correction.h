@@ -1,5 +1,5 @@
-// The height correction: a smooth field that compresses the heights of a layered relief to the height asked
-// for.
+// Computes the height correction: a smooth field that compresses the heights of a layered relief to the
+// height asked for.
 #pragma once
 
 #include <span>
@@ -29,9 +29,9 @@ struct HeightLimits {
 //
 // b is given at the nodes of a lattice with cells of 0.7 % of the longer side, or wider cells if points are
 // sparse. The limits at the nodes leave room for the heights between them. The energy pulls near parts in
-// front of farther parts beside them (near order). Along the silhouette, ties hold b at 0 and do not let it
-// fall below the planes. The lattice continues beyond the silhouette, so that b does not depend on the
-// position of the silhouette between nodes.
+// front of farther parts beside them (near order). Along the silhouette, springs (solver::Tie) pull b to 0,
+// and keep it above HeightLimits::planes of the height. The lattice continues beyond the silhouette, so that
+// b does not depend on the position of the silhouette between nodes.
 //
 // Const calls may run concurrently if each has its own workspace. Results are the same bits for any number of
 // threads.

@@ -1,4 +1,4 @@
-// Soft clipping of the few highest and deepest points of a relief, which would otherwise use up much of the
+// Softly clips the few highest and deepest points of a relief, which would otherwise use up much of the
 // height.
 #pragma once
 

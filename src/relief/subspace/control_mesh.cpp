@@ -92,9 +92,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns 6 times the area of each point: of a third of each of its triangles inside the relief. Scans have
-// more points per area of the view plane where the surface is steep, so an unweighted mean over points would
-// give slopes that are too steep.
+// Returns 6 times the area of each point: the sum of a third of each of its triangles inside the relief.
+// Scans have more points per area of the view plane where the surface is steep, so an unweighted mean over
+// points would give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (const Triangle corners : triangles_inside(surface)) {
@@ -117,8 +117,8 @@ std::vector<Index> nearest_control_points(const Surface& surface, const ControlP
   return nearest;
 }
 
-// Divides the region into parts of equal area, and picks the point at the middle of each. Neighbouring points
-// follow each other in the order, so the parts are compact.
+// Divides the region into parts of equal area, and picks the point at the middle of each. The points of a
+// region are in the order of the surface, in which neighbours follow each other, so the parts are compact.
 void sample(std::span<const Index> region, std::span<const double> share, std::span<Index> samples) {
   double total = 0, sum = 0;
   for (const Index i : region) total += share[i];
@@ -154,7 +154,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // remains if the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // remains so if the region has no area
     sample(members[c], share, own);
   }
   return samples;

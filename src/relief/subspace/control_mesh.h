@@ -1,4 +1,4 @@
-// The triangulation of the control points, and samples of the surface for each control point.
+// Triangulates the control points, and samples the surface around each of them.
 #pragma once
 
 #include <vector>

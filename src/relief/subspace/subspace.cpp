@@ -142,7 +142,7 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c, the heights of the control points
 }
 
-// The reference height is too small as a divisor below a thousandth of the height range. There the ratio
+// Below a thousandth of the height range the reference height is too small as a divisor. There the ratio
 // fades to the common ratio of all control points.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
