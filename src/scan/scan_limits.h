@@ -1,5 +1,5 @@
-// Limits that decide which points of a scan are visible, which holes are closed, and which small parts are
-// removed. They apply to the full surface and to the coarse one of a turned model.
+// Defines limits that decide which points of a scan are visible, which holes are closed, and which small parts are
+// removed. They apply to the full surface and to the coarse one that is shown while the model is turned.
 #pragma once
 
 namespace relievo {

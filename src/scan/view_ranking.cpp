@@ -85,7 +85,8 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns how much of a side is an outside: from the signs of its normals or, without signs, from its shape.
+// Returns a factor for the rank of a side that is small if the side is a hollow back: from the signs of the normals
+// or, without signs, from the shape.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   if (has_signs) return seen.facing_share;
   return seen.outside < 0 ? perhaps_hollow : 1;

@@ -40,8 +40,8 @@ class Visibility {
     std::vector<Index> visible = in_front(facing);
     std::size_t removed = mark_fragments(visible);
     if (removed > 0) {
-      // Without the fragments other points become visible. New fragments among these points are removed, but
-      // the search is not repeated again.
+      // Without the fragments other points become visible. Fragments among these are removed, too, but then the
+      // search ends.
       leave_out_fragments(facing);
       visible = in_front(facing);
       removed += mark_fragments(visible);
@@ -96,8 +96,8 @@ class Visibility {
     return points;
   }
 
-  // Unless the pixels move, because fragments lie outside the box of the other points, only those where fragments
-  // were drawn change.
+  // Removes the fragments from the points and the buffer. If the box of the points shrinks, the buffer's pixels move
+  // and all points are drawn again; otherwise only the places where fragments were drawn are.
   void leave_out_fragments(Facing& facing) const {
     std::vector<Disc> gone;
     Box box;

@@ -7,9 +7,9 @@
 namespace relievo {
 namespace {
 
-// A background covers at least `least_border` of the image's border, and at least `least_jumps` of its
-// contacts with the figure are depth jumps. If missing values are more than `most_missing` of the figure's
-// contacts, the missing pixels are its background.
+// A background covers at least `least_border` of the image's border, and at least `least_jumps` of its contacts with
+// the figure are depth jumps. If more than `most_missing` of the figure's contacts are with missing pixels, these
+// pixels are its background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
 constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
 // Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
@@ -26,7 +26,7 @@ constexpr int none = -1;
 // A part of the image, separated from other parts by depth jumps.
 struct Part {
   std::size_t points = 0, border = 0;
-  // Contacts in which this part is in front; contacts in which it is behind.
+  // `before`: contacts with other parts in which this part is in front; `behind`: those in which it is behind.
   std::size_t before = 0, behind = 0;
   float nearest = -std::numeric_limits<float>::infinity();
 };
@@ -113,7 +113,7 @@ std::vector<float> sorted_heights(const DepthGrid& grid, const GridMask& mask, b
   return heights;
 }
 
-// Counts the evidence for and against a background.
+// Counts the contacts that speak for and against a background.
 class Evidence {
  public:
   Evidence(const DepthGrid& grid, const GridMask& is_rear) : grid_(grid), is_rear_(is_rear) {
@@ -131,8 +131,7 @@ class Evidence {
  private:
   bool is_figure(std::size_t i) const { return grid_.bounds.is_known[i] && !is_rear_[i]; }
 
-  // Counts the contact between grid point i, if it belongs to the figure, and its neighbour opposite to
-  // `inwards`.
+  // If grid point i belongs to the figure, counts its contact with the neighbour on the side opposite to `inwards`.
   void look(const GridLine& line, int i, int inwards) {
     const std::size_t beside = line.at(i - inwards);
     if (!is_figure(line.at(i))) return;
@@ -142,8 +141,8 @@ class Evidence {
     jumps_ += is_jump(line, i, inwards);
   }
 
-  // Returns whether the heights between the background and some point of the figure rise several times as
-  // steeply as behind that point.
+  // Returns whether, at some point of the figure, the mean slope from the background up to this point is several
+  // times as steep as the slope beyond it.
   bool is_jump(const GridLine& line, int i, int inwards) const {
     const float ground = grid_.height[line.at(i - inwards)];
     for (int k = 1; k <= widest_outline; ++k, i += inwards) {

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper slopes are usually jumps.
+// Neighbours belong to one surface up to this slope, 76 degrees. Steeper slopes are usually jumps.
 constexpr float steepest = 4;
 // Noise grows with depth. So the pixels are sorted by depth and divided into this many equal bins, and the
 // noise of each is measured separately.

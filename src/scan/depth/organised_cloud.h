@@ -1,4 +1,4 @@
-// Organised clouds of depth cameras whose points are the pixels of a picture.
+// Smooths organised clouds of depth cameras, whose points are the pixels of a picture.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@ struct OrganisedCloud {
   bool keeps_blur = false;
 };
 
-// The result of smooth_organised(), for remarks.
+// The result of smooth_organised(), for remarks to the user.
 struct OrganisedSmoothing {
   double noise = 0;      // median uncertainty of a depth, in pixels
-  std::size_t blur = 0;  // number of points that lay between two levels; they are NaN now
+  std::size_t blur = 0;  // number of points that were blur between two surfaces; they are NaN now
 };
 
 // Smooths an organised cloud as depth_cloud() smooths a depth image: its points move along their rays, and get

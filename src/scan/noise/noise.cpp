@@ -22,8 +22,8 @@ constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours
 // distribution with 15 degrees of freedom, about as many as a fit leaves.
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho; clean scans with fine details scatter up to this much
-// The scatter of normals that a point scatter of one sampling distance causes at least. It was measured for
-// normals estimated from 16 neighbours on spheres and planes.
+// Noise of one sampling distance makes estimated normals scatter by at least this much. It was measured for normals
+// estimated from 16 neighbours on spheres and planes.
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {

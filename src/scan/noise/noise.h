@@ -36,9 +36,9 @@ struct NoiseRemoval {
 // cancelled.
 CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal, const Progress* progress);
 
-// Returns the points, ascending, that may be visible in a view once noise is removed, and those around them that
-// their curvature depends on: points that face the viewer, or nearly do, and three rings of neighbours.
-// `towards_viewer` is a unit vector. If it is 0, all points are returned.
+// Returns the points that may be visible in a view once noise is removed, and those around them on which their
+// curvature depends: points that face the viewer or are turned away by little, and three rings of neighbours. Indices
+// ascend. `towards_viewer` is a unit vector. If it is 0, all points are returned.
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing);
 

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// A point as a disc in view coordinates; the unit is a cell, the origin the grid's corner.
+// A point drawn as a disc in view coordinates. The unit is the width of a cell, the origin the corner of the grid.
 struct FrontDisc {
   // Radius, in spacings, of the discs that hide points behind them.
   static constexpr float hiding_radius{ScanLimits::disc_radius};
@@ -24,7 +24,7 @@ struct FrontDisc {
   float spacing;
 };
 
-// The rows of one band. After each row there is space for the last vector of cells that a disc covers.
+// The rows of one band. Each row has extra space at its end, because discs are drawn eight cells at a time.
 class DiscBand {
  public:
   DiscBand(int columns, int first_row, int rows);
@@ -190,7 +190,7 @@ FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
           box.least + size.cwiseProduct(most.cast<float>())};
 }
 
-// Per band of rows: the discs that touch it, of one block of points.
+// The discs of one block of points, per band of rows: entry b has the discs that touch band b.
 using Bands = std::vector<std::vector<FrontDisc>>;
 
 class FrontDrawing {

@@ -1,4 +1,4 @@
-// Surfaces of about 18,000 points, from which reliefs are made while the user turns the model. Tested by
+// Makes surfaces of about 18,000 points, from which reliefs are made while the user turns the model. Tested by
 // tests/scan/turning_test.cpp.
 #pragma once
 
