@@ -1,4 +1,4 @@
-// A square lattice over the view plane, for quantities that change slowly over the points.
+// Represents quantities that change slowly over the points by a square lattice over the view plane.
 #pragma once
 
 #include <array>

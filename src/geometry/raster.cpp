@@ -9,8 +9,8 @@ namespace {
 
 constexpr int steps_per_pixel = 256;
 
-// Rounds a coordinate to steps; it must be at least -1 pixel. Truncation is faster than rounding, but rounds
-// only positive numbers correctly. Hence the shift by 1 pixel.
+// Rounds a coordinate to steps of 1 / steps_per_pixel. The coordinate must be at least -1 pixel: truncation is faster
+// than rounding, but rounds only positive numbers correctly, so the coordinate is shifted by 1 pixel.
 int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
@@ -26,7 +26,7 @@ std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
 
-// A linear function of the pixel, not negative inside the triangle. Its values are integers below 2^53, so
+// A linear function of the pixel that is not negative inside the triangle. Its values are integers below 2^53, so
 // doubles are exact.
 struct EdgeFunction {
   double value;  // value at the centre of column 0 of the current row
@@ -99,8 +99,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether the triangle lies between neighbouring rows or columns of pixel centres. Most triangles of
-// a fine scan do, and this test reads few of their bytes.
+// Returns whether the triangle fits between two neighbouring rows or columns of pixel centres, so that it covers
+// none. Most triangles of a fine scan do, and this test reads few bytes of memory for each.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -113,8 +113,8 @@ bool Rasterizer::is_facing(const Triangle& triangle) const {
   return cross < 0;  // y points down: triangles that the viewer sees counter-clockwise are negative here
 }
 
-// Returns the rows of pixel centres between the triangle's corners. A centre at the height of the lowest
-// corner belongs to another triangle.
+// Returns the rows whose pixel centres are between the triangle's corners. Centres at the height of its lowest corner
+// are not included; they belong to other triangles.
 Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   const auto [top, bottom] =
       std::minmax({cells_[triangle[0]].row, cells_[triangle[1]].row, cells_[triangle[2]].row});
@@ -138,7 +138,7 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<std::vector<InBands>> covering_in(blocks);
-  // Per block and band: first the number of triangles, later the position at which the next one is stored.
+  // Per block and band: first the number of triangles, later the position in triangles_ for the next one.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     covering_in[begin / block] = covering(begin, end);

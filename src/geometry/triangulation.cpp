@@ -19,7 +19,7 @@ namespace relievo {
 namespace {
 
 constexpr Index infinity = no_index;
-constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 2 n triangles of 4 slots each, in 32 bits
+constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 32 bits number 4 slots of 2 n triangles
 
 constexpr Index next(Index e) {
   return (e & 3) == 2 ? e - 2 : e + 1;
@@ -169,7 +169,7 @@ void DelaunayBuilder::append_triangle(Index t, const std::vector<Index>& numbers
   to.neighbours.push_back(neighbours);
 }
 
-// Visits the ghosts around the vertex at infinity.
+// Returns the corners of the hull, by visiting the ghosts around the vertex at infinity.
 std::vector<Index> DelaunayBuilder::hull() const {
   std::vector<Index> vertices;
   Index e = 0;

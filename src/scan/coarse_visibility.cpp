@@ -11,8 +11,8 @@ namespace relievo {
 namespace {
 
 constexpr double cells_along_diagonal = 160;
-// The weights of three indications that a visible side is the outside of an object, not the hollow back of a scan. With
-// these weights, the front of every generated one-sided scan of the tests is distinguished from its back; each
+// The weights of three indications that a visible side is the outside of an object, not the hollow back of a scan.
+// With these weights, the front of every generated one-sided scan of the tests is distinguished from its back; each
 // indication alone fails for some scans. See docs/decisions/best-view.md.
 constexpr double outline_weight = 2, crease_weight = .5, ground_weight = .6;
 
@@ -78,8 +78,8 @@ class Grid {
     return cells ? static_cast<double>(thin_cells) / static_cast<double>(cells) : 0;
   }
 
-  // Returns the weighted sum of the three indications of an outside. For the same surface, seen from behind, the sum has
-  // the opposite sign.
+  // Returns the weighted sum of the three indications of an outside. For the same surface, seen from behind, the sum
+  // has the opposite sign.
   double outside() const {
     return outline_weight * signed_share(1) - crease_weight * signed_share(3) + ground_weight * ground_mark();
   }
