@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// With this u or more, all weights are exactly 1.
+// All weights are exactly 1 for this u (the coefficient in (6)) and above.
 constexpr double uncompressed_u = 1e12;
 
 // While the picture moves, viewers do not notice when heights are scaled by up to this share.
@@ -104,7 +104,7 @@ Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
     const Method method = options.effective_method();
     if (!has_shape(method))
       return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
-    // While a model is turned, its coarse surface is used for all methods.
+    // While a model is turned, all methods use its coarse surface.
     if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
     RELIEVO_TRY(ReliefOptions sized, with_width(options));
     sized.height_mm = sized.effective_height_mm();
@@ -194,7 +194,7 @@ Result<PlacedRelief> LiveModel::draw_on_plate(const LiveFrame& made, const Relie
                                               const Progress* progress) {
   RELIEVO_CHECK(relievo::check(options));
   if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
-  ReliefOptions quick = options;  // keeps the draft, which the rim's bevel needs
+  ReliefOptions quick = options;  // the draft angle stays, because the rim's bevel depends on it
   quick.tolerance_mm = quick.triangles = std::nullopt;
   quick.tool = std::nullopt;
   quick.finish = Finish::full;
