@@ -1,4 +1,4 @@
-// Normal space compression (section 3.3), equations (5) to (7).
+// Computes the weights and expected normals of normal space compression (section 3.3), equations (5) to (7).
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace relievo::paper {
 
-// The coefficients of height and saturation, and two constants.
+// The coefficients of (6), for height and saturation, and two constants.
 struct Coefficients {
   // u = alpha^-beta replaces alpha in (6). It gives the same weights; with beta = 0, where alpha has no
   // effect, it can still give every height. Infinity corresponds to alpha = 0.
