@@ -313,10 +313,10 @@ class ShapePointMaker {
   double least_;  // least distance between points of levels and ridges
   NumberedPoints near_;
   std::vector<std::vector<Ray>> loops_;
-  std::vector<std::vector<std::optional<double>>> ridges_;  // per loop and ray, see ridge_of()
+  std::vector<std::vector<std::optional<double>>> ridges_;  // per loop and ray: distance, see ridge_of()
   std::set<Cell> near_ridges_;                              // the cells at and around ridges
   std::map<CornerKey, Index> feet_;
-  std::vector<std::vector<Index>> feet_of_;            // per loop and ray
+  std::vector<std::vector<Index>> feet_of_;            // per loop and ray: the index of its foot
   std::vector<std::vector<std::vector<Index>>> tops_;  // per loop and ray: the points above its foot
   ShapePoints made_;
 };

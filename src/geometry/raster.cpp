@@ -17,7 +17,7 @@ int snap(double pixels) {
 
 // Returns the first pixel whose centre is at or after `steps`.
 int first_centre(int steps) {
-  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel, so it is shifted before dividing
+  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel; one is added before dividing
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
@@ -69,7 +69,7 @@ Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
 // The plane of a triangle as a function of the pixel. Heights are limited to the range of the corners, so
 // that slivers cause no spikes.
 struct DepthPlane {
-  double value = 0, per_column = 0, per_row = 0;  // value at the image's corner
+  double value = 0, per_column = 0, per_row = 0;  // `value` is that at the image's corner
   double lowest = 0, highest = 0;
 };
 

@@ -161,7 +161,7 @@ template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
   const Vec2 edge = b - a;
-  // Position of the projection of s onto the edge.
+  // The position of the projection of s onto the edge, as a share of the edge.
   const double foot = (s - a).dot(edge) / edge.squaredNorm();
   const double along_a = -(1 - foot), along_b = -foot;
   const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;

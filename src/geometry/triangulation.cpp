@@ -19,7 +19,8 @@ namespace relievo {
 namespace {
 
 constexpr Index infinity = no_index;
-constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 32 bits number 4 slots of 2 n triangles
+// 2 n triangles with 4 slots each, so that 32 bits can number all slots.
+constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;
 
 constexpr Index next(Index e) {
   return (e & 3) == 2 ? e - 2 : e + 1;

@@ -43,7 +43,7 @@ class NormalEquations {
   explicit NormalEquations(solver::Cholesky factor) : factor_(std::move(factor)) {}
 
   solver::Cholesky factor_;
-  std::vector<Vec2f> steps_;  // per point p: sum of the steps to its neighbours q
+  std::vector<Vec2f> steps_;  // per point p: sum of the steps from its neighbours q
   Groups<Row> rows_;          // the rows of (8), grouped by q
 };
 

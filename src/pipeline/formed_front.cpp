@@ -189,7 +189,7 @@ Result<FormedFront> full_front(const Surface& surface, const Relief& relief, con
   if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
   if (options.mm_per_value) {
     raise_walls(made.front, surface);
-    is_smooth.resize(made.front.triangles.size());  // walls are plane
+    is_smooth.resize(made.front.triangles.size());  // the walls were added at the end; they are not smooth
     if (options.outline == Outline::none) made.front.is_relief.resize(is_smooth.size(), 1);
   }
   RELIEVO_TRY(made.front, sampled(std::move(made.front), surface, is_smooth, options, progress));

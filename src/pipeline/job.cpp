@@ -48,7 +48,7 @@ struct LiveModel::State {
   std::optional<FrameRenderer> renderer;  // empty before the first picture
   std::vector<float> gains;               // gains of the last frame
   Frame frame, highest;
-  std::optional<FrameOptions> made;  // options of the frame; empty before the first one
+  std::optional<FrameOptions> made;  // options of `frame`; empty before the first one
   LiveFrame last;
 
   std::shared_ptr<const ToneCurve> curve;  // curve of the last frame that had one

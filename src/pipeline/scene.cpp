@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // in units of the height to which all models are scaled
+constexpr double gap = .08, widest = 1.5;  // distance and largest width of models, in their common heights
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");

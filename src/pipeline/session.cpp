@@ -24,7 +24,8 @@ Cloud thinned(const Cloud& cloud, std::size_t most) {
   const double share = static_cast<double>(most) / static_cast<double>(cloud.size());
   const std::vector<Index> erased = indices_where(cloud.size(), [&](Index i) {
     double whole = 0;
-    return std::modf(std::numbers::phi * i, &whole) >= share;  // multiples of phi are even modulo 1
+    // Modulo 1, multiples of phi are distributed evenly.
+    return std::modf(std::numbers::phi * i, &whole) >= share;
   });
   return erase_points(cloud, erased);
 }

@@ -16,7 +16,7 @@ class SurfaceMeasures {
   explicit SurfaceMeasures(const Surface& surface);
 
   struct Fray {
-    double silhouette_deg = 0, jump_deg = 0;  // 0 if no such outline has 25 triangles
+    double silhouette_deg = 0, jump_deg = 0;  // 0 if no outline of that kind has 25 triangles
   };
 
   // Returns how much the tilt of the triangles beside an outline varies along it: the standard deviation of their

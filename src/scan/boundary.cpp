@@ -20,7 +20,7 @@ constexpr double gap = 3;
 // Returns the unit in which the radius of a triangle's empty circle is measured: the smallest spacing of its corners
 // if all three are sparse, else rho.
 double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {
-  constexpr double sparse = 2;  // in rho
+  constexpr double sparse = 2;  // in rho; a larger spacing is sparse
   if (spacing.empty()) return rho;
   const auto least = static_cast<double>(std::min({spacing[t[0]], spacing[t[1]], spacing[t[2]]}));
   return least > sparse * rho ? least : rho;

@@ -128,7 +128,7 @@ std::optional<Vec3> scan_direction(const Cloud& cloud, NormalSigns signs, bool i
 // Returns the width of the part of the object that touches the ground, as a share of the object's width, in a view
 // with these x and y axes.
 double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
-  constexpr double foot = .03;  // share of the height
+  constexpr double foot = .03;  // share of the height; points below it belong to the foot
   constexpr std::size_t most_points = 20'000;
   std::array<bool, 16> is_stood_on{};
   const std::size_t step = 1 + cloud.size() / most_points;

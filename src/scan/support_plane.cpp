@@ -27,9 +27,9 @@ constexpr double first_tolerance =
 // widens the tolerance, until it exceeds this share and the plane is rejected.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
-constexpr double widest_angle_deg = 30;  // between a plane and the normals of its points, which are noisy
-constexpr double least_share = .08;      // share of the points; smaller planes do not disturb a relief
-constexpr double least_figure = .02;     // points in front of the plane, as a share of all points
+constexpr double widest_angle_deg = 30;  // between a plane's normal and those of its points, which are noisy
+constexpr double least_share = .08;      // least share of points on the plane; smaller planes do not disturb
+constexpr double least_figure = .02;     // least share of the points in front of a plane
 // The most points behind the plane, as a share of all points that are not on it.
 constexpr double most_behind = .1;
 // Of the points in front of the plane, at least this share must be above the hull of the points on it.
@@ -40,7 +40,7 @@ constexpr double least_rise = .2;
 // The least z of the plane's normal. A plane seen edge-on covers nothing.
 constexpr double least_plane_facing = .1;
 constexpr double steepest_table_deg =
-    65;  // between a table's normal and the view's up direction; cameras look down on tables
+    65;  // largest angle between a table's normal and "up" in the view; cameras look down on tables
 
 struct Plane {
   Vec3 normal = Vec3::UnitZ();

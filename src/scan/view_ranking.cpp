@@ -56,7 +56,7 @@ Sides sides_around(const Side& front) {
 // Returns the area of the bounding box of the lowest points along an axis (or along its opposite), as a share
 // of the whole box's area. Both areas are perpendicular to the axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
-  constexpr double foot = .03;  // share of the height
+  constexpr double foot = .03;  // share of the height; points within it belong to the foot
   const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];
   Box low;
   for (const Vec3& p : cloud.points)

@@ -92,7 +92,7 @@ class MinimumDegree {
   std::vector<Index> outside_;  // vertices adjacent to the piece, ascending
   std::vector<std::uint64_t>
       sets_;  // per vertex of the piece: its neighbours, first within the piece, then in outside_
-  std::vector<Index> degree_;  // no_index once eliminated
+  std::vector<Index> degree_;  // number of remaining neighbours; no_index once eliminated
   std::size_t words_ = 0;
 };
 

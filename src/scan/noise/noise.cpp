@@ -27,8 +27,8 @@ constexpr double least_noise = .12;  // in rho; clean scans with fine details sc
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {
-  double points;   // in rho
-  double normals;  // in radians, per component
+  double points;   // scatter of the points, in rho (sampling distances)
+  double normals;  // scatter of each component of the normals, in radians
 };
 
 // Returns the indices of a point, its neighbours and their neighbours, each one once.

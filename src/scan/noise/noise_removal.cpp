@@ -22,7 +22,7 @@ constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 
 constexpr double least_deviation = to_radians(8),
                  more_deviation = to_radians(30);  // normals: the greater of 8 degrees and 30 degrees * noise
 constexpr float facing = .2F;  // least cosine between the normals of neighbours on the same side of a wall
-constexpr double stiffness = .01;  // keeps the field almost constant if the neighbours are collinear
+constexpr double stiffness = .01;  // keeps the fitted normals almost constant if the neighbours are collinear
 constexpr std::size_t lanes = 8;
 
 // Eight vectors: positions in units of the radius, or unit normals.
@@ -220,7 +220,7 @@ CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& remov
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing) {
   constexpr float least_facing =
-      -.1F;  // cosine of 96 degrees; of points beyond, few are turned to the viewer by removing noise
+      -.1F;  // cosine of 96 degrees; removing noise turns few points beyond this to the viewer
   constexpr std::uint8_t rings = 3;  // rings of neighbours; they reach farther than the fits of curvature
   std::vector<std::uint8_t> level(normals.size(), 0);
   for (std::size_t i = 0; i < normals.size(); ++i)

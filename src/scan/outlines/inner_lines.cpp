@@ -21,7 +21,7 @@ constexpr double least_step = .3;  // in rho; a line with a smaller mean step is
 // The least distance of lines from each other and from outlines. Closer lines would leave too few points between
 // them.
 constexpr double apart = 2;
-constexpr std::size_t least_points = 4;  // on each side of a line
+constexpr std::size_t least_points = 4;  // least number of points on each side of a line
 // A line may begin at an edge of a triangle if the cosine between the normals at the two ends of the edge is
 // below this.
 constexpr float bent_below = .75F;
@@ -83,7 +83,7 @@ class ChangeFinder {
  private:
   // Four points around a place. Unused entries have no weight.
   struct FourSamples {
-    Double4 x = {}, y = {};  // from the place, as a share of the radius
+    Double4 x = {}, y = {};  // position relative to the place, in units of the radius
     Double4 weight = {}, is_left = {};
     Double4 n_x = {}, n_y = {}, n_z = {}, z = {};
   };
@@ -115,7 +115,7 @@ class ChangeFinder {
     Mat3 moments = Mat3::Zero(), products = Mat3::Zero();
     Vec3 normal = Vec3::UnitZ();  // fitted normal at the position of the line
     double of_normals = 0, around_mean = 0;
-    double depths = 0, squared_depths = 0;  // in rho
+    double depths = 0, squared_depths = 0;  // weighted sums, in rho
 
     Part operator+(const Part& other) const {
       Part sum;
@@ -345,7 +345,7 @@ class LineFinder {
 
   // Returns whether a position is near an earlier part of its own line.
   bool returns(const std::vector<Vec2>& places, const Vec2& to) const {
-    constexpr std::size_t latest = 8;  // number of latest positions that may be near
+    constexpr std::size_t latest = 8;  // the last positions, which are always near, are not tested
     for (std::size_t k = 0; k + latest < places.size(); ++k)
       if ((places[k] - to).norm() < apart * rho_) return true;
     return false;

@@ -7,8 +7,8 @@
 namespace relievo {
 namespace {
 
-constexpr double widest_break = 4;     // in rho
-constexpr double likeness = .5;        // least cosine between any two of both ends' directions and the gap
+constexpr double widest_break = 4;     // widest gap that is closed, in rho
+constexpr double likeness = .5;        // least cosine between the directions of both ends and of the gap
 constexpr std::size_t end_points = 4;  // number of points that give the direction of an end
 
 // A place where a jump begins or ends, and the jump's direction there.
@@ -86,7 +86,7 @@ class JumpJoiner {
 
   std::vector<OutlineCurve>& outlines_;
   double rho_;
-  std::vector<Index> next_, previous_;  // per outline; no_index for none
+  std::vector<Index> next_, previous_;  // per outline: the next and the previous one; no_index for none
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 constexpr double piece_length = .5;
 constexpr double just_beyond =
     1e-3;                         // in pixels; distance from an edge at which the surface behind it is sought
-constexpr double least_jump = 1;  // in pixels
+constexpr double least_jump = 1;  // least depth difference at a jump, in pixels
 
 // An edge that has more triangles on its left than on its right, as seen by the viewer.
 struct ContourEdge {

@@ -14,7 +14,7 @@ namespace {
 using Value = SideInterpolation::Value;
 using Numbers = Double4;  // depth in rho, n_x, n_y, curvature
 
-constexpr double window = 3;                            // in rho
+constexpr double window = 3;                            // largest distance of samples, in rho
 constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a sample's weight is halved
 constexpr double stiffness = .001;                      // keeps fits to few points regular
 constexpr double other_face = .35;  // least difference of (n_x, n_y) between the two faces at a crease

@@ -55,7 +55,7 @@ constexpr int lanes = 8;
 // Radius, in spacings, of the discs that average normals. With 1.5, discs of scattered points leave a
 // thousandth of the surface uncovered.
 constexpr float mean_radius = 1.5F;
-constexpr float least_mean_radius = .8F;  // in cells
+constexpr float least_mean_radius = .8F;  // least radius, in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
@@ -156,8 +156,8 @@ void DiscBand::write(FrontCells& cells) const {
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws
-constexpr float least_cell = .6F;       // in spacings; smaller cells would show no more detail
-constexpr float steepest = 20;          // slope of a disc
+constexpr float least_cell = .6F;       // least width, in spacings; smaller cells would show no more detail
+constexpr float steepest = 20;          // largest slope of a disc
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct FlatBox {
