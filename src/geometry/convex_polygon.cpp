@@ -16,7 +16,6 @@ struct Line {
   double offset = 0;
 };
 
-// Returns the intersection of two lines.
 Vec2 crossing(const Line& a, const Line& b) {
   const double sine = cross(a.normal, b.normal);
   return Vec2(a.offset * b.normal.y() - b.offset * a.normal.y(),

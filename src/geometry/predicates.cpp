@@ -89,9 +89,8 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   if (is_upright_rectangle(a, b, c, d)) return 0;
-  // Shewchuk's incircle() in three stages. The first computes exactly with the rounded differences; its sign
-  // is final if no difference was rounded. The second adds a first-order correction. The third is fully
-  // exact.
+  // This is Shewchuk's incircle() in three stages. The first computes exactly with the rounded differences; its sign
+  // is final if no difference was rounded. The second adds a first-order correction. The third is fully exact.
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();

@@ -41,7 +41,7 @@ void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::
   const bool is_reflex = cross(before, after) < 0;
   const double turn = std::acos(std::clamp(before.dot(after), -1.0, 1.0));
   if (!is_reflex && opening < least_opening) return rays.push_back({corner, Vec2::Zero()});
-  // The direction is longer than 1, so that t is the distance from the lines of both sides.
+  // The length of the direction is more than 1, so that t is the distance from the lines of both sides.
   if (!is_reflex || turn < fan_step)
     return rays.push_back({corner, (before + after) / opening, false, turn > fan_step});
   const int steps = static_cast<int>(std::ceil(turn / fan_step));

@@ -26,7 +26,7 @@ Vec2 triangle_slope(const PlaneMesh& field, const Triangle& triangle, std::span<
 double steepest_of(const PlaneMesh& field, std::span<const double> heights);
 
 // Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: the free corners of
-// a triangle that is too steep move until it is flat enough, with the least sum of squares of their moves. A
+// a triangle that is too steep are moved so that it is flat enough and the sum of squares of the moves is least. A
 // projection changes neighbouring triangles, so projections are repeated. This is meant for a few steep triangles.
 // With Rounding::single_precision every height is representable as a float. Returns whether it succeeded; if not,
 // some triangles are still too steep.

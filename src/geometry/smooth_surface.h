@@ -17,7 +17,6 @@ namespace relievo {
 // range of the slopes of the triangles at the point.
 class SmoothSurface {
  public:
-  // The height and slope of the surface at a position.
   struct Sample {
     double height = 0;
     Vec2 slope = Vec2::Zero();

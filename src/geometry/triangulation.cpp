@@ -1,12 +1,11 @@
-// Incremental construction. Points are inserted one by one, coarse samples first, and within each round along
-// a Hilbert curve. So the triangle that contains a point is only a few steps from the previous one. After
-// each insertion edges are flipped until all circumcircles are empty again (C. L. Lawson, "Software for C1
+// Builds a Delaunay triangulation incrementally. Points are inserted one by one, coarse samples first, and within
+// each round along a Hilbert curve. So the triangle that contains a point is only a few steps from the previous one.
+// After each insertion edges are flipped until all circumcircles are empty again (C. L. Lawson, "Software for C1
 // Surface Interpolation", 1977).
 //
-// Outside the hull there are ghost triangles, one on each hull edge, with a common vertex at infinity. The
-// circle of a ghost is the open half-plane outside its edge, plus the edge itself. Triangles and ghosts
-// together form a closed surface, so that the hull needs no special cases: a point outside or on a hull edge
-// is inserted like any other.
+// Outside the hull there are ghost triangles, one on each hull edge, with a common vertex at infinity. The circle of
+// a ghost is the open half-plane outside its edge, plus the edge itself. Triangles and ghosts together form a closed
+// surface, so that the hull needs no special cases: a point outside or on a hull edge is inserted like any other.
 #include "relievo/geometry/triangulation.h"
 
 #include <algorithm>

@@ -18,20 +18,20 @@ struct Coefficients {
   double boundary_width = 2;  // width of the boundary in (7), in rho
 };
 
-// Equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of |k|; if it is 0,
-// all points get the weight for beta = 0.
+// Returns the weight w_k of equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of
+// |k|; if it is 0, all points get the weight for beta = 0.
 inline double curvature_weight(double k, double delta, const Coefficients& c) {
   if (c.u == std::numeric_limits<double>::infinity()) return 1;
   const double power = delta > 0 ? std::pow(std::abs(k) / delta, c.beta) : 1;
   return 1 - std::exp(-c.u * power);
 }
 
-// Equation (7): 1 - exp(-(distance / width)^2). The paper's width is 2 rho.
+// Returns the weight w_b of equation (7): 1 - exp(-(distance / width)^2). The paper's width is 2 rho.
 inline double boundary_weight(double distance, double width) {
   return 1 - std::exp(-(distance / width) * (distance / width));
 }
 
-// Equation (5), with w = w_k w_b.
+// Returns the expected normal of equation (5), with w = w_k w_b.
 inline Vec3 expected_normal(const Vec3& normal, double w) {
   return w * normal + (1 - w) * Vec3::UnitZ();
 }

@@ -104,7 +104,7 @@ Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
     const Method method = options.effective_method();
     if (!has_shape(method))
       return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
-    // While a model is turned, all methods use its coarse surface.
+    // A model that is being turned has `detail`. Its coarse surface serves all methods, so it needs no check.
     if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
     RELIEVO_TRY(ReliefOptions sized, with_width(options));
     sized.height_mm = sized.effective_height_mm();

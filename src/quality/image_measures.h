@@ -67,9 +67,9 @@ double correlation(const Image<float>& a, const Image<float>& b, const PixelMask
 // no such pairs.
 double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 
-// Does the same as order_kept() for pairs whose distance is between these shares of the picture's longer side,
-// because people compare depths along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief:
-// pictorial and otherwise).
+// Does the same as order_kept() for pairs whose distance is between these shares of the picture's longer side. People
+// compare depths along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief: pictorial and
+// otherwise).
 inline constexpr double nearest_near_pair = .03, farthest_near_pair = .1;
 double near_order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 

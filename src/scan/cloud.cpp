@@ -12,7 +12,6 @@ Box bounds(const Cloud& cloud) {
 
 namespace {
 
-// Returns the median of each coordinate.
 Vec3 median_of(const Cloud& cloud) {
   Vec3 middle;
   parallel_for(

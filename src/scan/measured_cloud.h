@@ -24,7 +24,6 @@ class MeasuredCloud {
 
   const View& view() const { return view_; }
 
-  // A cloud, and the k-d tree of its points.
   struct Scan {
     Cloud cloud;
     std::unique_ptr<const KdTree<Vec3>> tree;
@@ -81,7 +80,8 @@ class MeasuredCloud {
 // Returns the surface that a view shows, like find_surface() of a cloud. `measured.serves(view)` must be true.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
-// Returns the same surface. Frees the cloud as soon as it is not needed any more, unless it has other owners.
+// Returns the surface that a view shows. Frees the cloud as soon as it is not needed any more, unless it has other
+// owners.
 Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
                              Progress* progress = nullptr);
 

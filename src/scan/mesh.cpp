@@ -189,8 +189,8 @@ class Sampler {
   }
 
   // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. Goes from that
-  // pixel towards the other one, and adds the point at the last fine pixel that shows the mesh, unless this is next
-  // to the centre of the first pixel. seen_at(i) returns the triangle that is visible i fine pixels after the first
+  // pixel towards the other one, up to the last fine pixel that shows the mesh. Adds the point there, unless that is
+  // next to the centre of the pixel. seen_at(i) returns the triangle that is visible i fine pixels after the first
   // pixel.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {

@@ -23,8 +23,8 @@ constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
     .01;  // share of the diagonal of the visible points' box; covers a depth camera's noise across a table
-// The largest tolerance, as a share of the same diagonal. If the points are not concentrated near a plane, each fit
-// widens the tolerance, until it exceeds this share and the plane is rejected.
+// The largest tolerance, as a share of the diagonal of the visible points' box. If the points are not concentrated
+// near a plane, each fit widens the tolerance, until it exceeds this share and the plane is rejected.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
 constexpr double widest_angle_deg = 30;  // between a plane's normal and those of its points, which are noisy

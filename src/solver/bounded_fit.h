@@ -33,8 +33,8 @@ struct BoundedFitResult {
   int steps = 0;  // number of factorisations
 };
 
-// Ends when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100 steps. Errors:
-// those of Cholesky::factor(), also if the tolerance is below the level of rounding errors.
+// Minimises the energy. Stops when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100
+// steps. Errors: those of Cholesky::factor(), also if the tolerance is below the level of rounding errors.
 Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

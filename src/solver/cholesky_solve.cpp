@@ -224,8 +224,8 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& 
   const int most_steps = 6;  // each step gains about seven digits; two suffice unless A is ill-conditioned
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
-    // Each step reduces the residual by about the same rate, so it is known without computing it that it is small
-    // enough.
+    // All steps reduce the residual by about the same factor. If the next residual is small enough by this estimate,
+    // it need not be computed.
     if (rate * last < enough) break;
     const double now = refinement.find_residual(b);
     if (!(now < last / 4)) break;

@@ -256,8 +256,8 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     // A node of level l represents 4^l nodes of the finest level.
     Springs here = springs;
     here.order.stiffness *= static_cast<float>(1 << 2 * l);
-    // A coarse cell has one tie with the sum of the stiffnesses of several ties. The sweeps would not converge with
-    // it, so the factors of the ties are reduced.
+    // The tie of a coarse cell has the sum of the stiffnesses of several ties. With this stiffness the sweeps would
+    // not converge, so the factors of the ties are reduced.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);

@@ -17,7 +17,7 @@ struct Springs {
   float tie_stiffness = 1;  // factor of the ties, >= 0
   // The least value of b at ties, below which a second force pulls b upwards.
   float least_at_ties = -std::numeric_limits<float>::infinity();
-  float stop_stiffness = 10;  // factor of the second force, >= 0
+  float stop_stiffness = 10;  // factor of the force towards least_at_ties, >= 0
   OrderLimits order = {};
 };
 

@@ -12,7 +12,7 @@ std::vector<Index> inverse(std::span<const Index> order) {
   return place;
 }
 
-// Returns the elimination tree: the parent of a column is the first row below its diagonal, including fill.
+// Returns the elimination tree: the parent of a column is the first row below its diagonal, including fill. Uses
 // Liu's algorithm (1990), with path compression in `ancestor`.
 std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> order,
                                     std::span<const Index> place) {

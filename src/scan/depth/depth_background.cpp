@@ -64,8 +64,8 @@ class Parts {
   }
 
  private:
-  // Only neighbours with similar heights belong to the same part. A criterion that allowed ever steeper
-  // slopes would connect the figure with its background across a blurred outline.
+  // Only neighbours with similar heights belong to the same part. If the allowed slope grew along a path, a blurred
+  // outline would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());
@@ -191,7 +191,7 @@ GridMask far_group(const DepthGrid& grid) {
     if (between > best && heights[i] > heights[i - 1]) best = between, split = i;
   }
   const double variance = total_sq / n - total / n * (total / n);
-  // With less than 70 % of the variance between the groups, there is no clear gap.
+  // If the variance between the groups is less than 70 % of the whole variance, no clear gap separates them.
   if (split == 0 || best < .7 * variance) return is_far;
   const float threshold = (heights[split] + heights[split - 1]) / 2;
   std::size_t border = 0, far_border = 0;

@@ -204,7 +204,8 @@ bool GridLine::continues(int i, int next) const {
 bool GridLine::is_smooth(int i) const {
   if (!has_step(i)) return false;
   if (grid.is_near(at(i), at(i + 1))) return true;
-  // With the noise of depth cameras, jumps could seem to continue a slope.
+  // For depth cameras, a steep step never counts as the continuation of a slope, because a jump with noise beside it
+  // can look like one.
   return !grid.is_sensor && (continues(i, i - 1) || continues(i, i + 1));
 }
 

@@ -22,7 +22,6 @@ constexpr double farthest_depth = 1e5;
 // smaller distance suffices if it is the largest value of its type.
 constexpr double widest_gap = 100;
 
-// The two lowest and the two highest values.
 struct Extremes {
   double lowest = infinite, second = infinite, last_but_one = -infinite, highest = -infinite;
 

@@ -23,8 +23,9 @@ struct OrganisedSmoothing {
 };
 
 // Smooths an organised cloud as depth_cloud() smooths a depth image: its points move along their rays, and get
-// normals that face the camera. Returns nothing, and leaves the cloud as it is, unless it has at least 4 x 4 pixels
-// without normals and its points lie on the rays of a pinhole camera at the origin, in any direction.
+// normals that face the camera. The cloud must have at least 4 x 4 pixels and no normals, and its points must lie on
+// the rays of a pinhole camera at the origin, in any direction. Otherwise returns nothing and leaves the cloud as it
+// is.
 std::optional<OrganisedSmoothing> smooth_organised(OrganisedCloud& scan);
 
 }  // namespace relievo

@@ -17,9 +17,9 @@ constexpr std::size_t enough_places = 4000;
 constexpr std::size_t fewest_places = 100;
 // The largest number of points in two_rings(): a point, its neighbours, and their neighbours.
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
-// The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile
-// to the standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square
-// distribution with 15 degrees of freedom, about as many as a fit leaves.
+// The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile to the
+// standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square distribution with 15
+// degrees of freedom. A fit leaves about so many.
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho; clean scans with fine details scatter up to this much
 // Noise of one sampling distance makes estimated normals scatter by at least this much. It was measured for normals

@@ -36,7 +36,6 @@ struct Neighbours {
   Float8 deviation_sq = {};  // squared distance of each normal from the last fit's normal
 };
 
-// An orthonormal frame of a normal (the axis) and two tangents.
 struct Frame {
   Vec3f axis, t1, t2;
 

@@ -145,8 +145,8 @@ class ChangeFinder {
       constexpr double share = .1;  // weight of the squared scatter of depths relative to that of normals
       return share * std::max(0.0, squared_depths - depths * depth());
     }
-    // Both return the sum of the squared deviations of normals and of depths. misfit() takes the deviations of
-    // normals from the fit, scatter() from their mean.
+    // misfit() returns the sum of the squared deviations of the normals from their fit and of the depths from their
+    // mean. scatter() uses the deviations of the normals from their mean instead.
     double misfit() const { return of_normals + of_depths(); }
     double scatter() const { return around_mean + of_depths(); }
   };

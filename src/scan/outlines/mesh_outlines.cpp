@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// In pixels; edges are divided into pieces of this length, each of which is visible or hidden.
+// The length, in pixels, of the pieces into which edges are divided. Each piece is visible or hidden as a whole.
 constexpr double piece_length = .5;
 constexpr double just_beyond =
     1e-3;                         // in pixels; distance from an edge at which the surface behind it is sought

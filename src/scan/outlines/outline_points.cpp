@@ -287,7 +287,7 @@ bool outlines_replace_points(Surface& surface, PointMeasures& measures,
 
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines) {
-  // Without outlines these triangles stay.
+  // If there are no outlines, the flags that the search for outlines has changed are restored.
   std::vector<std::uint8_t> is_inside = surface.boundary.is_inside;
   if (!outlines_replace_points(surface, measures, known_outlines))
     surface.boundary.is_inside = std::move(is_inside);

@@ -126,7 +126,7 @@ struct Sides {
   Index from(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 1) % 3]; }
   Index to(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 2) % 3]; }
 
-  // Returns the same side as a side of the neighbouring triangle; no_index on the hull.
+  // Returns the number that the same edge has as a side of the neighbouring triangle; no_index on the hull.
   Index twin(Index side) const {
     const Index other = surface.triangulation.neighbours[side / 3][side % 3];
     if (other == no_index) return no_index;
@@ -140,7 +140,7 @@ struct Sides {
     return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
   }
 
-  // Returns the next boundary side around the same component.
+  // Returns the side that follows on the boundary of the same component of inside triangles.
   Index next_boundary(Index side) const {
     Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
     while (!is_boundary(turn)) {
@@ -243,7 +243,7 @@ class JumpLines {
       if (count == 3 ? depth(corners[i]) > depth(corners[alone]) : !jumps[i]) alone = i;
     const Index after = (alone + 1) % 3, before = (alone + 2) % 3;
     const double z = depth(corners[alone]), u = depth(corners[after]), v = depth(corners[before]);
-    // Side from `alone` to `after`; side from `before` to `alone`.
+    // `leaving` is the side from `alone` to `after`, `arriving` the side from `before` to `alone`.
     const Index leaving = 3 * t + before, arriving = 3 * t + after;
     if (z > u && z > v) link(leaving, arriving);
     if (z < u && z < v) link(arriving, leaving);

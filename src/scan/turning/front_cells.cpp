@@ -59,8 +59,8 @@ constexpr float least_mean_radius = .8F;  // least radius, in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
-// For eight cells of a row: the squared distance in the view plane from a disc's centre to the cells'
-// centres, and the height of the disc's plane above the disc's centre there.
+// Two values for each of eight cells of a row: the squared distance in the view plane from a disc's centre to the
+// cell's centre, and the height of the disc's plane at the cell's centre above the disc's centre.
 struct Steps {
   Float8 distance_sq, rise;
 };

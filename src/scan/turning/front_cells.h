@@ -1,5 +1,6 @@
-// Draws the visible side of a cloud on a grid of square cells over the view plane: a fast image of depths and
-// normals, from which reliefs are made while the user turns the model. Tested by tests/scan/turning_test.cpp.
+// Draws the visible side of a cloud on a grid of square cells over the view plane. The result is a fast image of
+// depths and normals, from which reliefs are made while the user turns the model. Tested by
+// tests/scan/turning_test.cpp.
 #pragma once
 
 #include <limits>
