@@ -173,7 +173,7 @@ struct Strip {
 void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
   line.resize(strip.n);
   for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
-  // Double, so that values that left the box leave no visible rounding errors.
+  // The sums are doubles, so that values that left the box leave no visible rounding errors.
   std::array<double, lanes> sum{};
   const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
   const auto add = [&](std::ptrdiff_t i, double sign) {

@@ -143,7 +143,7 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 // triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
-  // The square of a share: if a smaller share of the change is along the edge, the result tends to 0.
+  // The square of a share of the change. If the share that is along the edge is smaller, the result tends to 0.
   constexpr double least_along = .05;
   constexpr double most_share = 1.5;  // shares much larger than this are noise; they are reduced
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);

@@ -18,7 +18,7 @@ namespace relievo {
 namespace {
 
 constexpr Index infinity = no_index;
-// 2 n triangles with 4 slots each, so that 32 bits can number all slots.
+// n points give 2 n triangles with 4 slots each. With this limit, 32 bits can number all slots.
 constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;
 
 constexpr Index next(Index e) {

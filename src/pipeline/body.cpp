@@ -48,8 +48,7 @@ BaseOptions formed_base(const ReliefOptions& options) {
   return base;
 }
 
-// Returns the rim for the form in the options. The angle of the default bevel to the vertical is at least the draft
-// angle.
+// Returns the rim for the form in the options. The default bevel keeps the draft angle unless the rim is too narrow.
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
@@ -113,7 +112,7 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-// Returns an error if the requested bevel is closer to the vertical than the draft angle allows.
+// Returns an error if the rim's bevel is closer to the vertical than the draft angle allows.
 Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
   const RimOptions rim = formed_rim(options, height_mm);

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// All weights are exactly 1 for this u (the coefficient in (6)) and above.
+// From this value of u, the coefficient in equation (6), all weights are exactly 1.
 constexpr double uncompressed_u = 1e12;
 
 // While the picture moves, viewers do not notice when heights are scaled by up to this share.

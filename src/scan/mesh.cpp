@@ -67,7 +67,7 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
     if (!looks_away) return;
     std::swap(corners[1], corners[2]);
     std::swap(normals[1], normals[2]);
-    // The file's normals may be right even if the order of the corners is wrong.
+    // Normals that agree with the old order of the corners are reversed, too. Otherwise only the order was wrong.
     if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
       for (Vec3f& n : normals) n = -n;
   });

@@ -67,8 +67,8 @@ double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   return share;
 }
 
-// Returns the front of an upright model: +Z, with Y upwards. If the model has a much wider foot there, the
-// front is -Y with Z upwards, or -Z with -Y upwards as in the coordinates of cameras.
+// Returns the front of an upright model. Usually it is +Z, with Y upwards. If the model has a much wider foot at its
+// least z, the front is -Y with Z upwards; if at its largest y, -Z with -Y upwards, as in the coordinates of cameras.
 Side front_of(const Cloud& cloud) {
   constexpr double wide = .3, wider = 3;
   const Box box = bounds(cloud);

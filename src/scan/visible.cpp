@@ -19,14 +19,14 @@ constexpr double pixel_side = 0.5;  // width of the depth buffer's pixels, in rh
 constexpr double coincidence_distance = .01;
 // Connected sets of fewer visible points count as floating noise.
 constexpr std::size_t smallest_fragment = 32;
-// In local spacings. Neighbours farther apart are not connected. A disc of this radius contains 9 pi = 28
+// Neighbours farther apart than this, in local spacings, are not connected. A disc of this radius contains 9 pi = 28
 // points.
 constexpr double connection_length = 3;
 // A set is a fragment only if it has fewer points than the number of visible points divided by this.
 // Otherwise all of a small cloud would be fragments.
 constexpr std::size_t fragment_divisor = 8;
-// In rho: the largest local spacing of points that may become hole-fill points, because only densely sampled
-// surfaces supply them, and the least distance between hole-fill points.
+// Lengths in rho. Only points with at most the first local spacing may become hole-fill points, because only densely
+// sampled surfaces supply them. The second is the least distance between hole-fill points.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {

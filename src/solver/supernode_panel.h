@@ -1,6 +1,6 @@
 // Provides the dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal method, and on
-// panels, the dense parts of W for one supernode, by which substitutions multiply. Tested by
-// tests/solver/cholesky_test.cpp.
+// panels. The panel of a supernode is its dense part of the inverted factor W, by which substitutions multiply.
+// Tested by tests/solver/cholesky_test.cpp.
 //
 // A panel consists of strips of eight columns. Each strip begins at its own first row, because a supernode is lower
 // triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are stored in blocks of eight,

@@ -177,8 +177,7 @@ GridMask far_group(const DepthGrid& grid) {
   GridMask is_far(grid.height.size(), 0);
   const std::vector<float> heights = sorted_heights(grid, is_far, false);
   if (heights.size() < 16) return is_far;
-  // Otsu's method: the threshold with the largest variance between the groups, hence the least variance
-  // within them.
+  // Finds the threshold by Otsu's method: the variance between the groups is largest, hence that within them least.
   double sum = 0, total = 0, total_sq = 0;
   for (const float h : heights) total += double{h}, total_sq += double{h} * double{h};
   const auto n = static_cast<double>(heights.size());

@@ -108,7 +108,7 @@ class Merging {
       has_one_normal = has_one_normal && (!cloud_.has_normals() || cloud_.normals[i] == cloud_.normals[j]);
     }
     to_.points.push_back(cloud_.points[i]);
-    // The mean of equal normals would differ from them by rounding.
+    // Equal normals are kept, because their mean would differ from them by rounding.
     if (cloud_.has_normals())
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());
