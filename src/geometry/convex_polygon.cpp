@@ -16,7 +16,6 @@ struct Line {
   double offset = 0;
 };
 
-// Returns the intersection of two lines.
 Vec2 crossing(const Line& a, const Line& b) {
   const double sine = cross(a.normal, b.normal);
   return Vec2(a.offset * b.normal.y() - b.offset * a.normal.y(),
@@ -24,14 +23,14 @@ Vec2 crossing(const Line& a, const Line& b) {
          sine;
 }
 
-// Returns the length of a side between its neighbours. It is negative if the neighbours intersect each other
-// before they reach the side.
+// Returns the length of a side from its intersection with one neighbour to that with the other. It is negative if the
+// neighbours intersect each other before they reach the side.
 double length_of(const Line& before, const Line& side, const Line& after) {
   const Vec2 along(-side.normal.y(), side.normal.x());
   return (crossing(side, after) - crossing(before, side)).dot(along);
 }
 
-// Removes the sides that vanish. A removal changes the lengths of the neighbouring sides, so the search goes
+// Removes the sides that are too short. A removal changes the lengths of the neighbouring sides, so the search goes
 // back by one side. The loop ends after a whole round without a removal.
 void drop_short(std::vector<Line>& lines) {
   for (std::size_t i = 0, good = 0; good < lines.size() && lines.size() > 3;) {

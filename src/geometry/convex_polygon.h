@@ -1,4 +1,4 @@
-// Convex polygons in the plane, with counter-clockwise corners.
+// Insets convex polygons in the plane, and tests whether places are inside. Corners are counter-clockwise.
 #pragma once
 
 #include <span>

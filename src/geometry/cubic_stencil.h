@@ -1,5 +1,5 @@
-// Uniform cubic B-splines in the plane, evaluated at a SplinePlace, which stores the position within a cell
-// in 16 bits per axis. Section 3.1 of Lee, Wolberg and Shin, 1997. Tested by tests/geometry/spline_test.cpp.
+// Evaluates uniform cubic B-splines in the plane (section 3.1 of Lee, Wolberg and Shin, 1997) at a SplinePlace, which
+// stores the position within a cell in 16 bits per axis. Tested by tests/geometry/spline_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace relievo {
 
 using CubicRow = Eigen::Array4f;
 
-// Convert a position within a cell, in [0, 1), to the 16 bits of a SplinePlace, and back.
+// packed_share() converts a position within a cell, in [0, 1), to the 16 bits of a SplinePlace; the next function
+// converts it back.
 inline std::uint16_t packed_share(float t) {
   return static_cast<std::uint16_t>(std::clamp(t * 65536 + .5F, 0.F, 65535.F));
 }

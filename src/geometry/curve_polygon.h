@@ -12,7 +12,7 @@ namespace relievo {
 // Builds closed outlines from the commands of a pen, and approximates curves by polygons within the
 // tolerance.
 class CurvePolygons {
-  static constexpr double most_steps = 100;  // limit for one curve
+  static constexpr double most_steps = 100;  // most line segments for one curve
 
  public:
   explicit CurvePolygons(double tolerance) : tolerance_(tolerance) {}
@@ -38,7 +38,8 @@ class CurvePolygons {
 
   void cubic_to(const Vec2& c, const Vec2& d, const Vec2& p) {
     const Vec2 from = pen();
-    // With equal steps, the error is at most an eighth of the squared step times the second derivative.
+    // With equal steps of the curve's parameter, the error is at most an eighth of the squared step times the second
+    // derivative.
     const double bend = 6 * std::max((from - 2 * c + d).norm(), (c - 2 * d + p).norm());
     const int steps =
         static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8 * tolerance_))), 1.0, most_steps));

@@ -1,4 +1,4 @@
-// A Delaunay triangulation to which points are added one by one. delaunay() uses it, too. Tested by
+// Builds a Delaunay triangulation to which points are added one by one. delaunay() uses it, too. Tested by
 // tests/geometry/triangulation_test.cpp and tests/plate/simplify_test.cpp.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace relievo {
 
 class DelaunayBuilder {
  public:
-  // Keeps a reference to `points`, to which points may be added later. `names` are the indices of these
-  // points in the result.
+  // Keeps a reference to `points`, to which points may be added later. names[i] is the index that points[i] has in
+  // the result.
   DelaunayBuilder(const std::vector<Vec2>& points, std::vector<Index> names)
       : points_(points), names_(std::move(names)) {}
 
@@ -61,7 +61,7 @@ class DelaunayBuilder {
   // A side of a triangle, from `origin` counter-clockwise to the next corner.
   struct HalfEdge {
     Index origin;
-    Index twin;  // the same side in the neighbouring triangle
+    Index twin;  // the half-edge of the same side in the neighbouring triangle
   };
 
   bool is_ghost(Index e) const {

@@ -1,4 +1,4 @@
-// The edges of triangles; each edge comes with the triangle sides on it.
+// Iterates over the edges of triangles, each with all triangle sides on it.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// Exact arithmetic on doubles. A number is represented by a sum of doubles, an expansion. Source: J. R.
-// Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
+// Computes exactly with doubles. A number is represented by a sum of doubles, an expansion. Source: J. R. Shewchuk,
+// "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
 //
-// The arithmetic is exact if nothing overflows or underflows, doubles round to nearest even, and the compiler
-// neither contracts nor reassociates (-ffp-contract=off, no -ffast-math).
+// The arithmetic is exact if nothing overflows or underflows, doubles round to nearest even, and the compiler neither
+// contracts nor reassociates (-ffp-contract=off, no -ffast-math).
 #pragma once
 
 #include <array>
@@ -80,7 +80,7 @@ class Expansion {
   }
 
  private:
-  // One more, because append() also writes a zero, although it does not count it.
+  // The array has one more element, because append() writes even a zero, although it does not count it.
   std::array<double, capacity + 1> components_;
   std::size_t size_;
 };

@@ -12,14 +12,14 @@
 namespace relievo {
 namespace {
 
-// A node with its length along the curve.
+// A node of the curve, with its position along the curve as a length.
 struct Sample {
   double length;
   Vec2 place;
   double weight;
 };
 
-// Samples in the order of their length along the curve. On a closed curve the samples repeat periodically.
+// The samples in the order of their length along the curve. If the curve is closed, they repeat periodically.
 class Course {
  public:
   Course(std::vector<Sample> samples, double begin, double end, bool is_closed)
@@ -62,10 +62,10 @@ struct Corner {
   double length;
   Vec2 place;
   double turn;
-  Vec2 before = {}, after = {};  // points on its two sides
+  Vec2 before = {}, after = {};  // points on the two sides of the corner
 };
 
-// The part of a course that a fit may use: from one corner to the next, or all of the course if there are no
+// The part of a course whose samples a fit may use: from one corner to the next, or all of the course if there are no
 // corners.
 struct CurveSection {
   double from = -1e300, to = 1e300;
@@ -214,11 +214,11 @@ Side side_of(const Course& course, double at, double from, double to) {
           std::sqrt(misfit / spread / static_cast<double>(count - 2))};
 }
 
-// Returns the corner between two sides of equal length; its turn is 0 if there is no corner. At a corner the
-// sides turn by more than their curvature and the scatter of their samples explain.
+// Returns the corner between two straight sides of equal length; its turn is 0 if there is no corner. There is a
+// corner if the direction turns by more than the sides' curvature and the scatter of their samples explain.
 Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
   constexpr double least_turn = std::numbers::pi / 4, most_turn = 110 * std::numbers::pi / 180;
-  constexpr double sure = 3;  // in standard deviations
+  constexpr double sure = 3;  // in standard deviations of the turn
   const double skip = .5 * options.spacing, roughest = .6 * options.spacing;
   const Side before = side_of(course, at, at - reach, at - skip),
              after = side_of(course, at, at + skip, at + reach);
@@ -232,8 +232,8 @@ Corner corner_between(const Course& course, double at, double reach, const FairC
   return {at, before.point + share * before.direction, turn, before.point, after.point};
 }
 
-// Returns the corner at a length; its turn is 0 if there is no corner. Long sides are tried first, because
-// they determine the corner's position best.
+// Returns the corner at a length along the course; its turn is 0 if there is no corner. Long sides are tried first,
+// because they determine the corner's position best.
 Corner corner_at(const Course& course, double at, const FairCurveOptions& options) {
   for (const double windows : {4.0, 2.3, 1.3}) {
     const Corner corner = corner_between(course, at, windows * options.window, options);
@@ -256,8 +256,8 @@ double distance_from_line(const Vec2& place, std::span<const Vec2> line) {
   return nearest;
 }
 
-// Returns whether, up to scatter, the samples near a corner are as close to its sides as to the smooth curve.
-// At the tip of a round shape they are not, because its sides intersect beyond the tip.
+// Returns whether the samples near a corner are about as close to its sides as to the smooth curve. At the tip of a
+// round shape they are not, because the sides intersect beyond the tip.
 bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> drawn, double window) {
   constexpr double scatter = 12;  // ratio of squared distances; corners of noisy gears reach 10
   const auto n = static_cast<std::ptrdiff_t>(drawn.size());

@@ -15,9 +15,9 @@ struct CurveNode {
 
 struct FairCurveOptions {
   double spacing = 1;  // distance between the curve's points
-  // Half the length of curve that each point is fitted to; a larger window gives a smoother curve.
+  // Half the length of the part of the curve to which each point is fitted. A larger window gives a smoother curve.
   double window = 4;
-  double corner_window = window;  // the same for the curve on which corners are looked for
+  double corner_window = window;  // window of the curve on which corners are sought
 };
 
 struct FairCurve {

@@ -74,8 +74,8 @@ class EdgeHolder {
     return turn(a, b, u) * turn(a, b, v) < 0 && turn(u, v, a) * turn(u, v, b) < 0;
   }
 
-  // Collects the edges that the segment from a to b crosses. Returns false if it meets a point or a held
-  // edge.
+  // Collects the edges that the segment from a to b crosses. Returns false if the segment meets a point or an edge
+  // that must be kept.
   bool collect(Index a, Index b, std::deque<EdgeEnds>& crossed) const {
     EdgeOfTriangle side =
         around(a, [&](const EdgeOfTriangle& s) { return is_crossing(a, b, corner(s, 1), corner(s, 2)); });

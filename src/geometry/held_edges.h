@@ -1,4 +1,4 @@
-// Constrained triangulations, which have given edges, such as the walls of letters.
+// Computes constrained triangulations, which contain given edges, such as the walls of letters.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace relievo {
 
 using EdgeEnds = std::array<Index, 2>;
 
-// A triangulation, and for each wanted edge whether the triangulation has it.
+// A triangulation, and for each wanted edge whether the triangulation contains it.
 struct HeldTriangulation {
   Triangulation mesh;
   std::vector<std::uint8_t> is_held;

@@ -1,4 +1,4 @@
-// Space-filling orders: points that follow each other in the order are close to each other.
+// Sorts points along space-filling curves, so that points that follow each other are close to each other.
 #pragma once
 
 #include <span>

@@ -14,7 +14,7 @@ namespace {
 constexpr int block = 32;  // number of samples computed together, in registers
 constexpr float least = -std::numeric_limits<float>::infinity();
 
-// The image inside a frame of -infinity, so that windows can be read without bounds checks.
+// The image with a frame of -infinity around it, so that windows can be read without bounds checks.
 struct Framed {
   int frame, stride, rows;
   std::vector<float> values;
@@ -101,8 +101,8 @@ struct WindowRow {
   int x, y, away, width;
 };
 
-// Returns the largest horizontal distance from the block at which a value of the row, minus the shape's
-// height, can exceed `lowest`; -1 if no value can.
+// Returns the largest horizontal distance from the block at which a value of the row, minus the height of the shape
+// there, can exceed `lowest`; -1 if no value can.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -113,8 +113,8 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// Returns the largest number of rows from the block at which a value, minus the shape's height, can exceed
-// `lowest`; -1 if no value can.
+// Returns the largest vertical distance from the block, in rows, at which a value, minus the height of the shape
+// there, can exceed `lowest`; -1 if no value can.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;
@@ -134,9 +134,9 @@ RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowR
   for (int dx = -width; dx <= width; ++dx) take(sums, middle + dx, profile.at(std::abs(dx), row.away));
 }
 
-// Computes the block of samples that begins at x, y of the framed image. Begins with the middle row of the
-// window. The maxima of that row limit the distance at which a larger value can lie, so rows and columns
-// beyond this distance are skipped.
+// Computes the block of samples that begins at x, y of the framed image. Begins with the middle row of the window.
+// The maxima found there limit the distance at which a larger value can lie, so rows and columns beyond this distance
+// are skipped.
 RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
   Sums sums;
   for (Float8& v : sums.v) v = Float8{} + least;
@@ -173,7 +173,7 @@ struct Strip {
 void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
   line.resize(strip.n);
   for (std::size_t i = 0; i < strip.n; ++i) line[i] = strip.load(i);
-  // Double, so that values that left the box leave no visible rounding errors.
+  // The sums are doubles, so that values that left the box leave no visible rounding errors.
   std::array<double, lanes> sum{};
   const auto last = static_cast<std::ptrdiff_t>(strip.n) - 1, r = static_cast<std::ptrdiff_t>(radius);
   const auto add = [&](std::ptrdiff_t i, double sign) {

@@ -1,4 +1,4 @@
-// Filters on images: dilation by a shape and blurring.
+// Filters images: dilates them by a shape, and blurs them.
 #pragma once
 
 #include <vector>

@@ -30,8 +30,8 @@ Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, d
   set_first_nodes();
   count(counted);
   std::vector<Corners> sums(nodes());
-  // If all shares and all values are 1, gather() returns the sums of the squared weights. The shares are the
-  // inverses of these sums.
+  // With all shares and all values equal to 1, gather() returns the sums of the squared weights. The shares become
+  // the inverses of these sums.
   share_.assign(nodes(), 1);
   gather(std::span<const float>(std::vector<float>(points.size(), 1)), sums, share_);
   for (float& s : share_) s = s > 0 ? 1 / s : 0;

@@ -1,4 +1,4 @@
-// A square lattice over the view plane, for quantities that change slowly over the points.
+// Represents quantities that change slowly over the points by a square lattice over the view plane.
 #pragma once
 
 #include <array>
@@ -35,7 +35,6 @@ class Lattice {
   // Returns whether a counted point has a weight at the node.
   bool is_reached(std::size_t node) const { return share_[node] > 0; }
 
-  // Returns the bytes of memory in use.
   std::size_t memory() const;
 
   // Values at 5 x 5 positions of a cell, including its edges.

@@ -36,7 +36,7 @@ class NearSearch {
 
  private:
   static constexpr std::size_t most_together = 16;
-  // Radius of a common query, as a multiple of the radius of the smallest ball.
+  // The largest radius of a common query, as a multiple of the radius of the smallest ball.
   static constexpr double widest = 4;
   static constexpr int dimension = Point::RowsAtCompileTime;
 
@@ -80,7 +80,7 @@ class NearSearch {
   // curve, the indices are close to each other. Then marking them in a list of bits is faster than comparing
   // them.
   void sort_numbers() {
-    constexpr std::size_t most_words = 4;  // per number
+    constexpr std::size_t most_words = 4;  // most words of the list of bits per number
     if (numbers_.empty()) return;
     const auto [least, most] = std::ranges::minmax(numbers_);
     const std::size_t words = (most - least) / 64 + 1;
@@ -102,7 +102,7 @@ class NearSearch {
     RELIEVO_WIDE(find_distances(ball.centre, distances_sq_.data(), n));
     std::size_t count = 0;
     for (std::size_t k = 0; k < n; ++k) {
-      near_[count] = numbers_[k];  // overwritten unless the point counts, which avoids a branch
+      near_[count] = numbers_[k];  // overwritten unless this point is in the ball, which avoids a branch
       count += distances_sq_[k] < ball.radius * ball.radius;
     }
     return std::span(near_).first(count);

@@ -1,4 +1,4 @@
-// Nearest neighbours in two and three dimensions. Only this file uses nanoflann. Tested by
+// Finds nearest neighbours in two and three dimensions. Only this file uses nanoflann. Tested by
 // tests/scan/spacing_test.cpp and tests/scan/boundary_test.cpp.
 #pragma once
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-// nanoflann prints a line before it throws std::bad_alloc. The macro suppresses that, because the library
-// must not print.
+// nanoflann prints a line before it throws std::bad_alloc. The macro suppresses the line, because the library must
+// not print.
 #define fprintf(...) static_cast<void>(0)
 #include <nanoflann.hpp>
 #undef fprintf
@@ -65,8 +65,8 @@ class KdTree {
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor, double, Index>,
                                           Adaptor, dimension, Index>;
 
-  // Once k points coincide with the query, no point can be nearer, so the search may stop. nanoflann would
-  // still visit all other points there; clouds with many coincident points would take quadratic time.
+  // Stops the search once k points coincide with the query, because no point can be nearer. nanoflann would still
+  // visit all other points at the same position, which takes quadratic time in clouds with many coincident points.
   struct NearestSet : nanoflann::KNNResultSet<double, Index> {
     using Base = nanoflann::KNNResultSet<double, Index>;
     using Base::Base;

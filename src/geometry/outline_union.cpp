@@ -26,8 +26,7 @@ struct CutSide {
   std::vector<Vec2> cuts = {};
 };
 
-// Cuts the side at the point, if the point lies on the side and is not one of its ends. Returns whether it
-// did.
+// If the point lies on the side and is not one of its ends, cuts the side there. Returns whether the side was cut.
 bool cut_at_corner(CutSide& side, const Vec2& point) {
   if (point == side.from || point == side.to) return false;
   const Vec2 step = side.to - side.from, offset = point - side.from;

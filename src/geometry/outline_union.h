@@ -1,4 +1,4 @@
-// The boundary of the union of closed outlines, such as those of glyphs and drawings.
+// Computes the boundary of the union of closed outlines, such as those of glyphs and drawings.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Vectors and triangles in the plane.
+// Computes with vectors and triangles in the plane.
 #pragma once
 
 #include <array>

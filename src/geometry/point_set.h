@@ -1,4 +1,4 @@
-// A set of points in the plane with a least distance from each other.
+// Keeps a set of points in the plane with a least distance from each other.
 #pragma once
 
 #include <cmath>

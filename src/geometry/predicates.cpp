@@ -5,8 +5,8 @@
 namespace relievo::detail {
 namespace {
 
-// Three error bounds of section 4.4: for the determinant of the rounded differences, for the determinant with
-// a first-order correction, and for rounding an exact value to an estimate.
+// Three error bounds from section 4.4 of Shewchuk's paper: for the determinant of the rounded differences, for the
+// determinant with a first-order correction, and for rounding an exact value to an estimate.
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
@@ -67,8 +67,8 @@ double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   return lifted * cofactor_error + lifted_error * cofactor;
 }
 
-// Returns whether each of the four points shares x with one of the others and y with another one, as the corners
-// of a square of a grid do.
+// Returns whether the four points are the corners of an upright rectangle, as in a grid: each has the same x as one
+// of the others and the same y as another one. These points are on one circle.
 bool is_upright_rectangle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto are_sides = [](const Vec2& p, const Vec2& q, const Vec2& r, const Vec2& s) {
     return p.x() == q.x() && r.x() == s.x() &&
@@ -89,9 +89,8 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   if (is_upright_rectangle(a, b, c, d)) return 0;
-  // Shewchuk's incircle() in three stages. The first computes exactly with the rounded differences; its sign
-  // is final if no difference was rounded. The second adds a first-order correction. The third is fully
-  // exact.
+  // This is Shewchuk's incircle() in three stages. The first computes exactly with the rounded differences; its sign
+  // is final if no difference was rounded. The second adds a first-order correction. The third is fully exact.
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();

@@ -1,11 +1,11 @@
-// Exact signs of the two determinants that a Delaunay triangulation depends on.
+// Computes the exact signs of the two determinants that a Delaunay triangulation depends on.
 //
-// Each function first evaluates the determinant in doubles. If the value exceeds a proven bound of the
-// rounding error, its sign is correct; otherwise the function computes with expansions (Shewchuk, "Adaptive
-// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, section 4). There is no
-// state and no initialisation, so any thread may call the functions. They are exact if the processor rounds
-// to nearest and each coordinate is 0 or has a magnitude between smallest_coordinate and largest_coordinate.
-// The rarest case takes 45 KB of stack.
+// Each function first evaluates the determinant in doubles. If the value exceeds a proven bound of the rounding
+// error, its sign is correct; otherwise the function computes with expansions (Shewchuk, "Adaptive Precision
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, section 4). There is no state and no
+// initialisation, so any thread may call the functions. They are exact if the processor rounds to nearest and each
+// coordinate is 0 or has a magnitude between smallest_coordinate and largest_coordinate. The rarest case takes 45 KB
+// of stack.
 #pragma once
 
 #include <cmath>

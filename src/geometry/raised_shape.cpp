@@ -17,31 +17,31 @@ namespace relievo {
 namespace {
 
 constexpr double fan_step = std::numbers::pi / 18;  // largest angle between rays from a reflex corner
-constexpr double least_opening = .02;  // corners sharper than 11 degrees have no points above their foot
+constexpr double least_opening = .02;  // corners below 11 degrees have no points above their foot
 constexpr int halvings = 30;
-// Share of a wall's width; points nearer to each other than that are merged.
+// The least distance of points, as a share of a wall's width; a new point closer to another one is merged with it.
 constexpr double least_share = .05;
 constexpr double rounding_mm = 2e-6;  // union_boundary() rounds corners by up to this
 
-// The point foot + t * direction has distance t from the outline, until another part of the outline is as
-// near.
+// A line from the outline inwards. The point foot + t * direction is at distance t from the outline, as long as no
+// other part of the outline is nearer.
 struct Ray {
   Vec2 foot, direction;
-  bool is_on_side = false;  // the foot is not a corner
-  bool is_edge = false;     // two walls meet along the ray
+  bool is_on_side = false;  // true if the foot is not a corner
+  bool is_edge = false;     // true if two walls meet along the ray
 };
 
 Vec2 left_of(const Vec2& step) {
   return Vec2(-step.y(), step.x()).normalized();
 }
 
-// Adds the rays of a corner between two sides with the given inner normals.
+// Adds the rays that start at a corner between two sides with the given inner normals.
 void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::vector<Ray>& rays) {
   const double opening = 1 + before.dot(after);
   const bool is_reflex = cross(before, after) < 0;
   const double turn = std::acos(std::clamp(before.dot(after), -1.0, 1.0));
   if (!is_reflex && opening < least_opening) return rays.push_back({corner, Vec2::Zero()});
-  // A longer direction makes t the distance from the lines of both sides.
+  // The length of the direction is more than 1, so that t is the distance from the lines of both sides.
   if (!is_reflex || turn < fan_step)
     return rays.push_back({corner, (before + after) / opening, false, turn > fan_step});
   const int steps = static_cast<int>(std::ceil(turn / fan_step));
@@ -92,13 +92,13 @@ std::vector<Ray> rays_along(const std::vector<Segment>& sides, const std::vector
   return rays;
 }
 
-// Numbered points with a least distance from each other.
+// Numbered points that keep a least distance from each other.
 class NumberedPoints {
  public:
   explicit NumberedPoints(double distance) : distance_(distance) {}
 
-  // Adds a point with that number unless another point is too near. Returns the number of the added or of the
-  // near point.
+  // Adds a point with the given number, unless it is too near to another point. Returns the number of the added point
+  // or, if it is too near, of that other point.
   Index add(const Vec2& place, Index number) {
     const std::int64_t x = cell_of(place.x()), y = cell_of(place.y());
     const Numbered* nearest = nullptr;
@@ -149,7 +149,7 @@ class ShapePointMaker {
   }
 
  private:
-  // Adds the feet and the outline's edges. Returns the point of each ray's foot.
+  // Adds the feet of the rays, and the outline's edges between them. Returns the index of each ray's foot.
   std::vector<Index> add_feet(const std::vector<Ray>& rays) {
     std::vector<Index> numbers, of_rays;
     for (const Ray& ray : rays) {
@@ -171,13 +171,13 @@ class ShapePointMaker {
     }
   }
 
-  // Returns whether no part of the outline is nearer than t to the point at t on the ray.
+  // Returns whether no part of the outline is nearer than t to the ray's point foot + t * direction.
   bool is_clear(const Ray& ray, double t) const {
     return grid_.nearest(ray.foot + t * ray.direction, t * (1 - 1e-7) - rounding_mm).segment == no_index;
   }
 
-  // Adds a point unless another one is too near. Returns the added or the near point; no_index if that is on
-  // an edge that keep_clear() protects.
+  // Adds a point unless another one is too near. Returns its index, or that of the other point; no_index if a place
+  // reserved by keep_clear() is too near.
   Index add(const Vec2& place, double height) {
     const auto next = static_cast<Index>(made_.points.size());
     const Index number = near_.add(place, next);
@@ -187,7 +187,8 @@ class ShapePointMaker {
     return next;
   }
 
-  // Adds the points of all levels, the lowest first. A ray gets a point only on the levels that it reaches.
+  // Adds the points of all levels, the lowest first. A ray has a point on a level only if no other part of the
+  // outline is nearer to this point.
   void add_levels(std::size_t loop) {
     const std::vector<Ray>& rays = loops_[loop];
     tops_[loop].resize(rays.size());
@@ -204,8 +205,8 @@ class ShapePointMaker {
     }
   }
 
-  // Connects each foot to the points above it, so that the wall between two rays is plane. The edges between
-  // two walls come first, so that no other point gets too close to them.
+  // Connects each foot to the points above it, so that the wall between two rays is plane. Edges where two walls meet
+  // come first, so that no other point gets too close to them.
   void add_spokes(std::size_t loop, bool are_edges) {
     for (std::size_t i = 0; i < loops_[loop].size(); ++i) {
       const Ray& ray = loops_[loop][i];
@@ -222,8 +223,8 @@ class ShapePointMaker {
     }
   }
 
-  // Prevents later points, which are those of ridges, close to an edge. Parts of the edge without ridges near
-  // them are skipped.
+  // Reserves places along an edge, so that no ridge point is added close to it later. Parts of the edge without
+  // ridges near them are skipped.
   void keep_clear(Index a, Index b) {
     const Vec2 from = made_.points[a].head<2>(), step = made_.points[b].head<2>() - from;
     const int parts = std::min(1000, static_cast<int>(std::ceil(step.norm() / (least_ / 2))));
@@ -248,22 +249,22 @@ class ShapePointMaker {
 
   using Cell = std::pair<std::int64_t, std::int64_t>;
 
-  // A cell is wider than a block of keep_clear() and the least distance together.
+  // A cell is wider than the part of an edge that keep_clear() tests at once, plus the least distance.
   Cell cell_of(const Vec2& place) const {
     const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / (8 * least_))); };
     return {at(place.x()), at(place.y())};
   }
 
-  // Returns the distance along the ray at which it meets the wall of another side; nothing if it reaches the
-  // last level before that.
+  // Returns the distance along the ray at which it meets the wall of another side; nothing if no such wall comes
+  // before the last level.
   std::optional<double> ridge_of(const Ray& ray) const {
     if (ray.direction == Vec2::Zero() || is_clear(ray, depth_)) return std::nullopt;
     const double low = clear_limits(ray, depth_).first;
     return low > 1e-3 * depth_ ? std::optional(low) : std::nullopt;
   }
 
-  // Returns two distances along the ray, close to each other: up to the first one it is clear, and not up to
-  // the second one. It must not be clear at `high`.
+  // Returns two distances along the ray that are close to each other: is_clear() is true at the first one and false
+  // at the second one. It must be false at `high`.
   std::pair<double, double> clear_limits(const Ray& ray, double high) const {
     double low = 0;
     for (int k = 0; k < halvings; ++k) {
@@ -284,7 +285,7 @@ class ShapePointMaker {
     }
   }
 
-  // Adds the point where the ray meets the wall of another side, if there is one.
+  // Adds the ridge point of the ray, where it meets the wall of another side, if there is one.
   Index add_ridge(const Ray& ray, const std::optional<double>& distance) {
     return distance ? add(ray.foot + *distance * ray.direction, height_at(*distance)) : no_index;
   }
@@ -312,10 +313,10 @@ class ShapePointMaker {
   double least_;  // least distance between points of levels and ridges
   NumberedPoints near_;
   std::vector<std::vector<Ray>> loops_;
-  std::vector<std::vector<std::optional<double>>> ridges_;  // per loop and ray, see ridge_of()
+  std::vector<std::vector<std::optional<double>>> ridges_;  // per loop and ray: distance, see ridge_of()
   std::set<Cell> near_ridges_;                              // the cells at and around ridges
   std::map<CornerKey, Index> feet_;
-  std::vector<std::vector<Index>> feet_of_;            // per loop and ray
+  std::vector<std::vector<Index>> feet_of_;            // per loop and ray: the index of its foot
   std::vector<std::vector<std::vector<Index>>> tops_;  // per loop and ray: the points above its foot
   ShapePoints made_;
 };

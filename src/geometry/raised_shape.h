@@ -1,4 +1,5 @@
-// Shapes that rise above a plane, or sink below it. Their height depends on the distance from their outline.
+// Computes points of shapes that rise above a plane or sink below it. The height of a shape depends on the distance
+// from its outline.
 #pragma once
 
 #include <string>
@@ -18,7 +19,7 @@ struct WallLevel {
 // Outlines, and the cross-section of the area that they cover. Between levels the height is linear; beyond
 // the last level it is constant. Negative heights sink the area. The first level is 0, 0; distances increase.
 struct RaisedShape {
-  std::string name;  // name for errors
+  std::string name;  // name of the shape in errors
   Outlines outlines;
   std::vector<WallLevel> levels;
   double spacing_mm = .2;  // largest distance between points along the outlines, > 0
@@ -31,13 +32,13 @@ std::vector<WallLevel> leaning_wall(double height_mm, double slope);
 // is as high as the slope allows, but at most `height_mm`; a negative height sinks it.
 std::vector<WallLevel> round_wall(double height_mm, double radius_mm, double slope);
 
-// The points of a shape, and the edges that keep its outline and its levels sharp.
+// Points of a shape, and edges that keep its outline and its levels sharp in a triangulation.
 struct ShapePoints {
   std::vector<Vec3> points;  // z is the height above the plane
   std::vector<EdgeEnds> edges;
   std::size_t feet = 0;    // the first points are on the outline; this is their number
   double most_mm = 0;      // largest height or depth
-  double thinnest_mm = 0;  // width of the thinnest stroke; infinite if there is none
+  double thinnest_mm = 0;  // width of the thinnest stroke; infinite if none is thinner than 2 mm
 };
 
 // Returns points of the shape with exact heights: on the outline, along each level, and where the walls of a

@@ -9,15 +9,15 @@ namespace {
 
 constexpr int steps_per_pixel = 256;
 
-// Rounds a coordinate to steps; it must be at least -1 pixel. Truncation is faster than rounding, but rounds
-// only positive numbers correctly. Hence the shift by 1 pixel.
+// Rounds a coordinate to steps of 1 / steps_per_pixel. The coordinate must be at least -1 pixel: truncation is faster
+// than rounding, but rounds only positive numbers correctly, so the coordinate is shifted by 1 pixel.
 int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
 
 // Returns the first pixel whose centre is at or after `steps`.
 int first_centre(int steps) {
-  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel, so it is shifted before dividing
+  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel; one is added before dividing
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
@@ -26,7 +26,7 @@ std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
 
-// A linear function of the pixel, not negative inside the triangle. Its values are integers below 2^53, so
+// A linear function of the pixel that is not negative inside the triangle. Its values are integers below 2^53, so
 // doubles are exact.
 struct EdgeFunction {
   double value;  // value at the centre of column 0 of the current row
@@ -69,7 +69,7 @@ Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
 // The plane of a triangle as a function of the pixel. Heights are limited to the range of the corners, so
 // that slivers cause no spikes.
 struct DepthPlane {
-  double value = 0, per_column = 0, per_row = 0;  // value at the image's corner
+  double value = 0, per_column = 0, per_row = 0;  // `value` is that at the image's corner
   double lowest = 0, highest = 0;
 };
 
@@ -77,7 +77,8 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  // In square pixels; the plane of a smaller sliver is undefined, so its highest corner is used.
+  // The least area of a triangle whose plane is computed, in square pixels. For smaller slivers the height of the
+  // highest corner is used.
   const double least_area = 1e-9;
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
@@ -99,8 +100,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether the triangle lies between neighbouring rows or columns of pixel centres. Most triangles of
-// a fine scan do, and this test reads few of their bytes.
+// Returns whether the triangle fits between two neighbouring rows or columns of pixel centres, so that it covers
+// none. Most triangles of a fine scan do, and this test reads few bytes of memory for each.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -113,8 +114,8 @@ bool Rasterizer::is_facing(const Triangle& triangle) const {
   return cross < 0;  // y points down: triangles that the viewer sees counter-clockwise are negative here
 }
 
-// Returns the rows of pixel centres between the triangle's corners. A centre at the height of the lowest
-// corner belongs to another triangle.
+// Returns the rows whose pixel centres are between the triangle's corners. Centres at the height of its lowest corner
+// are not included; they belong to other triangles.
 Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   const auto [top, bottom] =
       std::minmax({cells_[triangle[0]].row, cells_[triangle[1]].row, cells_[triangle[2]].row});
@@ -138,7 +139,7 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<std::vector<InBands>> covering_in(blocks);
-  // Per block and band: first the number of triangles, later the position at which the next one is stored.
+  // Per block and band: first the number of triangles, later the position in triangles_ for the next one.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     covering_in[begin / block] = covering(begin, end);

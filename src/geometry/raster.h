@@ -1,4 +1,4 @@
-// Orthographic rasterisation on the CPU: finds the visible triangle at the centre of each pixel, and its
+// Rasterises triangles orthographically on the CPU: finds the visible triangle at the centre of each pixel, and its
 // height there.
 #pragma once
 
@@ -36,10 +36,10 @@ struct RowBand {
   Image<Fragment> fragments;
 };
 
-// Triangles sorted into bands of rows, which can be drawn in any order and concurrently. Corners are rounded
-// to 1/256 pixel. For the rounded corners the coverage test is exact: every pixel centre inside a surface
-// belongs to exactly one of its triangles, also on shared edges. Of triangles at the same height the first is
-// visible. The scene must outlive the object.
+// Sorts triangles into bands of rows, which can be drawn in any order and concurrently. Corners are rounded to 1/256
+// pixel. For the rounded corners the coverage test is exact: every pixel centre inside a surface belongs to exactly
+// one of its triangles, also on shared edges. Of triangles at the same height the first is visible. The scene must
+// outlive the object.
 class Rasterizer {
  public:
   Rasterizer(const RasterInput& scene, int band_rows);
@@ -75,7 +75,7 @@ class Rasterizer {
   std::vector<Corner> corners_;     // per point
   std::vector<Cell> cells_;         // per point
   std::vector<std::size_t> first_;  // per band, and one more: position of its first triangle
-  std::vector<Index> triangles_;    // by band, in the order of the scene
+  std::vector<Index> triangles_;    // triangles of each band, in the order of the scene
 };
 
 // Draws a scene in bands of `band_rows` rows. Calls use(band) for each band, concurrently.

@@ -48,7 +48,7 @@ class SegmentGrid {
     int x0, y0, x1, y1;
   };
   Cells cells_of(const Vec2& low, const Vec2& high) const;
-  // Returns the segments of the cells in row y. One that lies in several cells comes several times.
+  // Returns the segments in the cells of row y. A segment that lies in several cells occurs several times.
   std::span<const Index> in_row(int y, const Cells& cells) const {
     if (cells.x0 > cells.x1) return {};
     const std::size_t row = static_cast<std::size_t>(y) * width_;
@@ -65,21 +65,22 @@ class SegmentGrid {
   Groups<Index, std::size_t> in_cell_;
 };
 
-// Answers SegmentGrid::is_crossed() for many short lines from one place, four segments at a time.
+// Does the same as SegmentGrid::is_crossed() for many short lines that start at one place; tests four segments at a
+// time.
 class LinesFrom {
  public:
-  // Keeps the segments that lines from `from` may cross if their other ends are at most `radius` away from it.
+  // Sets the start of the lines to `from`. Keeps the segments that lines of at most the length `radius` may cross.
   void begin(const SegmentGrid& grid, const Vec2& from, double radius);
 
-  // Returns what SegmentGrid::is_crossed() returns for the line to `to`.
+  // Returns whether a segment crosses the line from the start to `to`.
   bool is_crossed(const Vec2& to) const;
 
  private:
-  // Four segments. Missing ones have no length, which nothing crosses.
+  // Four segments. Unused entries are segments without length, which no line crosses.
   struct Four {
-    Double4 from_x = {}, from_y = {};                        // where they begin
-    Double4 u_x = {}, u_y = {}, v_x = {}, v_y = {};          // their ends, seen from the place
-    Double4 step_x = {}, step_y = {}, place_is_beside = {};  // twice the area of the segment with the place
+    Double4 from_x = {}, from_y = {};                        // first ends of the segments
+    Double4 u_x = {}, u_y = {}, v_x = {}, v_y = {};          // both ends, relative to the start of the lines
+    Double4 step_x = {}, step_y = {}, place_is_beside = {};  // place_is_beside: twice the signed area
   };
   RELIEVO_INLINE bool is_any_crossed(const Vec2& to) const;
 

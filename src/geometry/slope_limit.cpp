@@ -25,9 +25,8 @@ constexpr double least_spare = 2e-5, most_spare = 1e-3;
 // points further than necessary.
 constexpr int sweeps_to_scaling = 64;
 
-// Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely
-// steep. Level ones count as level even if overturned, because then they are slivers that rounding has turned
-// over.
+// Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely steep. Only
+// level triangles count as level even if they are overturned, because they are slivers that rounding has turned over.
 double steepness(const PlaneMesh& field, const Triangle& t, std::span<const double> heights) {
   const Vec2 &a = field.plane[t[0]], &b = field.plane[t[1]], &c = field.plane[t[2]];
   if (!(cross(b - a, c - a) > 0)) {
@@ -104,8 +103,8 @@ class SlopeLimiter {
     return around;
   }
 
-  // Reduces the slope of a triangle to `wanted`. Moves its free corners by the least sum of squares that
-  // achieves this.
+  // Reduces the slope of a triangle to `wanted`: moves its free corners so that the sum of squares of their moves is
+  // least. If `is_scaling`, scales the heights instead, unless two corners are fixed.
   void project(const Triangle& t, double wanted, bool is_scaling) {
     const Vec2 slope = triangle_slope(field_, t, heights_);
     const double steepness = slope.norm();

@@ -25,11 +25,11 @@ Vec2 triangle_slope(const PlaneMesh& field, const Triangle& triangle, std::span<
 // triangle has no area or is clockwise, unless that triangle is level.
 double steepest_of(const PlaneMesh& field, std::span<const double> heights);
 
-// Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: a triangle
-// that is too steep moves its free corners by the least sum of squares that makes it flat enough. A
-// projection changes neighbouring triangles, so projections are repeated. Meant for a few steep triangles.
-// With Rounding::single_precision every height is representable as a float. Returns whether it succeeded; if
-// not, some triangles are still too steep.
+// Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: the free corners of
+// a triangle that is too steep are moved so that it is flat enough and the sum of squares of the moves is least. A
+// projection changes neighbouring triangles, so projections are repeated. This is meant for a few steep triangles.
+// With Rounding::single_precision every height is representable as a float. Returns whether it succeeded; if not,
+// some triangles are still too steep.
 bool limit_slopes(const PlaneMesh& field, double max_slope, Rounding rounding, std::span<double> heights);
 
 }  // namespace relievo

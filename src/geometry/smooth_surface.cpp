@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// Limits of the distance between a point's slope and the mean slope of the triangles around it: inside the
-// surface, and at an edge of it. The unit is the largest distance between the slope of one of these triangles
-// and their mean.
+// How far a point's slope may be from the mean slope of the triangles around the point, inside the surface and at its
+// edge. The unit is the largest distance of these triangles' slopes from their mean, measured in the direction of the
+// point's slope.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -24,17 +24,19 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// Four places around the origin, in units of the farthest one, and the heights there.
+// Four neighbours of a point: their positions relative to the point, in units of the distance of its farthest
+// neighbour, and their heights relative to it.
 struct FourHeights {
   Double4 x = {}, y = {}, z = {};
-  Double4 is_there = {};  // 1, or 0 for a missing one
+  Double4 is_there = {};  // 1, or 0 for an unused entry
 };
 
-// A least squares fit of x^2, x y, y^2, x and y, in this order, to heights around the origin. Nearer ones count more.
+// Fits x^2, x y, y^2, x and y, in this order, to heights around the origin by least squares. Nearer heights count
+// more.
 class Quadratic {
  public:
   RELIEVO_INLINE explicit Quadratic(std::span<const FourHeights> heights) {
-    // The sums of the weighted products of as many x and y as their names have.
+    // Each name lists the factors of the products that are summed, apart from the weight.
     Double4 xx{}, xy{}, yy{}, xxx{}, xxy{}, xyy{}, yyy{}, xxxx{}, xxxy{}, xxyy{}, xyyy{}, yyyy{};
     Double4 xz{}, yz{}, xxz{}, xyz{}, yyz{};
     for (const auto& [x, y, z, is_there] : heights) {
@@ -54,8 +56,8 @@ class Quadratic {
     products_ = {total(xxz), total(xyz), total(yyz), total(xz), total(yz)};
   }
 
-  // Returns the coefficients of x and y. Solves by L D L^T; the last two unknowns are found without computing
-  // the others.
+  // Returns the coefficients of x and y. Solves by L D L^T. Computes only the last two unknowns, which are these
+  // coefficients.
   Vec2 slope() const {
     std::array<std::array<double, terms>, terms> l = moments_;
     std::array<double, terms> d, rest = products_;
@@ -84,8 +86,8 @@ class Quadratic {
   std::array<double, terms> products_{};
 };
 
-// Returns the slope at the point `centre` of the quadratic through this point that best fits the neighbours;
-// `fallback` if there are too few neighbours. `heights` is room to work in.
+// Returns the slope, at the point `centre`, of the quadratic that passes through this point and best fits the
+// neighbours. Returns `fallback` if there are too few neighbours. `heights` is scratch memory.
 Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
                   const Vec2& fallback, std::vector<FourHeights>& heights) {
   if (neighbours.size() < 6) return fallback;
@@ -105,11 +107,11 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
   return slope.allFinite() ? slope : fallback;
 }
 
-// Leaves one of each number, in ascending order.
+// Sorts the numbers in ascending order and removes repeated ones.
 void leave_one_of_each(std::vector<Index>& numbers) {
   constexpr std::size_t slots = 256, most = slots / 2;
   if (numbers.size() <= most) {
-    // A table of the numbers that were found leaves fewer to sort.
+    // A hash table removes most repeated numbers first, so that fewer have to be sorted.
     std::array<Index, slots> found;
     found.fill(no_index);
     std::erase_if(numbers, [&](Index number) {
@@ -135,15 +137,15 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 }
 
 // Returns the difference between the slope at the midpoint of an edge and the mean of the slopes at its ends.
-// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine
-// one component. The other follows from the assumption that the slope lies on the line through both end
-// slopes, because most surfaces bend mainly in one direction. So a bend across rows of points does not depend
-// on the triangulation between the rows.
+// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine the
+// component along the edge. To find the other one, we assume that the slope lies on the line through both end slopes,
+// because most surfaces bend mainly in one direction. Thus a bend across rows of points does not depend on the
+// triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
-  // Square of the least share of the change that counts as along the edge.
+  // The square of a share of the change. If the share that is along the edge is smaller, the result tends to 0.
   constexpr double least_along = .05;
-  constexpr double most_share = 1.5;  // shares much larger than this are noise, and are reduced
+  constexpr double most_share = 1.5;  // shares much larger than this are noise; they are reduced
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
   const double change_along = change.dot(edge);
   const double divisor =
@@ -159,7 +161,7 @@ template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
   const Vec2 edge = b - a;
-  // Position of the projection of s onto the edge.
+  // The position of the projection of s onto the edge, as a share of the edge.
   const double foot = (s - a).dot(edge) / edge.squaredNorm();
   const double along_a = -(1 - foot), along_b = -foot;
   const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;
@@ -195,10 +197,10 @@ Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
 }
 
-// Returns a flag for each point that smooth triangles touch but do not enclose. Around an enclosed point,
-// each neighbour comes after the point in one triangle and before it in another, so the sums below cancel.
+// Returns a flag for each point that smooth triangles touch but do not enclose. Around an enclosed point, each
+// neighbour comes after the point in one triangle and before it in another, so the sum `balance` of the point is 0.
 std::vector<std::uint8_t> SmoothSurface::open_points() const {
-  // Hashed, because plain indices would often cancel by chance.
+  // Indices are hashed, because sums of plain indices would often be 0 by chance.
   const auto scattered = [](Index i) { return i * 2654435761U ^ i * 2654435761U >> 15; };
   std::vector<Index> balance(points_.size(), 0);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -308,7 +310,7 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
   }
   const Element e = element(t);
   const auto& p = e.corners;
-  // `place` lies in the third opposite to the corner with the least weight.
+  // Of the three thirds of the triangle, `place` lies in that opposite to the corner with the least weight.
   std::array<double, 3> weight;
   for (std::size_t k = 0; k < 3; ++k) weight[k] = cross(p[(k + 1) % 3] - place, p[(k + 2) % 3] - place);
   const auto i = static_cast<std::size_t>(std::ranges::min_element(weight) - weight.begin());

@@ -1,4 +1,4 @@
-// A smooth surface through heights over a triangulation.
+// Interpolates heights over a triangulation by a smooth surface.
 #pragma once
 
 #include <array>
@@ -17,13 +17,12 @@ namespace relievo {
 // range of the slopes of the triangles at the point.
 class SmoothSurface {
  public:
-  // The height and slope of the surface at a position.
   struct Sample {
     double height = 0;
     Vec2 slope = Vec2::Zero();
   };
 
-  // Keeps views of the points and the counter-clockwise triangles; both must outlive the surface. `is_smooth`
+  // Keeps references to the points and the counter-clockwise triangles; both must outlive the surface. `is_smooth`
   // has a flag per triangle.
   SmoothSurface(std::span<const Vec3> points, std::span<const Triangle> triangles,
                 std::span<const std::uint8_t> is_smooth);

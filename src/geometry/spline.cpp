@@ -11,13 +11,13 @@
 namespace relievo {
 namespace {
 
-// Returns a node of the refined lattice: from three nodes of the coarser lattice at even positions, from two
+// Returns a node of the refined lattice: computed from three nodes of the coarser lattice at even positions, from two
 // at odd positions (section 4).
 float halved(const float* node, bool is_even) {
   return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
 }
 
-// Returns the values of cubic_basis(), each one twice, for splines whose nodes are interleaved.
+// Returns the values of cubic_basis(), each one twice, because the nodes of two splines are interleaved.
 RELIEVO_INLINE Float8 basis_of(Float8 t) {
   const Float8 c0{1 / 6.F, 1 / 6.F, 4 / 6.F, 4 / 6.F, 1 / 6.F, 1 / 6.F, 0, 0},
       c1{-.5F, -.5F, 0, 0, .5F, .5F, 0, 0}, c2{.5F, .5F, -1, -1, .5F, .5F, 0, 0},
@@ -149,7 +149,8 @@ void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, st
   }
 }
 
-// Follows section 3.2, equations (3) to (5), with a weight per site.
+// Fits the residuals at the sites by a correction of the nodes, by equations (3) to (5) of section 3.2, with a weight
+// per site.
 void MultilevelSpline::correct(const Level& level, std::vector<float>& nodes, Workspace& workspace) const {
   std::vector<float>& correction = workspace.correction;
   const std::size_t columns = level.columns, size = columns * level.rows;

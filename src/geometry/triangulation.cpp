@@ -1,12 +1,11 @@
-// Incremental construction. Points are inserted one by one, coarse samples first, and within each round along
-// a Hilbert curve. So the triangle that contains a point is only a few steps from the previous one. After
-// each insertion edges are flipped until all circumcircles are empty again (C. L. Lawson, "Software for C1
+// Builds a Delaunay triangulation incrementally. Points are inserted one by one, coarse samples first, and within
+// each round along a Hilbert curve. So the triangle that contains a point is only a few steps from the previous one.
+// After each insertion edges are flipped until all circumcircles are empty again (C. L. Lawson, "Software for C1
 // Surface Interpolation", 1977).
 //
-// Outside the hull there are ghost triangles, one on each hull edge, with a common vertex at infinity. The
-// circle of a ghost is the open half-plane outside its edge, plus the edge itself. Triangles and ghosts
-// together form a closed surface, so that the hull needs no special cases: a point outside or on a hull edge
-// is inserted like any other.
+// Outside the hull there are ghost triangles, one on each hull edge, with a common vertex at infinity. The circle of
+// a ghost is the open half-plane outside its edge, plus the edge itself. Triangles and ghosts together form a closed
+// surface, so that the hull needs no special cases: a point outside or on a hull edge is inserted like any other.
 #include "relievo/geometry/triangulation.h"
 
 #include <algorithm>
@@ -19,7 +18,8 @@ namespace relievo {
 namespace {
 
 constexpr Index infinity = no_index;
-constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 2 n triangles of 4 slots each, in 32 bits
+// n points give 2 n triangles with 4 slots each. With this limit, 32 bits can number all slots.
+constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;
 
 constexpr Index next(Index e) {
   return (e & 3) == 2 ? e - 2 : e + 1;
@@ -169,7 +169,7 @@ void DelaunayBuilder::append_triangle(Index t, const std::vector<Index>& numbers
   to.neighbours.push_back(neighbours);
 }
 
-// Visits the ghosts around the vertex at infinity.
+// Returns the corners of the hull, by visiting the ghosts around the vertex at infinity.
 std::vector<Index> DelaunayBuilder::hull() const {
   std::vector<Index> vertices;
   Index e = 0;

@@ -1,4 +1,4 @@
-// Welding of coincident points. Tested by tests/geometry/extent_test.cpp.
+// Merges coincident points. Tested by tests/geometry/extent_test.cpp.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@
 namespace relievo {
 
 namespace detail {
-// Returns a coordinate's bits. Adding 0 turns -0 into 0.
+// Returns a coordinate's bits. Adding 0 turns -0 into 0, which coincides with it.
 inline std::uint64_t bits_of(double coordinate) {
   return std::bit_cast<std::uint64_t>(coordinate + 0.0);
 }
@@ -46,7 +46,7 @@ class PointTable {
 
  private:
   struct Slot {
-    // Bits of the hash; most differing points differ in them, so their coordinates need not be read.
+    // Some bits of the hash. They differ for most different points, whose coordinates then need not be read.
     std::uint32_t check;
     Index number;
   };
@@ -55,7 +55,7 @@ class PointTable {
   void grow(const Vec3* points);
 
   std::vector<Slot> slots_;
-  int shift_ = 0;  // number of low bits of a hash that are not used for the slot
+  int shift_ = 0;  // a hash is shifted right by this to give a slot of the table
   std::size_t used_ = 0;
 };
 
@@ -63,7 +63,7 @@ class PointTable {
 // several points ahead.
 template <typename Point, typename Resolve>
 void for_each_hashed(const PointTable& table, std::size_t n, const Point& point, const Resolve& resolve) {
-  constexpr std::size_t ahead = 32;  // fastest of 8 to 64 for 3 million corners of an STL file
+  constexpr std::size_t ahead = 32;  // fastest of 8 to 64 for an STL file with 3 million corners
   std::uint64_t hashes[ahead];
   for (std::size_t i = 0; i < n + ahead; ++i) {
     if (i >= ahead) resolve(i - ahead, hashes[i % ahead]);

@@ -1,4 +1,4 @@
-// Normal space compression (section 3.3), equations (5) to (7).
+// Computes the weights and expected normals of normal space compression (section 3.3), equations (5) to (7).
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace relievo::paper {
 
-// The coefficients of height and saturation, and two constants.
+// The coefficients of (6), for height and saturation, and two constants.
 struct Coefficients {
   // u = alpha^-beta replaces alpha in (6). It gives the same weights; with beta = 0, where alpha has no
   // effect, it can still give every height. Infinity corresponds to alpha = 0.
@@ -18,20 +18,20 @@ struct Coefficients {
   double boundary_width = 2;  // width of the boundary in (7), in rho
 };
 
-// Equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of |k|; if it is 0,
-// all points get the weight for beta = 0.
+// Returns the weight w_k of equation (6): 1 - exp(-(|k| / (alpha delta))^beta). `delta` is the standard deviation of
+// |k|; if it is 0, all points get the weight for beta = 0.
 inline double curvature_weight(double k, double delta, const Coefficients& c) {
   if (c.u == std::numeric_limits<double>::infinity()) return 1;
   const double power = delta > 0 ? std::pow(std::abs(k) / delta, c.beta) : 1;
   return 1 - std::exp(-c.u * power);
 }
 
-// Equation (7): 1 - exp(-(distance / width)^2). The paper's width is 2 rho.
+// Returns the weight w_b of equation (7): 1 - exp(-(distance / width)^2). The paper's width is 2 rho.
 inline double boundary_weight(double distance, double width) {
   return 1 - std::exp(-(distance / width) * (distance / width));
 }
 
-// Equation (5), with w = w_k w_b.
+// Returns the expected normal of equation (5), with w = w_k w_b.
 inline Vec3 expected_normal(const Vec3& normal, double w) {
   return w * normal + (1 - w) * Vec3::UnitZ();
 }

@@ -14,7 +14,7 @@ std::vector<Index> control_points(std::span<const Vec2> points, std::span<const 
   std::stable_partition(order.begin(), order.end(), [&](Index i) { return is_boundary[i] != 0; });
   const double radius = std::sqrt(static_cast<double>(points.size()) / static_cast<double>(count)) * rho;
   const KdTree<Vec2> tree(points);
-  // Whether the point belongs to the region of a chosen point.
+  // Per point: whether it belongs to the region of a chosen point.
   std::vector<std::uint8_t> is_taken(points.size(), 0);
   std::vector<KdTree<Vec2>::Match> region;
   std::vector<Index> chosen;

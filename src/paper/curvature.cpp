@@ -18,14 +18,14 @@ struct Neighbour {
   Vec3 normal;
 };
 
-// theta(x, q), the Gaussian weight of a neighbour.
+// Returns theta(x, q), the Gaussian weight of a neighbour.
 Jet weight(const Vec3& offset, double h) {
   const double scale = -2 / (h * h), value = std::exp(-offset.squaredNorm() / (h * h));
   return {value, scale * value * offset,
           value * (scale * scale * offset * offset.transpose() + scale * Mat3::Identity())};
 }
 
-// n(x), the weighted mean of the neighbours' normals, normalised.
+// Returns n(x), the weighted mean of the neighbours' normals, normalised.
 JetVector mean_normal(std::span<const Neighbour> neighbours, double h) {
   JetVector sum;
   for (const Neighbour& q : neighbours) {
@@ -57,7 +57,7 @@ Jet surface_function(std::span<const Neighbour> neighbours, double h) {
   return g;
 }
 
-// Equation (3), divided by -2.
+// Returns the result of equation (3), divided by -2.
 double mean_curvature(const Jet& g) {
   const Vec3& v = g.gradient;
   const double length = v.norm();

@@ -1,4 +1,4 @@
-// The mean curvature of the moving-least-squares surface (section 3.2), equations (2) and (3).
+// Computes the mean curvature of the moving-least-squares surface (section 3.2), equations (2) and (3).
 #pragma once
 
 #include <span>
@@ -9,14 +9,14 @@
 
 namespace relievo::paper {
 
-// Returns the mean curvature at the points with the indices `queries`, in 1 / length, positive where the
-// surface is convex. Q, the neighbours of a point, are all points of the cloud within 3 h. The Gaussian
-// weight is exp(-d^2 / h^2), and h is 3 rho. Normals must have unit length. The curvature is 0 where the
-// gradient of g is 0. If no curvature exceeds 1e-6 / rho, the surface is flat up to the rounding of normals,
-// and all curvatures are set to 0. After cancellation, returns early with meaningless values.
+// Returns the mean curvature at the points with the indices `queries`, in 1 / length, positive where the surface is
+// convex. Q, the neighbours of a point, are all points of the cloud within 3 h. The Gaussian weight is exp(-d^2 /
+// h^2), and h is 3 rho. Normals must have unit length. The curvature is 0 where the gradient of g is 0. If no
+// curvature exceeds 1e-6 / rho, the surface is flat up to the rounding of normals, and all curvatures are set to 0.
+// After cancellation, returns early with meaningless values.
 //
-// The printed (3) is -2 times the mean curvature if normals point outwards (see docs/decisions/paper.md).
-// It is divided by -2: otherwise detail, the second (9), would flatten ridges.
+// If normals point outwards, the printed (3) is -2 times the mean curvature (see docs/decisions/paper.md). The result
+// of (3) is divided by -2. Otherwise the second equation (9), which adds detail, would flatten ridges.
 std::vector<double> mean_curvature(const Cloud& cloud, double rho, std::span<const Index> queries,
                                    const Progress* progress = nullptr);
 

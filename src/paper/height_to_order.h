@@ -5,26 +5,26 @@
 
 namespace relievo::paper {
 
-// The result of a search for a height: the coefficients of (6).
+// The result of a search for the coefficients of (6) that give a height.
 struct HeightToOrder {
   double alpha = 0, beta = 0;
   double height = 0;    // the height for these coefficients
   bool is_met = false;  // whether the height is within 1 % of the requested one
 };
 
-// Returns alpha and beta for which the height is within 1 % of `wanted`, for the first beta of 1e-5, 2e-5,
-// 4e-5 and so on that has such an alpha. `height_at(alpha, beta)` makes the relief and returns its height,
-// which decreases with alpha; the last call is for the returned alpha and beta. Beta is at most 100; if none
-// has such an alpha, `is_met` is false. For each beta, bisection finds the first alpha of 0.001, 0.002, 0.004
-// and so on at which the height is below `wanted`; then bisection in (alpha / 2, alpha) finds alpha.
+// Returns alpha and beta for which the height is within 1 % of `wanted`, for the first beta of 1e-5, 2e-5, 4e-5 and
+// so on that has such an alpha. `height_at(alpha, beta)` makes the relief and returns its height, which decreases
+// with alpha; the last call is for the returned alpha and beta. Beta is at most 100; if none has such an alpha,
+// `is_met` is false. For each beta, bisection finds the first alpha of 0.001, 0.002, 0.004 and so on at which the
+// height is below `wanted`; then bisection in (alpha / 2, alpha) finds alpha.
 //
-// The algorithm as printed has mistakes. Line 4 lacks an absolute value, and its 0.001 is a length without a
-// unit. When the height first falls below, line 12 leaves alpha as it is, so that the next height is the same
-// and line 4 ends the loop. Lines 17 to 23 move both ends of the bracket at once. Line 5 means (9), not (8).
+// The algorithm as printed has mistakes. Line 4 lacks an absolute value, and its 0.001 is a length without a unit.
+// When the height first falls below `wanted`, line 12 leaves alpha as it is, so that the next height is the same and
+// line 4 ends the loop. Lines 17 to 23 move both ends of the bracket at once. Line 5 refers to (8), but means (9).
 //
-// This function follows the section's text, with three changes. The number of doublings is found by
-// bisection, because for small beta one doubling hardly changes the height. Doubling ends at the largest
-// double, instead of where the height changes by less than 0.001. The loop over beta ends, too.
+// This function follows the section's text, with three changes. The number of doublings is found by bisection,
+// because for small beta one doubling hardly changes the height. Doubling ends at the largest double, instead of
+// where the height changes by less than 0.001. The loop over beta ends, too.
 template <typename F>
 HeightToOrder adjust_to_height(double wanted, F&& height_at) {
   constexpr double tolerance = .01, first_beta = 1e-5, last_beta = 100;

@@ -29,8 +29,8 @@ Neighbours nearest_in_plane(std::span<const Vec2> points) {
   return neighbours;
 }
 
-// Returns the indices of the points on the base: the boundary, and one point of each connected set without a
-// boundary point.
+// Returns the indices of the points that are set to the height of the base: all boundary points, and one point of
+// each connected set without a boundary point.
 std::vector<Index> points_on_base(std::span<const std::uint8_t> is_boundary, const Neighbours& neighbours) {
   DisjointSets sets(is_boundary.size());
   for (Index p = 0; p < neighbours.size(); ++p)
@@ -83,8 +83,8 @@ std::size_t NormalEquations::memory() const {
   return factor_.memory() + bytes(steps_) + bytes(rows_.begin) + bytes(rows_.items);
 }
 
-// The right-hand side is A^T b. Each row z_p - z_q = s_p . (p - q) adds s_p . (p - q) to the sum of p and
-// subtracts it from the sum of q.
+// The right-hand side is A^T b. Each row z_p - z_q = s_p . (p - q) adds s_p . (p - q) to element p of it, and
+// subtracts it from element q.
 void NormalEquations::solve(std::span<const Vec2f> slopes, std::span<float> heights,
                             Workspace& workspace) const {
   parallel_for(size(), [&](std::size_t i) {

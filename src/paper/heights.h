@@ -1,4 +1,4 @@
-// The heights of the control points (section 3.4): equation (4), in the form of (8) and (9). The paper has
+// Computes the heights of the control points (section 3.4): equation (4), in the form of (8) and (9). The paper has
 // two equations (9); this is the first.
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace relievo::paper {
 
-// Equation (9) as A^T A z = A^T b, factored once. A has these rows:
+// Solves equation (9) as A^T A z = A^T b; A^T A is factored once. A has these rows:
 //   z_p = 0                                                 for each boundary point p,
 //   z_p - z_q = s_p . ((x, y)_p - (x, y)_q)                 for each point p and each of its neighbours q.
-// The neighbours Q of a point are the six points nearest to it in the view plane. The second row is (8), n~_p
-// . (p - q) = 0, divided by the z of n~_p; s_p is the slope of n~_p. Concurrent solves are safe if each has
-// its own workspace.
+// The neighbours Q of a point are the six points nearest to it in the view plane. Rows of the second kind are (8),
+// n~_p . (p - q) = 0, divided by the z of n~_p; s_p is the slope of n~_p. Concurrent solves are safe if each has its
+// own workspace.
 class NormalEquations {
  public:
   using Workspace = solver::Cholesky::Workspace;
 
-  // Prepares the system for points in the view plane. A set of points that are connected as neighbours but
-  // include no boundary point would have undetermined heights; its point with the lowest index is treated as
-  // a boundary point. Errors: those of solver::Cholesky::factor().
+  // Prepares the system for points in the view plane. The heights of a set of points that are connected as
+  // neighbours, but include no boundary point, would be undetermined. So the point of the set with the lowest index
+  // is treated as a boundary point. Errors: those of solver::Cholesky::factor().
   static Result<NormalEquations> build(std::span<const Vec2> points,
                                        std::span<const std::uint8_t> is_boundary);
 
@@ -43,7 +43,7 @@ class NormalEquations {
   explicit NormalEquations(solver::Cholesky factor) : factor_(std::move(factor)) {}
 
   solver::Cholesky factor_;
-  std::vector<Vec2f> steps_;  // per point p: sum of the steps of its rows
+  std::vector<Vec2f> steps_;  // per point p: sum of the steps from its neighbours q
   Groups<Row> rows_;          // the rows of (8), grouped by q
 };
 

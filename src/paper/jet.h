@@ -1,4 +1,4 @@
-// Functions in space with their first and second derivatives, for equation (3).
+// Computes with functions in space and their first and second derivatives, for equation (3).
 #pragma once
 
 #include "relievo/core/types.h"
@@ -29,7 +29,7 @@ struct Jet {
   }
 };
 
-// The value of a function of one variable, and its first and second derivative.
+// The value of a function of one variable, and its first and second derivative, at one place.
 struct Derivatives {
   double value, first, second;
 };
@@ -42,7 +42,8 @@ inline Jet chain(const Derivatives& f, const Jet& a) {
 
 using JetVector = std::array<Jet, 3>;
 
-// Returns the scalar product of two vectors; `offset` is the position relative to a fixed point.
+// Returns the scalar product of `n` and the position of a point relative to a fixed one, `offset`, as functions of
+// the point.
 inline Jet dot(const Vec3& offset, const JetVector& n) {
   Jet sum;
   for (Eigen::Index i = 0; i < 3; ++i) {

@@ -8,7 +8,7 @@
 namespace relievo::paper {
 namespace {
 
-// Six lattices. The coarsest one has one cell along the longer side.
+// Returns the options for six lattices. The coarsest one has one cell along the longer side.
 SplineOptions lattices(std::span<const Vec2> points) {
   constexpr int levels = 6;
   const Box box = Box::of(points);

@@ -9,7 +9,7 @@
 
 namespace relievo::paper {
 
-// Heights below this share of the largest height have no well-defined ratio.
+// The ratio z / z0 is unreliable where z0, the height without compression, is below this share of the largest z0.
 inline constexpr float faint_share = .02F;
 
 // Returns the compression ratio z / z0 times z0^2 / (z0^2 + faint^2), which is 1/2 at z0 = `faint`.
@@ -17,9 +17,9 @@ inline float compression_ratio(float z, float z0, float faint) {
   return z * z0 / std::max(z0 * z0 + faint * faint, 1e-30F);
 }
 
-// Computes the compression ratio of the control points: their height divided by their height without
-// compression. A multilevel B-spline interpolates the ratio at all visible points, where it is multiplied by
-// their heights without compression.
+// Carries heights from the control points to all visible points by their compression ratio: the height divided by the
+// height without compression. A multilevel B-spline interpolates the ratio of the control points at all visible
+// points. There it is multiplied by their heights without compression.
 class HeightMapping {
  public:
   // Scratch memory, so that carry() allocates nothing.
@@ -29,9 +29,9 @@ class HeightMapping {
     MultilevelSpline::Workspace fit;
   };
 
-  // The heights from (9) with w_k = 1, at the control points and at all visible points, and with the usual
-  // w_b and slope limit, whatever the shape's. They do not contain the model's depth jumps ("prediscontinuous
-  // removal" in Fig. 6).
+  // Heights without compression, from (9) with w_k = 1, at the control points and at all visible points. Whatever the
+  // relief's coefficients are, w_b and the slope limit have their default values. The heights do not contain the
+  // model's depth jumps ("prediscontinuous removal" in Fig. 6).
   struct Uncompressed {
     std::vector<float> control, visible;
   };

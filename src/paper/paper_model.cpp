@@ -83,7 +83,7 @@ void PaperModel::map(std::span<const float> control_heights, double gamma, MapWo
     mapping_->carry(control_heights, workspace, heights);
   else
     std::ranges::copy(control_heights, heights.begin());
-  // This is the second equation (9).
+  // Adds detail, by the second equation (9).
   const float amount = static_cast<float>(gamma) * span_of(std::span<const float>(heights)).size();
   parallel_for(heights.size(), [&](std::size_t i) { heights[i] += amount * k_[i]; });
   for (const Index i : boundary_) heights[i] = 0;

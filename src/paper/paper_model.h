@@ -1,4 +1,4 @@
-// Reliefs exactly by the paper (sections 3.3 to 3.5), from a surface that is prepared once.
+// Makes reliefs exactly by the paper (sections 3.3 to 3.5), from a surface that is prepared once.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// The system (9) of all visible points, or that of the control points with the mapping to all visible points.
+// The factored system (9), for all visible points, or for the control points with the mapping to all visible points.
 // Const calls may run concurrently if each has its own workspace.
 class PaperModel {
  public:
@@ -28,7 +28,7 @@ class PaperModel {
   static Result<PaperModel> prepare(const Surface& surface, std::size_t control_points,
                                     Progress* progress = nullptr);
 
-  // Return the number of visible points, and the number of control points.
+  // size() returns the number of visible points, control_points() that of control points.
   std::size_t size() const { return k_.size(); }
   std::size_t control_points() const { return system_.size(); }
   bool is_subspace() const { return mapping_.has_value(); }
@@ -40,10 +40,9 @@ class PaperModel {
   void solve(const paper::Coefficients& coefficients, SolveWorkspace& workspace,
              std::span<float> control_heights) const;
 
-  // Writes the heights of all visible points, given those of the control points, with detail by the paper's
-  // second equation (9): z_p += gamma k_p h. Here h is the height without detail: the highest minus the
-  // lowest of z and 0. Then boundary points are set to 0, because (9) only brings them close to 0, and a
-  // plate must be closed.
+  // Writes the heights of all visible points, given those of the control points. Adds detail by the paper's second
+  // equation (9): z_p += gamma k_p h. Here h is the height without detail: the range of all z and 0. Then boundary
+  // points are set to 0, because (9) only brings them close to 0, and a plate must be closed.
   void map(std::span<const float> control_heights, double gamma, MapWorkspace& workspace,
            std::span<float> heights) const;
 
@@ -52,13 +51,13 @@ class PaperModel {
 
   struct ControlPoint {
     Vec3f normal;
-    float k = 0, distance = 0;  // distance to the boundary
+    float k = 0, distance = 0;  // `distance` is that to the boundary
   };
 
   paper::NormalEquations system_;
   std::vector<ControlPoint> control_;
   std::vector<float> k_;         // normalised mean curvature of all visible points
-  std::vector<Index> boundary_;  // P_b
+  std::vector<Index> boundary_;  // P_b, the boundary points
   double delta_ = 0, rho_ = 0;
   std::optional<paper::HeightMapping> mapping_;
 };

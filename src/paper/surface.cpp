@@ -11,7 +11,7 @@
 namespace relievo::paper {
 namespace {
 
-constexpr double largest_radius = 3;  // in rho, of the empty circle of a triangle inside the relief
+constexpr double largest_radius = 3;  // in rho: largest radius of a triangle's empty circle inside the relief
 
 Boundary boundary_of(std::span<const Vec2> points, const Triangulation& mesh, double rho) {
   Boundary boundary;

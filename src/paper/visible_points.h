@@ -1,4 +1,4 @@
-// The visible points of a cloud (section 3.2 of the paper).
+// Finds the visible points of a cloud (section 3.2 of the paper).
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace relievo::paper {
 
-// Returns the indices of the visible points of a cloud in view coordinates, in ascending order. The view
-// plane is divided into square cells with sides of 2 rho. The points less than 2 rho below the highest point
-// of their cell are visible, except points whose normals do not face the viewer, because a height field
-// cannot have such normals. `rho` is the sampling distance, > 0.
+// Returns the indices of the visible points of a cloud in view coordinates, in ascending order. The view plane is
+// divided into square cells with sides of 2 rho. Points less than 2 rho below the highest point of their cell are
+// visible. Points whose normals do not face the viewer are not, because a height field cannot have such normals.
+// `rho` is the sampling distance, > 0.
 std::vector<Index> visible_points(const Cloud& viewed, double rho);
 
 }  // namespace relievo::paper

@@ -16,31 +16,31 @@
 namespace relievo {
 namespace {
 
-// Shares of the tolerance for curved bases and for flips of thin triangles' edges.
+// The parts of the tolerance, as shares of it, that curved bases and flips of thin triangles' edges may use.
 constexpr double bending_share = .25, turning_share = .01;
-// Precision of files; used if only the number of triangles is limited.
+// The tolerance if only the number of triangles is limited; it is about the precision of files.
 constexpr double least_error_mm = 1e-4;
-// Width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off.
+// The width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off.
 constexpr double rim_bevel = .3;
 
-// The limit for slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the 0.999 of
-// limit_draft(), so that simplification has some freedom, and is below 1 because of rounding.
+// The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the 0.999 of
+// limit_draft(), so that simplification has some freedom. It is below 1 because of rounding.
 constexpr double front_share = .9995;
-constexpr double ornament_share = .997;  // as front_share, for walls of ornaments, whose corners are rounded
-constexpr double most_held_mm = 1e-5;    // usual limit for moves of points by enforce_draft_in_float()
-constexpr double rounded_up = 1.002;     // curved rims are polygons, which makes their bevels steeper
+constexpr double ornament_share = .997;  // front_share for walls of ornaments, whose corners are rounded
+constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
+constexpr double rounded_up = 1.002;     // curved rims are polygons, so bevels are steeper by up to this
 
 bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
 }
 
-// Returns the width of the bevel of a rim with that height whose bevel has this angle to the vertical.
+// Returns the least width of a bevel over this height that has this angle to the vertical.
 double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
 
-// Returns the base of a form. A mirrored form mirrors the base. A die turns a raised base into a hollow one,
-// and a hollow one into a raised one.
+// Returns the base for the form in the options. A mirrored form mirrors the base. A die turns a raised base into a
+// hollow one, and a hollow one into a raised one.
 BaseOptions formed_base(const ReliefOptions& options) {
   BaseOptions base = options.base;
   base.is_mirrored = is_mirrored(options.form);
@@ -48,7 +48,7 @@ BaseOptions formed_base(const ReliefOptions& options) {
   return base;
 }
 
-// Returns the rim of a form. The default bevel is at least as far off the vertical as walls must be.
+// Returns the rim for the form in the options. The default bevel keeps the draft angle unless the rim is too narrow.
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
@@ -70,9 +70,8 @@ std::vector<Vec2> unit_hull(const Surface& surface) {
   return hull;
 }
 
-// Returns the largest width of a relief that leaves space for margin and rim on all sides of the plate. The
-// centres of the relief's hull and of the plate's outline coincide, so each side of the outline limits the
-// scale independently.
+// Returns the largest width of a relief that leaves space for margin and rim on all sides of the plate. The centre of
+// the relief's hull is that of the plate's outline, so each side of the outline limits the scale independently.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
   const std::vector<Vec2> hull = unit_hull(surface);
@@ -91,14 +90,14 @@ double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   return width;
 }
 
-// Returns the names of what leaves a relief less room than its plate has.
+// Returns the names of the options that reduce the space for a relief on its plate, for errors.
 std::string takers_of_room(const ReliefOptions& options) {
   const std::string_view last = options.shift_mm.isZero() ? "" : " and shift";
   if (!options.rim_mm) return cat("margin", last);
   return cat("margin", last.empty() ? " and rim" : ", rim", last);
 }
 
-// A font that was not read is not replaced by another font.
+// Returns an error if a named font or ornament file was not read, because nothing replaces it.
 Result<void> check_files(const ReliefOptions& options) {
   if (!options.font_name.empty() && !options.font)
     return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));
@@ -113,7 +112,7 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-// Returns an error if the requested bevel is closer to the vertical than the draft angle allows.
+// Returns an error if the rim's bevel is closer to the vertical than the draft angle allows.
 Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
   const RimOptions rim = formed_rim(options, height_mm);
@@ -200,7 +199,7 @@ Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& op
   }
   const double largest = largest_width_mm(surface, options);
   sized.width_mm = options.width_mm.value_or(largest);
-  constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a rounded report
+  constexpr double rounding = 1 + 1e-6;  // tolerance for a width copied from a report, which is rounded
   if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding)
     return with_height(surface, std::move(sized));
   return option_error("width", cat("expected at most ", std::max(0.0, largest),

@@ -17,36 +17,36 @@ inline bool is_simplified(const ReliefOptions& options) {
   return options.tolerance_mm || options.triangles;
 }
 
-// Returns the width and height of the plate in millimetres; 0 if they follow from the relief.
+// Returns the width and height of the plate in millimetres; 0 if they are computed from the size of the relief.
 Vec2 plate_size_of(const ReliefOptions& options);
 
-// Returns the plate options for a relief of that height. The options must have passed check(). If they ask
-// for simplification, `options.triangles` limits the triangles of the front instead of those of the solid.
+// Returns the plate options for a relief with that height. The options must have passed check(). If they ask for
+// simplification, `options.triangles` is the limit for the triangles of the front, not for those of the solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
 // Returns the limits for simplifying the front. A curved base takes a part of the tolerance, which is
 // subtracted here. The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether make_plate() has to simplify instead of simplified_front(). This is so for curved ground,
-// whose triangles are not triangles of the front, and for the finish `reachable`; but never for the outline
+// Returns whether make_plate() simplifies the solid, because simplified_front() cannot. This is so for curved ground,
+// whose triangles are not triangles of the front, and for the finish `reachable`. It is never so for the outline
 // `none`, or if the options do not ask for simplification.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
-// Returns options whose height is in mm, converted if it is given as a share of the diagonal. The options
+// Returns the options with their height in mm; it is converted if it is given as a share of the diagonal. The options
 // must have a width.
 ReliefOptions with_height(const Surface& surface, ReliefOptions options);
 
 // A solid, and the same solid before it was bent around a wrap.
 struct Body {
   Solid solid;
-  Solid flat = {};  // empty without a wrap
+  Solid flat = {};  // empty if there is no wrap
   std::optional<Wrap> wrap = {};
 
   const Solid& plate() const { return wrap ? flat : solid; }
 };
 
-// Returns the body with that front. `relief_mm` is the height of the relief. Errors: kind option if the rim's
+// Returns the body that has this front. `relief_mm` is the height of the relief. Errors: kind option if the rim's
 // bevel is too close to the vertical for the draft angle; those of make_plate(), enforce_draft_in_float() and
 // wrap_plate().
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options);
@@ -76,14 +76,14 @@ Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& opti
 // Returns how far the front's lowest point is below the ground, >= 0.
 double depth_below_ground(const HeightFieldMesh& front);
 
-// A front, simplified if the options ask for it, and the body with that front. If the options limit the
-// number of triangles, the body's solid has at most that many.
+// A front, simplified if the options ask for it, and the body that has this front. If the options limit the number of
+// triangles, the body's solid has at most that many.
 struct FormedBody {
   FormedFront formed;
   Body body;
 };
 
-// Returns the body with that front, simplified as the options ask. Errors: those of simplified_front() and
+// Simplifies the front as the options ask, and returns the body that has it. Errors: those of simplified_front() and
 // make_body(); kind option if the solid needs more triangles than the limit for its outline and walls alone.
 Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
 

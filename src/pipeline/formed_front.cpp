@@ -26,7 +26,7 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   return {lowest, highest};
 }
 
-// Returns, per triangle, whether it lies on one surface: inside the relief, and not part of a wall at a depth
+// Returns, per triangle, whether it is part of a smooth surface: inside the relief, and not part of a wall at a depth
 // jump.
 std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   std::vector<std::uint8_t> is_smooth(surface.triangulation.triangles.size());
@@ -40,8 +40,8 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   return is_smooth;
 }
 
-// Returns the distance between samples. The default is what the eye resolves when it sees the whole plate at
-// arm's length, about a 700th of the width, or the surface's spacing if that is smaller.
+// Returns the distance between samples. The default is about a 700th of the width, because the eye cannot resolve
+// less when it sees the whole plate at arm's length. It is smaller if the surface's spacing is.
 Result<double> sample_step(const Surface& surface, const ReliefOptions& options) {
   constexpr double samples = 700, most_samples = 10'000;
   const double width_mm = options.effective_width_mm(), least_mm = width_mm / most_samples;
@@ -52,7 +52,8 @@ Result<double> sample_step(const Surface& surface, const ReliefOptions& options)
       std::min(width_mm / samples, surface.rho * mm_per_unit(surface, options)));
 }
 
-// Returns for each point of a front whether it is on the ground, or the highest or lowest point.
+// Returns, for each point of a front, whether its height must not change: it is on the ground, or is the highest or
+// the lowest point.
 std::vector<std::uint8_t> fixed_points(const HeightFieldMesh& front) {
   std::vector<std::uint8_t> is_fixed;
   for (const Vec3& p : front.points) is_fixed.push_back(p.z() == front.ground_mm);
@@ -63,9 +64,9 @@ std::vector<std::uint8_t> fixed_points(const HeightFieldMesh& front) {
   return is_fixed;
 }
 
-// Limits the slopes of a sampled front on its base to the draft angle. The ground, the highest and the lowest
-// point do not move, and no point leaves the range between the latter. Returns whether that is possible.
-// Errors: those of base_heights_mm().
+// Limits the slopes of a sampled front on its base to the draft angle. Points on the ground, the highest and the
+// lowest point do not move, and no point leaves the range between the highest and the lowest. Returns whether that is
+// possible. Errors: those of base_heights_mm().
 Result<bool> keep_draft(HeightFieldMesh& front, const ReliefOptions& options) {
   RELIEVO_TRY(const std::vector<double> base, base_heights_mm(front, options));
   std::vector<std::uint8_t> is_fixed = fixed_points(front);
@@ -91,8 +92,8 @@ Result<bool> keep_draft(HeightFieldMesh& front, const ReliefOptions& options) {
   return true;
 }
 
-// Samples the smooth surface of a front. Returns a lithophane unchanged, because its heights are not those of
-// a surface, and also a front whose samples cannot satisfy the draft angle.
+// Samples the smooth surface of a front. Returns the front unchanged if it is a lithophane, whose heights are not
+// those of a surface, or if the samples cannot satisfy the draft angle.
 Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
                                 std::span<const std::uint8_t> is_smooth, const ReliefOptions& options,
                                 const Progress* progress) {
@@ -104,8 +105,8 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// The largest number of simplifications. For a plane base the first guess of the front's number of triangles
-// is already right.
+// The largest number of simplifications. For a plane base the first estimate of the front's number of triangles is
+// already right.
 constexpr int most_attempts = 4;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
 
@@ -126,12 +127,12 @@ double count(const FormedBody& made) {
   return static_cast<double>(made.body.solid.triangles.size());
 }
 
-// Returns the body whose front has as many triangles as the limit allows. `full` is the front with all
+// Returns the body whose front has as many triangles as the limit for the solid allows. `full` is the front with all
 // samples, `whole` the body with all triangles.
 Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole, const ReliefOptions& options,
                                Progress* progress) {
   const double most = *options.triangles, in_front = static_cast<double>(whole.body.plate().front_triangles);
-  // The bottom of a relief without ground repeats the front.
+  // A relief without ground has its triangles twice: the bottom repeats the front.
   const double sides = options.outline == Outline::none ? 2 : 1;
   double limit = (most - (count(whole) - sides * in_front)) / sides;
   double least = count(whole);
@@ -188,7 +189,7 @@ Result<FormedFront> full_front(const Surface& surface, const Relief& relief, con
   if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
   if (options.mm_per_value) {
     raise_walls(made.front, surface);
-    is_smooth.resize(made.front.triangles.size());  // walls are plane
+    is_smooth.resize(made.front.triangles.size());  // the walls were added at the end; they are not smooth
     if (options.outline == Outline::none) made.front.is_relief.resize(is_smooth.size(), 1);
   }
   RELIEVO_TRY(made.front, sampled(std::move(made.front), surface, is_smooth, options, progress));

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// With this u or more, all weights are exactly 1.
+// From this value of u, the coefficient in equation (6), all weights are exactly 1.
 constexpr double uncompressed_u = 1e12;
 
 // While the picture moves, viewers do not notice when heights are scaled by up to this share.
@@ -48,7 +48,7 @@ struct LiveModel::State {
   std::optional<FrameRenderer> renderer;  // empty before the first picture
   std::vector<float> gains;               // gains of the last frame
   Frame frame, highest;
-  std::optional<FrameOptions> made;  // options of the frame; empty before the first one
+  std::optional<FrameOptions> made;  // options of `frame`; empty before the first one
   LiveFrame last;
 
   std::shared_ptr<const ToneCurve> curve;  // curve of the last frame that had one
@@ -104,7 +104,7 @@ Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
     const Method method = options.effective_method();
     if (!has_shape(method))
       return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
-    // While a model is turned, its coarse surface is used for all methods.
+    // A model that is being turned has `detail`. Its coarse surface serves all methods, so it needs no check.
     if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
     RELIEVO_TRY(ReliefOptions sized, with_width(options));
     sized.height_mm = sized.effective_height_mm();
@@ -194,7 +194,7 @@ Result<PlacedRelief> LiveModel::draw_on_plate(const LiveFrame& made, const Relie
                                               const Progress* progress) {
   RELIEVO_CHECK(relievo::check(options));
   if (!state_->shown.detail) RELIEVO_CHECK(check_model(model(), options));
-  ReliefOptions quick = options;  // keeps the draft, which the rim's bevel needs
+  ReliefOptions quick = options;  // the draft angle stays, because the rim's bevel depends on it
   quick.tolerance_mm = quick.triangles = std::nullopt;
   quick.tool = std::nullopt;
   quick.finish = Finish::full;

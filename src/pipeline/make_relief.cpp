@@ -24,7 +24,7 @@
 namespace relievo {
 namespace {
 
-// The results of all stages of a relief, and its options.
+// The results of all stages of a relief, and its options, for the report.
 struct ReliefFacts {
   const Surface& surface;
   const Relief& relief;
@@ -50,7 +50,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Sets the heights of a front after the tool, which leaves material in narrow and deep places.
+// Reports the heights of a front that the tool can reach. The tool leaves material in narrow and deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)
@@ -115,7 +115,7 @@ Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOpt
   return heights;
 }
 
-// Makes the relief whose height follows from its shape. Errors: kind geometry if that height is 0.
+// Makes the relief with the height that follows from its shape. Errors: kind geometry if that height is 0.
 Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
   Relief relief = model.make(shape);
   const double least = 1e-6 * model.surface().longer_side();
@@ -125,7 +125,7 @@ Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
       "which the steps between level parts can take");
 }
 
-// Returns the shape without compression: u of (6) is infinite.
+// Returns the shape with the coefficient u of (6) infinite, which leaves heights uncompressed.
 Shape uncompressed(Shape shape) {
   shape.compression.u = std::numeric_limits<double>::infinity();
   return shape;
@@ -154,9 +154,9 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
-// Makes the relief with the requested or the default height. If the model is too shallow in this view for the
-// default height, the slopes stay uncompressed and determine the height. A requested height that is too large
-// is an error.
+// Makes the relief with the requested or the default height. If the model is too shallow in this view for the default
+// height, its slopes are not compressed, and the height follows from them. A requested height that is too large is an
+// error.
 Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
   const double scale = mm_per_unit(model.surface(), options);
   const bool is_usual = !options.height_mm && options.effective_height_mm();
@@ -170,8 +170,8 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
-// Returns the relief of relief_of_height(). If the height is a share of the diagonal and out of reach, the
-// error also says which share the normals alone reach.
+// Returns the result of relief_of_height(). If the height is a share of the diagonal and cannot be reached, the error
+// also states the share that is reached with uncompressed slopes.
 Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options, bool is_share,
                          Progress* progress) {
   Result<Relief> relief = relief_of_height(model, options, progress);
@@ -183,12 +183,12 @@ Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options,
   return relief;
 }
 
-// Returns the number of points and the requested resolution, which determine the memory for a body.
+// Returns the number of points and the requested resolution, from which the memory for a body is estimated.
 MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
   return {model.surface().points.size(), options.resolution_mm.value_or(0)};
 }
 
-// A relief, and the options with the width for which it was made.
+// A relief, and the options with which it was made, including its width.
 struct SizedRelief {
   ReliefOptions options;
   Relief relief;

@@ -23,7 +23,7 @@ Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
   return option_error({}, cat("expected a whole number, found ", channel));
 }
 
-// The words of options that drop or keep crumbs, a support plane or doubtful points.
+// The words of options that select whether crumbs, a support plane or doubtful points are dropped or kept.
 constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", true}}};
 
 Result<void> read_crumbs(const OptionValue& value, OptionTargets& to) {

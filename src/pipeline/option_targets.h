@@ -1,4 +1,4 @@
-// The variables into which options are read, and the functions that read them for the option table.
+// Defines the variables into which options are read, and the functions that read them for the option table.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace relievo {
 struct OptionTargets {
   ReliefOptions relief;
   DepthOptions depth;
-  bool keeps_doubtful = false;     // as in ReadOptions
+  bool keeps_doubtful = false;     // see ReadOptions::keeps_doubtful
   std::string side = "front", up;  // together they determine the view
   std::optional<Outline> outline;  // default: a circle if there is a diameter
 };
@@ -45,8 +45,8 @@ std::optional<double> ruling_number(const ReliefOptions& options) {
     return options.*of;
 }
 
-// Reads a number into a member. `ruling` is used to return the effective value; it is the member, or a
-// function that includes the default.
+// Reads a number into a member. The effective value comes from `ruling`, which is the member itself or a function
+// that returns a default if the member is empty.
 template <auto member, auto ruling = member>
 constexpr OptionAccess number{read_number<member>, ruling_number<ruling>};
 

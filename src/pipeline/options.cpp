@@ -76,7 +76,8 @@ Result<void> check_rim(const ReliefOptions& options) {
   return {};
 }
 
-// Only on a plane base can the finish be `reachable`, a lithophane be made, or a plate be bent.
+// Returns an error if the base is not a plane, but the options need one: for the finish `reachable`, for a
+// lithophane, or for bending the plate.
 Result<void> check_base(const ReliefOptions& options) {
   if (options.base.kind == BaseKind::plane) return {};
   if (options.form == Form::lithophane)
@@ -111,7 +112,7 @@ Result<void> check_text_options(const ReliefOptions& options) {
   return {};
 }
 
-// Returns the name of the option that determines the size of the plate, and the shorter side of that size.
+// Returns the name of the option that determines the size of the plate, and the shorter side of the plate.
 std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
   if (options.diameter_mm) return {"diameter", *options.diameter_mm};
   return {"plate", options.plate_mm ? options.plate_mm->minCoeff() : 0};

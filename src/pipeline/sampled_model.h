@@ -1,4 +1,5 @@
-// Prepares the model of a job's scene as a value. A caller who makes only one relief of it can free its parts early.
+// Prepares the model of a job's scene and returns it as a value, so that a caller who makes only one relief of it can
+// free its parts early.
 #pragma once
 
 #include <memory>
@@ -11,13 +12,13 @@ namespace relievo {
 
 struct SampledModel {
   ReliefModel model;
-  std::vector<SampleNote> notes;  // on how the points of the scene were sampled
+  std::vector<SampleNote> notes;  // notes on how the points of the scene were sampled
 };
 
 // Returns the model of the scene in its view. Errors: those of prepare() in job.h.
 Result<SampledModel> prepare_sampled(Job job, Progress* progress);
 
-// Returns the result of prepare() in make_relief.h. Frees the points early, unless others own them, too.
+// Does the same as prepare() in make_relief.h. Frees the points early, unless they have other owners.
 Result<ReliefModel> prepare_owned(std::shared_ptr<const Cloud> points, const View& view,
                                   const ModelOptions& options, Progress* progress);
 

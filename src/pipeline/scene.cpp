@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // in units of the height that all models are scaled to
+constexpr double gap = .08, widest = 1.5;  // distance and largest width of models, in their common heights
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");
@@ -29,8 +29,8 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-// Returns `count` of the cloud's points. Their indices are multiples of the golden ratio, because equal steps
-// could coincide with the rows of a scanner.
+// Returns `count` of the cloud's points, at the multiples of the golden ratio modulo 1, scaled to the number of
+// points. Equal steps could coincide with the rows of a scanner.
 Cloud some_of(const Cloud& cloud, std::size_t count) {
   constexpr double golden_ratio = .6180339887498949;
   Cloud some;
@@ -106,12 +106,12 @@ class Row {
 
   Mat3 to_view_;
   double height_ = 0;
-  Vec3 at_ = Vec3::Zero();  // left and bottom of the next model, and the middle of its depth
+  Vec3 at_ = Vec3::Zero();  // left end and bottom of the next model, and the middle of its depth
 };
 
 }  // namespace
 
-// If the pose does not rotate, the result is exactly the identity.
+// Returns exactly the identity if the pose neither rotates nor mirrors.
 Mat3 turn_of(const Pose& pose) {
   const auto about = [&](int axis) {
     return Eigen::AngleAxisd(to_radians(pose.rotate_deg[axis]), Vec3(Vec3::Unit(axis))).toRotationMatrix();

@@ -14,8 +14,7 @@
 namespace relievo {
 namespace {
 
-// A cloud keeps its points unless its sampling distance, divided by that of the scene, is outside these
-// limits.
+// A cloud keeps all its points if its sampling distance, divided by that of the scene, is between these limits.
 constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
 constexpr Colour white{255, 255, 255};
 
@@ -33,8 +32,8 @@ struct Parts {
   std::vector<SampleNote> notes;
 };
 
-// Appends colours or own heights of points. If only one of the two groups has some, the points of the other
-// group get white or 0. `T` has the points of the groups and one of these per point.
+// Appends a member that has one value per point, such as colours or own heights, from one group of points to another.
+// If only one of the groups has values, the points of the other group get `usual`.
 template <typename T, typename Value>
 void append_member(T& to, const T& from, std::vector<Value> T::*member, const Value& usual) {
   if ((to.*member).empty() && (from.*member).empty()) return;
@@ -133,7 +132,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// Returns the area of the points that face the viewer, including hidden ones.
+// Returns the area, in the view plane, of the points that face the viewer, including hidden ones.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -150,7 +149,7 @@ double shown_area(const Mesh& mesh, const View& view) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
-    // / 2 for a triangle, / 2 because half of a closed mesh faces the viewer
+    // The factor 1/4 is the product of 1/2 for a triangle and 1/2 because half of a closed mesh faces the viewer.
     sum += std::abs(p.cross(q).dot(to_viewer)) / 4;
   }
   return sum;
@@ -178,12 +177,12 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   return mesh;
 }
 
-// Brings clouds to the common spacing. Returns their points, except that coarse clouds become triangles in
-// parts.mesh.
+// Brings clouds to the common spacing. Returns the points of all clouds except coarse ones. Of these, adds triangles
+// to parts.mesh.
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
-    // Models are scaled, each by a factor of its own.
+    // Each model has a scale factor of its own, so depths are not proportional to the values of a file any more.
     if (placed.cloud.units_per_value) all.units_per_value = 0;
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {
@@ -202,7 +201,7 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   return all;
 }
 
-// Returns the cloud without its outliers. Without outliers the cloud is not copied.
+// Returns the cloud without its outliers. If there are none, the cloud is not copied.
 ViewSample without_outliers(std::shared_ptr<const Cloud> cloud) {
   const std::vector<Index> far = outliers(*cloud);
   if (far.empty()) return {std::move(cloud), 0, {}};

@@ -16,15 +16,16 @@
 namespace relievo {
 namespace {
 
-// The first coarse relief of a larger cloud is made of about this many points.
+// The largest number of points, approximately, from which the first coarse relief of a large cloud is made.
 constexpr std::size_t early_points = 150'000;
 
-// Returns about `most` of the cloud's points, distributed evenly over their order.
+// Returns about `most` points of the cloud, distributed evenly over the order of its points.
 Cloud thinned(const Cloud& cloud, std::size_t most) {
   const double share = static_cast<double>(most) / static_cast<double>(cloud.size());
   const std::vector<Index> erased = indices_where(cloud.size(), [&](Index i) {
     double whole = 0;
-    return std::modf(std::numbers::phi * i, &whole) >= share;  // multiples of phi are evenly spread modulo 1
+    // Modulo 1, multiples of phi are distributed evenly.
+    return std::modf(std::numbers::phi * i, &whole) >= share;
   });
   return erase_points(cloud, erased);
 }
@@ -45,15 +46,15 @@ struct Shared {
   std::optional<Waiting> waiting;
   std::shared_ptr<Progress> progress;  // progress of the preparation that is running
   std::shared_ptr<const ReliefModel> model;
-  std::weak_ptr<const Cloud> of_model;  // the points of the model
+  std::weak_ptr<const Cloud> of_model;  // points of the model
   SessionStatus status;
   Measured measured;  // the last measurement
   std::function<Preparation::Points(Progress&)> all_sides;
   std::shared_ptr<const Turntable> turntable;  // turntable of the measured points; null before the first turn
-  std::shared_ptr<Progress> turning;           // progress of the newest turn(), until that returns
-  std::optional<ShownModel> first;             // relief in first_view, until there is a model
+  std::shared_ptr<Progress> turning;           // progress of the newest turn() while that is running
+  std::optional<ShownModel> first;             // coarse relief in first_view, until there is a model
   View first_view;
-  // Not null while `first` is being made; meanwhile status() says that turn() is not possible.
+  // Not null while `first` is being made; status() then reports that turn() is not possible.
   std::shared_ptr<Progress> making_first;
 
   void cancel_turning() {
@@ -64,7 +65,7 @@ struct Shared {
     if (making_first) making_first->cancel();
   }
 
-  // Frees the points, unless there is a model, whose next view may need them.
+  // Frees the points if there is no model. If there is one, its next view may need them.
   void forget_unused() {
     if (!model) forget_points();
   }
@@ -161,16 +162,15 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes the first coarse relief, if wanted, before the model. Making both at the same time would take
-  // longer.
+  // Makes the first coarse relief before the model, if wanted. Making both at the same time would take longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
     keep_first(turned(view, nullptr, progress), view);
   }
 
-  // Makes the first coarse relief of a large cloud, if wanted, before all its points are measured. Returns
-  // whether it did.
+  // Makes the first coarse relief of a large cloud, if wanted, before all its points are measured. Returns whether it
+  // was made.
   bool make_early(const Cloud& cloud, const View& view, bool is_wanted) {
     if (!is_wanted || cloud.size() < 2 * early_points) return false;
     const auto progress = shared.with([](Shared& s) -> std::shared_ptr<Progress> {
@@ -215,13 +215,13 @@ struct Session::State {
     return MeasuredCloud::measure(*points, view, &progress);
   }
 
-  // Returns the turntable of the points that were measured last. If these are visible in one view only, the
-  // points of all sides are measured first.
+  // Returns the turntable of the points that were measured last. If these are visible in one view only, first
+  // measures the points of all sides.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides, has_first] = shared.with([](const Shared& s) {
       return std::tuple(s.turntable, s.measured, s.all_sides, s.first.has_value());
     });
-    if (!last.cloud && has_first) return cancelled_error();  // the caller asks again
+    if (!last.cloud && has_first) return cancelled_error();  // the caller tries again later
     if (!last.cloud)
       return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected points that were prepared"});
     if (known) return known;

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_of_a_value = 40;  // characters of a wrong value that a message shows
+constexpr std::size_t most_of_a_value = 40;  // most characters of a wrong value in a message
 
 std::string found(const Json& value) {
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -26,7 +26,7 @@ Vec3 to_point(const Json& json) {
   return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
 }
 
-// Reads one stroke. Errors name its number and the key.
+// Reads one stroke. Errors state the stroke's number and the key.
 class StrokeReader {
  public:
   StrokeReader(const Json& json, std::size_t number) : json_(json), number_(number) {}

@@ -18,17 +18,18 @@ class ValueScale {
         centre_((surface.view.R_view_model * surface.centre).z()) {
     if (options.ground_value) {
       ground_ = *options.ground_value * sign();
-    } else if (!surface.units_per_value || units_per_value_ < 0) {  // otherwise it is 0, sea level
+    } else if (!surface.units_per_value || units_per_value_ < 0) {  // otherwise ground_ is 0, sea level
       ground_ = HUGE_VAL;
       for (const Vec3& p : surface.points) ground_ = std::min(ground_, rising(p));
     }
   }
 
-  // Returns the height of the value above the ground; 0 below the ground.
+  // Returns how far the point's value is above the ground, in units of the file's values; 0 if it is below the
+  // ground.
   double above_ground(const Vec3& p) const { return std::max(0., rising(p) - ground_); }
 
  private:
-  // Returns the value, negated if values increase away from the viewer.
+  // Returns the point's value. It is negated if values increase away from the viewer.
   double rising(const Vec3& p) const { return (p.z() + centre_) / std::abs(units_per_value_); }
   double sign() const { return std::copysign(1., units_per_value_); }
 
@@ -74,7 +75,7 @@ std::vector<std::uint8_t> tile_edges(const Surface& surface) {
         surface.boundary.is_boundary[i] && std::ranges::any_of(sides, [&](const Side& side) {
           return (surface.points[i].head<2>() - side.place).dot(side.inwards) < near * surface.rho;
         });
-  // An edge ends at a hole, where the relief goes down to the ground.
+  // At a hole the relief goes down to the ground, so an edge of the tile does not continue there.
   std::vector<std::uint8_t> is_edge = is_on_side;
   for (const auto& [a, b] : relief_edges(surface))
     if (!is_on_side[a] || !is_on_side[b]) is_edge[a] = is_edge[b] = 0;

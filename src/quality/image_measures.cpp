@@ -43,8 +43,8 @@ double correlation(const Image<float>& a, const Image<float>& b, const PixelMask
 
 namespace {
 
-// Returns the share of pairs that keep their order. next() returns the next pair of pixels, possibly with
-// no_index.
+// Returns the share of pairs that have the same order in z as in depth. next() returns the next pair of pixels; a
+// pair whose second pixel is no_index is ignored.
 template <typename Next>
 double order_of_pairs(const Image<float>& z, const Image<float>& depth, const PixelMask& where, Next next) {
   const std::vector<Index>& at = where.pixels;

@@ -1,4 +1,4 @@
-// Measures on images how much of its model a relief preserves.
+// Measures on images how much of a model its relief preserves.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ class GaussianFilter {
   std::vector<float> weights_;  // weights at the centre and at each distance from it
 };
 
-// Returns 1 where any pixel in the surrounding square of 2 `radius` + 1 pixels is not 0, else 0.
+// Returns a mask that is 1 at a pixel if any pixel of the square of 2 `radius` + 1 pixels around it is not 0, else 0.
 Image8 dilated(const Image8& mask, int radius);
 
-// The pixels of an image that are measured.
+// The pixels of an image on which the measures are computed, called measured pixels.
 struct PixelMask {
   Image8 mask;                // never set in the first and last row and column
   std::vector<Index> pixels;  // indices of the mask's pixels
@@ -32,28 +32,28 @@ struct PixelMask {
   explicit PixelMask(Image8 image);
 };
 
-// Returns the divergence of the vectors (x, y) at measured pixels, even if neighbouring pixels are not
-// measured; 0 elsewhere. y points up, rows go down.
+// Returns the divergence of the vectors (x, y) at measured pixels, even if neighbouring pixels are not measured; 0
+// elsewhere. y points up, although rows are numbered downwards.
 Image<float> divergence(const Image<float>& x, const Image<float>& y, const PixelMask& where);
 
-// Gaussian blur that uses only measured pixels (normalised convolution).
+// A Gaussian blur that uses only measured pixels (normalised convolution).
 class MaskedGaussian {
  public:
   MaskedGaussian(double sigma, int radius, const PixelMask& where);
-  // Other pixels must be 0 before, and are undefined afterwards.
+  // Pixels that are not measured must be 0 before, and are undefined afterwards.
   void apply(Image<float>& image, const PixelMask& where) const;
 
  private:
   GaussianFilter filter_;
-  Image<float> weight_;  // the part of the kernel on measured pixels
+  Image<float> weight_;  // per pixel: the share of the kernel on measured pixels
 };
 
-// Parameters of ReliefMetrics: standard deviations of the detail scales in pixels, and number of random pairs
-// for the order.
+// Parameters of ReliefMetrics: the standard deviations of the blurs with which detail is compared, in pixels, and the
+// number of random pairs for the order of depths.
 inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
 inline constexpr std::size_t order_pairs = 200000;
 
-// Returns the blur of the curvature for the detail at a scale.
+// Returns the blur of the curvature with which detail is compared at a scale.
 inline MaskedGaussian detail_gaussian(int scale_px, const PixelMask& where) {
   return {static_cast<double>(scale_px), 3 * scale_px, where};
 }
@@ -67,9 +67,9 @@ double correlation(const Image<float>& a, const Image<float>& b, const PixelMask
 // no such pairs.
 double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 
-// The same as order_kept() for pairs whose distance is between these shares of the picture's longer side.
-// People compare depths along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief:
-// pictorial and otherwise).
+// Does the same as order_kept() for pairs whose distance is between these shares of the picture's longer side. People
+// compare depths along one slope, not across the whole picture (Koenderink, van Doorn 1995: Relief: pictorial and
+// otherwise).
 inline constexpr double nearest_near_pair = .03, farthest_near_pair = .1;
 double near_order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where);
 

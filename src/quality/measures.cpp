@@ -18,7 +18,7 @@ namespace {
 
 constexpr int lights = 16;
 
-// Returns one of 16 directions: eight azimuths at an elevation of 30 degrees, then the same azimuths at 55
+// Returns direction i of 16 directions of light: eight azimuths at an elevation of 30 degrees, then the same at 55
 // degrees.
 Vec3f light_direction(int i) {
   const double azimuth = i % 8 * std::numbers::pi / 4;
@@ -51,9 +51,9 @@ struct ReliefMetrics::Reference : ModelPicture {
   struct Edge {
     Index a, b;
   };
-  // Edges of inside triangles where the relief may have a step.
+  // Places where the relief may have a step.
   struct Steps {
-    std::vector<Edge> jumps;  // inside the model
+    std::vector<Edge> jumps;  // edges of triangles across depth jumps of the model
     std::vector<Index> rim;   // points next to the boundary, possibly repeated
   };
 
@@ -95,8 +95,8 @@ struct ReliefMetrics::Reference : ModelPicture {
     return s;
   }
 
-  // Returns the structural similarity (SSIM) of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants
-  // and window.
+  // Returns the structural similarity (SSIM) of two shadings by Wang, Bovik, Sheikh and Simoncelli 2004, with their
+  // constants and window.
   double similarity(const Shading& a, const Shading& b) const {
     constexpr double c1 = .01 * .01, c2 = .03 * .03;
     Image<float> ab = product(a.light, b.light);
@@ -139,8 +139,7 @@ struct ReliefMetrics::Reference : ModelPicture {
     return smoothed;
   }
 
-  // Sets halo, steep_share, height_used and the steps. They also use the pixels that the other measures leave
-  // out.
+  // Sets halo, steep_share, height_used and the steps. Uses also the pixels that the other measures ignore.
   void guard(const Image<float>& z, const NormalMap& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
     const float steep = static_cast<float>(std::cos(to_radians(80)));

@@ -1,4 +1,4 @@
-// Images of a model, with which reliefs are compared: its normals and depths, and the pixels to measure.
+// Draws the images of a model with which reliefs are compared: its normals and depths, and the pixels to measure.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ namespace relievo {
 // positions of points in the view plane, so it serves for the pictures of all reliefs of a surface.
 class BarycentricMap {
  public:
-  // The longer side of the points' box gets `longer_side_px` pixels, plus a margin of `margin_px` on each
-  // side.
+  // The longer side of the points' box gets `longer_side_px` pixels. Each side of the picture gets a margin of
+  // `margin_px`.
   BarycentricMap(std::span<const Vec3> points, const Triangulation& triangulation, int longer_side_px,
                  int margin_px);
 
@@ -57,17 +57,18 @@ struct NormalMap {
   Image<float> x, y, z;
 };
 
-// Returns the normals of heights in pixels, by central differences; at the picture's border they are level.
+// Returns the normals of a height field whose heights are in pixels, by central differences. At the picture's border
+// the normals are (0, 0, 1).
 NormalMap normals_of(const Image<float>& z);
 
-// Images of the scan's own normals and depths, level outside the relief.
+// Images of the model's own normals and depths. Outside the relief normals are (0, 0, 1).
 struct ModelPicture {
-  // Distance from silhouette and jumps; also the radius of SSIM's window.
+  // The least distance of measured pixels from silhouette and jumps; also the radius of SSIM's window.
   static constexpr int safe_distance_px = 5;
 
   BarycentricMap grid;
   std::vector<std::uint8_t> is_inside;  // per pixel: whether it is on the relief
-  PixelMask measured;                   // the pixels at least safe_distance_px inside
+  PixelMask measured;                   // the pixels at least safe_distance_px away from silhouette and jumps
   NormalMap normals;
   Image<float> depth;
 
@@ -75,7 +76,7 @@ struct ModelPicture {
 
   int width() const { return grid.width(); }
 
-  // Returns the picture of heights, given one per point, in pixels.
+  // Returns the picture of heights, with one height per point of the surface. The unit of the result is a pixel.
   Image<float> heights_in_pixels(std::span<const double> heights) const;
 
  private:

@@ -43,7 +43,7 @@ struct Residuals {
   double deviation() const { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0; }
 };
 
-// Connects triangle sides into chains.
+// Connects triangle sides on an outline into chains.
 template <typename Rim>
 std::vector<std::vector<Rim>> chains_of(const std::vector<Rim>& rims, std::size_t points) {
   std::vector<Index> next(points, no_index);
@@ -68,8 +68,8 @@ SurfaceMeasures::SurfaceMeasures(const Surface& surface) : surface_(surface) {
   find_pairs();
 }
 
-// A side is on the silhouette if both ends are. It is at a jump if both ends are on the same edge of the
-// jump's wall. The triangle's third corner must not be on the outline.
+// Finds the sides of triangles on outlines. A side is on the silhouette if both ends are. It is at a jump if both
+// ends are on the same edge of the jump's wall. The triangle's third corner must not be on the outline.
 void SurfaceMeasures::find_outlines() {
   const Boundary& boundary = surface_.boundary;
   std::vector<Rim> silhouette, front, back;
@@ -120,8 +120,8 @@ SurfaceMeasures::Fray SurfaceMeasures::fray(std::span<const double> heights) con
       residuals.add(across);
       residuals.add(along);
     }
-    // The two components belong to one angle, so the sum of their squares is divided by half the number of
-    // values.
+    // The angles across and along are components of one angle, so the sum of their squares is divided by half the
+    // number of values.
     return std::sqrt(2.) * residuals.deviation();
   };
   return {deviation(silhouettes_), deviation(jumps_)};

@@ -13,13 +13,14 @@
 namespace relievo {
 namespace {
 
-// Radius in rho. Larger empty circles are gaps outside the relief; smaller ones are due to sampling.
+// If the empty circle of a triangle has a radius of more than 3 rho (rho is the sampling distance), the triangle
+// spans a gap and is outside the relief. Smaller circles are due to sampling.
 constexpr double gap = 3;
 
-// Returns the unit for the empty circle of a triangle: the smallest spacing of its corners if all three are
-// sparse, else rho.
+// Returns the unit in which the radius of a triangle's empty circle is measured: the smallest spacing of its corners
+// if all three are sparse, else rho.
 double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {
-  constexpr double sparse = 2;  // in rho
+  constexpr double sparse = 2;  // in rho; a larger spacing is sparse
   if (spacing.empty()) return rho;
   const auto least = static_cast<double>(std::min({spacing[t[0]], spacing[t[1]], spacing[t[2]]}));
   return least > sparse * rho ? least : rho;
@@ -46,8 +47,8 @@ class BoundaryFinder {
   }
 
  private:
-  // Marks narrow holes as inside. A hole is a connected set of outside triangles that does not touch the
-  // hull. It is narrow if the largest empty circle in it is not larger than ScanLimits::largest_hole.
+  // Marks narrow holes as inside. A hole is a connected set of outside triangles that does not touch the hull. It is
+  // narrow if the largest empty circle in it has at most the radius ScanLimits::largest_hole.
   void close_narrow_holes(std::vector<std::uint8_t>& is_inside) const {
     DisjointSets sets(is_inside.size());
     for (Index t = 0; t < is_inside.size(); ++t)

@@ -11,16 +11,16 @@ namespace relievo {
 namespace {
 
 constexpr double cells_along_diagonal = 160;
-// Weights of the three indications of an outside. With these weights, the front of every generated one-sided
-// scan of the tests is distinguished from its back; each indication alone fails for some. See
-// docs/decisions/best-view.md.
+// The weights of three indications that a visible side is the outside of an object, not the hollow back of a scan.
+// With these weights, the front of every generated one-sided scan of the tests is distinguished from its back; each
+// indication alone fails for some scans. See docs/decisions/best-view.md.
 constexpr double outline_weight = 2, crease_weight = .5, ground_weight = .6;
 
 // The nearest and the farthest point of a cell.
 struct Cell {
   Index front = no_index;
   double front_z = 0, back_z = 0;
-  Vec3f normal = Vec3f::Zero();  // normal of the front point, turned to the viewer if signs are unknown
+  Vec3f normal = Vec3f::Zero();  // of the front point; turned to the viewer if signs are unknown
 
   bool is_empty() const { return front == no_index; }
 
@@ -78,8 +78,8 @@ class Grid {
     return cells ? static_cast<double>(thin_cells) / static_cast<double>(cells) : 0;
   }
 
-  // Returns the weighted sum of three indications of an outside. Each of them changes its sign if the surface
-  // is seen from behind.
+  // Returns the weighted sum of the three indications of an outside. For the same surface, seen from behind, the sum
+  // has the opposite sign.
   double outside() const {
     return outline_weight * signed_share(1) - crease_weight * signed_share(3) + ground_weight * ground_mark();
   }
@@ -116,11 +116,12 @@ class Grid {
       }
   }
 
-  // Raises the bends between neighbouring cells to an odd power. Returns their sum as a share of the sum of
-  // their absolute values; in [-1, 1]. A bend is positive where the surface is convex.
+  // The bend between two neighbouring cells is the difference of their normals along the axis on which they are
+  // neighbours; it is positive where the surface is convex. Returns the sum of the bends, each raised to an odd
+  // power, divided by the sum of their absolute values; in [-1, 1].
   // - Power 1: bends cancel except at outlines and jumps, where an outside turns away from the viewer.
-  // - Power 3: sharp bends dominate. Parts that touch or overlap meet in sharp concave creases, so on an
-  // outside the sharp bends are concave.
+  // - Power 3: sharp bends dominate. Parts that touch or overlap meet in sharp concave creases, so on an outside the
+  // sharp bends are concave.
   double signed_share(int power) const {
     double sum = 0, total = 0;
     each_pair([&](const Cell& a, const Cell& b, int axis) {

@@ -1,6 +1,6 @@
-// A fast, coarse estimate of the visible part of a cloud, for ranking views and checking normals. It is too
-// coarse for reliefs. Also functions that orient a cloud's normals. Tested by
-// tests/scan/view_ranking_test.cpp, tests/scan/normals_test.cpp and tests/scan/surface_test.cpp.
+// Estimates the visible part of a cloud fast and coarsely, for ranking views and checking normals; the estimate is
+// too coarse for reliefs. Also orients a cloud's normals. Tested by tests/scan/view_ranking_test.cpp,
+// tests/scan/normals_test.cpp and tests/scan/surface_test.cpp.
 #pragma once
 
 #include <span>
@@ -13,8 +13,8 @@
 namespace relievo {
 
 struct CoarseVisibility {
-  // The share of the cells' front points whose normals face the viewer. Points seen nearly edge-on are not
-  // counted. The share is 0.5 if all points are seen so.
+  // The share of cells whose front point has a normal that faces the viewer. Front points seen nearly edge-on are not
+  // counted; if all are seen so, the share is 0.5.
   double facing_share = .5;
   // The sum of the differences between the normals of neighbouring cells, except across depth jumps.
   double normal_variation = 0;
@@ -42,8 +42,9 @@ bool normals_point_inward(std::span<const CoarseVisibility> sides);
 // all of them face the viewer, as in a room scanned from inside.
 enum class OriginalNormals { usable, missing, inward };
 
-// Estimates the normals of a cloud in view coordinates if it has none, and reverses them if they point
-// inwards. `cloud` is the same cloud in its own axes. Returns the previous state of the normals.
+// Estimates the normals of a cloud in view coordinates if it has none, and reverses its normals if they point
+// inwards. `cloud` is the same cloud before it was turned into the view. Returns the state in which the normals were
+// before.
 OriginalNormals orient_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud);
 
 // Gives the estimated normals of a cloud in view coordinates consistent signs: the normals of visible points

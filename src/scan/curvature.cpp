@@ -15,17 +15,18 @@
 namespace relievo {
 namespace {
 
-// The radius of the neighbourhood, in h. With this radius fit_weight() approximates exp(-d^2 / h^2) best.
+// The radius of the neighbourhood, in units of h, the scale of the Gaussian exp(-d^2 / h^2). With this radius
+// fit_weights() approximates the Gaussian best.
 constexpr double support = 1.7;
 
-// Four neighbours of a point. A missing one lies beyond the radius, where it has no weight.
+// Four neighbours of a point. Unused entries lie beyond the radius, where the weight is 0.
 struct FourNeighbours {
   Double4 x{2, 2, 2, 2}, y = {}, z = {};  // from the neighbour to the point, in radii
-  Double4 n_x = {}, n_y = {}, n_z = {};   // its unit normal
+  Double4 n_x = {}, n_y = {}, n_z = {};   // the neighbour's unit normal
 };
 
-// Returns the weights of neighbours, which fall from 1 at the point to 0 at the radius. For a radius of 1.7 h they
-// are close to exp(-d^2 / h^2), but need no exponential.
+// Returns the weights of neighbours, which fall from 1 at the point to 0 at the radius. They approximate a Gaussian,
+// but need no exponential.
 RELIEVO_INLINE Double4 fit_weights(const FourNeighbours& s) {
   const Double4 rest = 1 - (s.x * s.x + s.y * s.y + s.z * s.z), inside = rest > 0 ? rest : Double4{};
   return inside * inside;
@@ -40,8 +41,9 @@ RELIEVO_INLINE Vec3 mean_normal(std::span<const FourNeighbours> neighbours) {
   return {total(x), total(y), total(z)};
 }
 
-// The weighted moments of 1, u and v, the places of neighbours in a tangent plane, and their products with the
-// components of the normals in this plane.
+// Weighted sums over the neighbours. `moments` has those of products of 1, u and v, where u and v are the neighbours'
+// coordinates in the tangent plane; `products` has those of 1, u and v times the two components of the normals in
+// this plane.
 struct TangentSums {
   Mat3 moments;
   Eigen::Matrix<double, 3, 2> products;
@@ -84,8 +86,8 @@ class CurvatureEstimator {
   CurvatureEstimator(const SearchableCloud& searchable, const CurvatureOptions& options)
       : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options) {}
 
-  // The neighbourhood of a point. Its unit is at least rho, because near coincident points the local spacing
-  // is almost 0, and the fit would contain only noise.
+  // Returns the ball of neighbours for the fit at a point. The unit of its radius is at least rho, because near
+  // coincident points the local spacing is almost 0, and the fit would contain only noise.
   NearSearch<Vec3>::Ball ball(Index i) const {
     const double unit = std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
     return {cloud_.points[i], support * options_.scale * unit};
@@ -104,7 +106,7 @@ class CurvatureEstimator {
       four.n_x[lane] = n.x(), four.n_y[lane] = n.y(), four.n_z[lane] = n.z();
     }
     if (count < 6) return 0;
-    // Points at a distance of rho cannot resolve a smaller radius of curvature.
+    // Points at a distance of rho from each other cannot resolve a radius of curvature below rho.
     const double k = fitted_curvature(std::span(neighbours).first((count + 3) / 4), radius);
     return std::clamp(k, -1 / spacing_.rho, 1 / spacing_.rho);
   }
@@ -143,11 +145,12 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  // Over direct neighbours; each pass widens the average by about rho, so the result spans at least 2 rho.
+  // Each pass averages over direct neighbours and widens the average by about rho, so the result spans at least 2
+  // rho.
   constexpr int passes = 3;
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
-  // Weight of corner c + 1 in the mean at corner c.
+  // The weight of corner c + 1 in the mean at corner c.
   std::vector<std::array<double, 3>> areas(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t t) {
     for (std::size_t c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// A depth buffer into which points are drawn as oriented discs. Tested by tests/scan/visible_test.cpp.
+// Draws points as oriented discs into a depth buffer. Tested by tests/scan/visible_test.cpp.
 #pragma once
 
 #include <vector>
@@ -24,18 +24,17 @@ class DepthBuffer {
   // there.
   void splat(const std::vector<Disc>& discs);
 
-  // Takes away discs that were drawn: draws the squares of pixels that they touch anew, with those of the other
-  // discs, `rest`, that touch these squares, too.
+  // Removes discs that were drawn. The buffer is divided into squares of pixels. Those that a removed disc touches
+  // are drawn again, with the remaining discs, `rest`, that touch them.
   void take_away(const std::vector<Disc>& gone, const std::vector<Disc>& rest);
 
-  // Returns whether take_away() has drawn the pixel that contains (x, y), which must lie in the box, anew.
+  // Returns whether take_away() has redrawn the pixel that contains (x, y). The position must lie in the box.
   bool is_redrawn(double x, double y) const { return is_redrawn_[square(column(x), row(y))] != 0; }
 
   // Returns the depth of the pixel that contains (x, y); -infinity where there is no disc, or outside the
   // box.
   float depth(double x, double y) const;
 
-  // Returns the centre of the pixel that contains (x, y).
   Vec2 pixel_centre(double x, double y) const;
 
  private:
@@ -54,7 +53,7 @@ class DepthBuffer {
 
   Vec2 origin_;
   double pixel_;
-  long columns_, rows_, squares_;  // squares in a row
+  long columns_, rows_, squares_;  // squares_: squares of pixels in a row of squares
   std::vector<float> depth_;
   std::vector<std::uint8_t> is_redrawn_;  // per square of pixels
 };

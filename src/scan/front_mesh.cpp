@@ -25,7 +25,7 @@ Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   return surface;
 }
 
-// Returns whether a triangle is wider than gaps between points of one surface are.
+// Returns whether a triangle is wider than the gaps between neighbouring points of one surface.
 bool is_wide(const Surface& surface, const Triangle& t) {
   constexpr double widest_gap = 2.5;  // in rho; in random scans hardly any Delaunay edge is longer
   double longest = 0;

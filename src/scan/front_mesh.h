@@ -1,4 +1,4 @@
-// A triangle mesh of the visible side of a cloud, from which more points can be sampled.
+// Makes a triangle mesh of the visible side of a cloud, from which more points can be sampled.
 #pragma once
 
 #include "relievo/scan/mesh.h"
@@ -6,10 +6,10 @@
 
 namespace relievo {
 
-// Returns the triangulation of the cloud's visible points, which its relief would have, too. The cloud has
-// normals and is in view coordinates. A triangle across a depth jump is divided among its corners; each part
-// lies in the tangent plane of its corner. Wide triangles over narrow holes get the normal (0, 0, 1). The
-// mesh is empty if no point is visible.
+// Returns a mesh of the cloud's visible points, triangulated as for a relief of the cloud. The cloud has normals and
+// is in view coordinates. A triangle across a depth jump is divided among its corners; each part lies in the tangent
+// plane of its corner. Wide triangles over narrow holes get the normal (0, 0, 1). The mesh is empty if no point is
+// visible.
 Mesh front_mesh(const Cloud& viewed, const Spacing& spacing);
 
 }  // namespace relievo

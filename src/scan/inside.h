@@ -1,4 +1,4 @@
-// The triangles inside the relief, and their sides. Tested by tests/scan/surface_test.cpp.
+// Iterates over the triangles inside the relief, and over their sides. Tested by tests/scan/surface_test.cpp.
 #pragma once
 
 #include <ranges>
@@ -14,7 +14,7 @@ inline auto triangles_inside(const Surface& surface) {
          std::views::transform([&](std::size_t t) { return surface.triangulation.triangles[t]; });
 }
 
-// Calls f(a, b) for the sides of the triangles inside the relief; a side of two triangles comes twice.
+// Calls f(a, b) for the sides of the triangles inside the relief; once per triangle, so twice for a shared side.
 template <typename F>
 void each_side_inside(const Surface& surface, F&& f) {
   for (const Triangle corners : triangles_inside(surface))

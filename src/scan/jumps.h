@@ -1,5 +1,5 @@
-// Depth jumps inside the silhouette: edges of the triangulation in the view plane that connect unconnected
-// parts of the surface.
+// Finds depth jumps inside the silhouette: edges of the triangulation in the view plane whose ends belong to
+// different parts of the surface.
 #pragma once
 
 #include <vector>

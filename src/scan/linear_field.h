@@ -1,4 +1,4 @@
-// Weighted least-squares fits of linear functions to scattered points in the plane.
+// Fits linear functions to scattered points in the plane by weighted least squares.
 #pragma once
 
 #include <Eigen/LU>

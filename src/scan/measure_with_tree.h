@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// Like measure_spacing() in spacing.h. `tree` contains `points`. After cancellation the result is
-// meaningless.
+// Does the same as measure_spacing() in spacing.h, with a `tree` that contains `points`. After cancellation the
+// result is meaningless.
 Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points,
                         const Progress* progress = nullptr);
 
@@ -21,12 +21,12 @@ struct SearchableCloud {
   const KdTree<Vec3>& tree;
 };
 
-// Returns the normals of planes through the nearest points of some points, in their order, at most 64 each; see
-// estimate_normals() in normals.h.
+// Returns the normals at the given points, in their order. Each is the normal of a plane fitted to the point's
+// nearest `neighbours`, at most 64; see estimate_normals() in normals.h.
 std::vector<Vec3f> estimated_normals(const SearchableCloud& searchable, std::span<const Index> points,
                                      std::size_t neighbours, const Progress* progress = nullptr);
 
-// See mean_curvature() in curvature.h.
+// Does the same as mean_curvature() in curvature.h.
 std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,
                                    const CurvatureOptions& options, const Progress* progress);
 

@@ -54,7 +54,7 @@ double step_of_digits(const Cloud& cloud) {
   return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest);
 }
 
-// Returns an error if rounding has moved points about as far as their spacing.
+// Returns an error if single precision has moved points by about as much as their spacing.
 Result<void> check_digits(const Cloud& cloud, double rho) {
   constexpr double least_steps = 1.5;
   const double step = step_of_digits(cloud);
@@ -160,15 +160,15 @@ void set_clean(Scan& scan, Index i, const Vec3& point, const Vec3f& normal) {
 
 }  // namespace
 
-// Removes as much noise as View::denoise says or, if that is empty, as was measured. Does not measure the spacing
-// again: where several scans overlap, removing the noise brings their points closer together than the surface is
-// sampled. A relief must not depend on the views before it, so points that this view does not need keep their noise,
-// also if another view has removed it.
+// Removes as much noise as View::denoise states or, if that is empty, as much as was measured. Does not measure the
+// spacing again: where several scans overlap, removing the noise brings their points closer together than the surface
+// is sampled. Points that this view does not need keep their noise, even if another view has removed it, because a
+// relief must not depend on earlier views.
 std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Vec3f& towards_viewer,
                                                                         const Progress* progress) const {
   if (removed_noise_ == 0) return scan_;
   const Cloud& cloud = scan_->cloud;
-  // Whether normals that point inwards are to be reversed depends on all of them.
+  // Normals that point inwards may have to be reversed. That decision depends on all normals, so none is left out.
   const Vec3f direction = do_normals_point_inward_ ? Vec3f::Zero() : towards_viewer;
   const std::vector<Index> needed = points_near_front(cloud.normals, direction, spacing_);
   const std::shared_ptr<const Scan> known = clean_.with([](const auto& clean) { return clean; });
@@ -200,7 +200,8 @@ bool MeasuredCloud::serves(const View& view) const {
 std::vector<double> MeasuredCloud::curvature(const Scan& clean, std::span<const Index> points,
                                              const Progress* progress) const {
   const SearchableCloud searchable{clean.cloud, spacing_, *clean.tree};
-  // The order in which neighbours are found, and so the rounding, depends on all points of a view.
+  // If noise is removed, each view has its own k-d tree, which decides the order in which neighbours are found and so
+  // the rounding of sums. Therefore values are not kept for other views.
   if (removed_noise_ != 0) return mean_curvature(searchable, points, {}, progress);
   std::vector<double> k = curvature_.with([&](std::vector<double>& known) {
     if (known.empty()) known.assign(cloud().size(), std::numeric_limits<double>::quiet_NaN());

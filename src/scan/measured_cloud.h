@@ -1,5 +1,5 @@
-// Measures of a cloud, made once and used for every view: order, spacing, normals, and, at points that views have
-// shown, points without noise and curvature.
+// Measures a cloud once for all views: order, spacing and normals. At points that views have shown, it also keeps the
+// points without noise and the curvature.
 #pragma once
 
 #include <memory>
@@ -22,10 +22,8 @@ class MeasuredCloud {
   // and the exact outlines of a mesh depend on the direction of the view.
   bool serves(const View& view) const;
 
-  // Returns the view for which the cloud was measured.
   const View& view() const { return view_; }
 
-  // A cloud, and the k-d tree of its points.
   struct Scan {
     Cloud cloud;
     std::unique_ptr<const KdTree<Vec3>> tree;
@@ -33,13 +31,14 @@ class MeasuredCloud {
   };
 
   // Returns the points relative to the centre of their box, in the axes of the cloud and in the order of a
-  // space-filling curve, which makes all results independent of the file's order. They have their noise. Signs
-  // of estimated normals are arbitrary.
+  // space-filling curve, which makes all results independent of the file's order. Noise is not removed from them.
+  // Signs of estimated normals are arbitrary.
   const Cloud& cloud() const { return scan_->cloud; }
 
-  // Returns the cloud, without colours, after the noise was removed at all points that a view from this direction
-  // may show; at all points if it is 0. Changed points are kept for later views. If the normals are estimated,
-  // nothing is removed. May be called concurrently. The result is not usable once the progress is cancelled.
+  // Returns the cloud, without colours, after the noise was removed at all points that a view from this direction may
+  // show; if `towards_viewer` is 0, at all points. Changed points are kept for later views. If the normals are
+  // estimated, nothing is removed. May be called concurrently. The result is not usable once the progress is
+  // cancelled.
   std::shared_ptr<const Scan> without_noise(const Vec3f& towards_viewer,
                                             const Progress* progress = nullptr) const;
 
@@ -68,7 +67,7 @@ class MeasuredCloud {
 
   View view_;
   std::shared_ptr<Scan> scan_ = std::make_shared<Scan>();
-  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // without the noise that views needed removed
+  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // noise is removed where views have needed it
   Spacing spacing_;
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;
@@ -78,11 +77,11 @@ class MeasuredCloud {
   mutable Guarded<std::vector<double>> curvature_;  // per point; NaN if not measured yet
 };
 
-// Returns the surface that a view shows, like find_surface() of a cloud. `measured.serves(view)` must be
-// true.
+// Returns the surface that a view shows, like find_surface() of a cloud. `measured.serves(view)` must be true.
 Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
-// Returns the same, and frees the cloud as soon as it is not needed any more, unless others own it, too.
+// Returns the surface that a view shows. Frees the cloud as soon as it is not needed any more, unless it has other
+// owners.
 Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
                              Progress* progress = nullptr);
 

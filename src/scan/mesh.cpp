@@ -29,8 +29,8 @@ struct SeenMesh {
   Box box;
 };
 
-// Returns whether more than 1 % of the mesh's corner normals differ from the normals of its flat triangles.
-// Some programs write only the latter, which would show facets instead of the smooth shape.
+// Returns whether more than 1 % of the mesh's corner normals differ from the normals of its flat triangles. Files of
+// some programs contain only the normals of the flat triangles, which would show facets.
 bool tells_normals(const Mesh& mesh) {
   const float same = .9999F;  // cosine of 0.8 degrees
   const auto count_told = [&](std::size_t begin, std::size_t end) {
@@ -67,7 +67,7 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
     if (!looks_away) return;
     std::swap(corners[1], corners[2]);
     std::swap(normals[1], normals[2]);
-    // The file's normals may be right even if the order of the corners is wrong.
+    // Normals that agree with the old order of the corners are reversed, too. Otherwise only the order was wrong.
     if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
       for (Vec3f& n : normals) n = -n;
   });
@@ -106,18 +106,18 @@ std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& option
   if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
-  const int tries = 4;  // finer pixels may show a wire that the first pixels miss
+  const int tries = 4;  // finer pixels may show a thin wire that coarser ones miss
   for (int i = 0; i < tries; ++i) {
     const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
-    const bool is_sure = covered > 1000;  // then the area is accurate to a few per cent
+    const bool is_sure = covered > 1000;  // with so many pixels the area is accurate to a few per cent
     if (is_sure) return std::max(finest, pixel * std::sqrt(covered / options.points));
     pixel = std::max(finest, pixel / 4);
   }
   return std::nullopt;
 }
 
-// Samples the mesh at the centres of pixels. To find where the outline is between the centres, draws the mesh
-// with fine pixels, `fine` of which form the width of a pixel.
+// Samples the mesh at the centres of pixels. To find outlines between these centres, draws the mesh with fine pixels;
+// a pixel is `fine` of them wide.
 class Sampler {
  public:
   static constexpr int fine = 5;  // odd, so that the centre of a pixel is also the centre of a fine pixel
@@ -188,9 +188,10 @@ class Sampler {
     }
   }
 
-  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. The
-  // point is at the last fine pixel that shows the mesh, unless that pixel is next to the pixel's own point.
-  // seen_at(i) returns the triangle that is visible i fine pixels after the first pixel.
+  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. Goes from that
+  // pixel towards the other one, up to the last fine pixel that shows the mesh. Adds the point there, unless that is
+  // next to the centre of the pixel. seen_at(i) returns the triangle that is visible i fine pixels after the first
+  // pixel.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {
     const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;

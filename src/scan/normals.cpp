@@ -15,13 +15,14 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_neighbours = 64;  // size of arrays on the stack
+constexpr std::size_t most_neighbours = 64;  // of a point; arrays of this size are on the stack
 
 using Eigenvectors = Eigen::SelfAdjointEigenSolver<Mat3>;
 
-// Returns the form whose least direction is the likeliest normal of a plane, where the offsets of points from
-// it and the slants of axes are normally distributed: each of the two sums of squares over its variance,
-// which is taken from their own best fit. `covariance` has the trace 1.
+// Returns a quadratic form whose eigenvector of least eigenvalue is the likeliest normal of a plane through the
+// members. Two deviations are assumed to be normally distributed: the distances of the points from the plane, and the
+// slants of their axes (see Cloud::axes) to its normal. The form is the sum of both squared deviations, each divided
+// by its variance, which is estimated from the best fit to this deviation alone. `covariance` has the trace 1.
 Mat3 with_axes(const Mat3& covariance, std::span<const Vec3f> axes, std::span<const Index> members) {
   constexpr double fewest = 4, least_variance = 1e-9;
   Mat3 sum = Mat3::Zero();

@@ -1,5 +1,5 @@
-// Limits that decide which points of a scan are visible, which holes are closed, and which small parts are
-// removed. They apply to the full surface and to the coarse one of a turned model.
+// Defines limits that decide which points of a scan are visible, which holes are closed, and which small parts are
+// removed. They apply to the full surface and to the coarse one that is shown while the model is turned.
 #pragma once
 
 namespace relievo {
@@ -7,8 +7,8 @@ namespace relievo {
 struct ScanLimits {
   // Radius, in local spacings, of the disc with which a point hides points behind it.
   static constexpr double disc_radius = 2;
-  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0; the surface would
-  // have gaps there. The spacing of an isolated point is large; it must not hide that large an area.
+  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that the surface would
+  // have gaps there. At an isolated point it is so large that the point would hide too large an area.
   static constexpr double least_spacing = .25, largest_spacing = 4;
   // A point is visible if it is at most this far behind the front, in local spacings / n_z.
   static constexpr double depth_tolerance = 2;

@@ -1,4 +1,4 @@
-// For the choice of these constants see docs/decisions/best-view.md.
+// Finds the side that was scanned. For the choice of these constants see docs/decisions/best-view.md.
 #include "scan/scanned_side.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Least one_layer of one-sided scans; closed models have less than .45.
+// The least share one_layer of one-sided scans; that of closed models is below .45.
 constexpr double one_layer_share = .8;
 constexpr double same_share = .05;  // smaller differences of one_layer between directions are ignored
 
@@ -73,8 +73,8 @@ class OwnDirection {
     return best_;
   }
 
-  // If the direction found is within this angle of an axis, the view is along the axis. The angle is small
-  // for flat scans such as coins, whose direction is exact, and large for others such as busts, whose
+  // Returns the angle to an axis below which the view is along that axis instead of the direction found. The angle is
+  // small for flat scans such as coins, whose direction is exact. It is large for others such as busts, whose
   // direction depends on which parts were scanned.
   double snap_deg() const { return is_flat_ ? 3 : 25; }
 
@@ -125,9 +125,10 @@ std::optional<Vec3> scan_direction(const Cloud& cloud, NormalSigns signs, bool i
   return direct.along;
 }
 
-// Returns the share of the width over which points are lowest, in a view with these x and y axes.
+// Returns the width of the part of the object that touches the ground, as a share of the object's width, in a view
+// with these x and y axes.
 double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
-  constexpr double foot = .03;  // share of the height
+  constexpr double foot = .03;  // share of the height; points below it belong to the foot
   constexpr std::size_t most_points = 20'000;
   std::array<bool, 16> is_stood_on{};
   const std::size_t step = 1 + cloud.size() / most_points;
@@ -144,8 +145,8 @@ double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
   return static_cast<double>(std::ranges::count(is_stood_on, true)) / is_stood_on.size();
 }
 
-// Rotates the view so that the object stands on its broadest foot, if that is much broader than the present
-// one. Angles are multiples of `step_deg`.
+// Rotates the view so that the object stands on its broadest foot, if that is much broader than the foot in the given
+// view. Angles are multiples of `step_deg`.
 Side standing(const Cloud& cloud, const Side& side, int step_deg) {
   constexpr double broad = .6, broader = 2, same = .05;
   const Vec3 x = side.up.cross(side.towards_viewer);

@@ -1,4 +1,4 @@
-// Even sampling of a whole mesh. Declared in mesh.h, tested by tests/scan/mesh_test.cpp.
+// Samples a whole mesh evenly. Declared in mesh.h, tested by tests/scan/mesh_test.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

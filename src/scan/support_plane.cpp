@@ -22,24 +22,25 @@ constexpr std::size_t tried_points = 1024, judged_points = 16384;
 constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
-    .01;  // share of the visible points' diagonal; a depth camera's noise across a table
-// The tolerance is limited, because each fit widens it if the points do not concentrate at a plane.
+    .01;  // share of the diagonal of the visible points' box; covers a depth camera's noise across a table
+// The largest tolerance, as a share of the diagonal of the visible points' box. If the points are not concentrated
+// near a plane, each fit widens the tolerance, until it exceeds this share and the plane is rejected.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
-constexpr double widest_angle_deg = 30;  // between a plane and the normals of its points, which are noisy
-constexpr double least_share = .08;      // share of the points; smaller planes do not disturb a relief
-constexpr double least_figure = .02;     // points in front of the plane, as a share of all points
-// Points behind the plane, as a share of the points behind it or in front of it.
+constexpr double widest_angle_deg = 30;  // between a plane's normal and those of its points, which are noisy
+constexpr double least_share = .08;      // least share of points on the plane; smaller planes do not disturb
+constexpr double least_figure = .02;     // least share of the points in front of a plane
+// The most points behind the plane, as a share of all points that are not on it.
 constexpr double most_behind = .1;
-// Points whose projection falls on the plane's points, as a share of the points in front of it.
+// Of the points in front of the plane, at least this share must be above the hull of the points on it.
 constexpr double least_over = .7;
-// A figure rises by at least this share of the side of a square with its area. Reliefs, medals and letters
-// rise by less.
+// The least height of a figure, as a share of the side of a square with the figure's area. Reliefs, medals and
+// letters are lower.
 constexpr double least_rise = .2;
-// Least z of the plane's normal; a plane seen edge-on covers nothing.
+// The least z of the plane's normal. A plane seen edge-on covers nothing.
 constexpr double least_plane_facing = .1;
 constexpr double steepest_table_deg =
-    65;  // between a table's normal and the view's up direction; cameras look down on tables
+    65;  // largest angle between a table's normal and "up" in the view; cameras look down on tables
 
 struct Plane {
   Vec3 normal = Vec3::UnitZ();
@@ -191,7 +192,7 @@ double covered_area(const std::vector<Vec2>& points) {
   return cell * cell * static_cast<double>(std::ranges::count(is_covered, 1));
 }
 
-// Returns whether the points in front of the plane are above its points, and rise as much as a figure does.
+// Returns whether the points in front of the plane stand above the points on it and rise as high as a figure.
 bool has_figure_over(const Plane& plane, const Sample& sample, const std::vector<std::size_t>& on,
                      double tolerance) {
   const Vec3 t1 = plane.normal.unitOrthogonal(), t2 = plane.normal.cross(t1);

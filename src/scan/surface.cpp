@@ -32,21 +32,20 @@ struct ShownPoints {
   std::vector<Index>& hole_fill;
 };
 
-// A connected part that remains when the plane is removed: its box, and the number of its points high above
-// the plane.
+// A connected part of the points that remain when the plane is removed.
 struct ComponentExtent {
   Box box;
   std::size_t high = 0;
 };
 
-// Removes what remains of a plane: parts that are low above the plane for their size. They remain because
-// depth cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than
-// the largest one.
+// Removes remains of a plane: parts that are low above the plane compared with their size. They remain because depth
+// cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than the largest one.
 void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                          std::vector<Index>& visible) {
-  constexpr double low = 4;          // height, in tolerances
-  constexpr double flat = .05;       // height, as a share of the diagonal of the component's box
-  constexpr double connected = 3;    // distance, in local spacings, as for floating noise in visible.cpp
+  constexpr double low = 4;  // high points are above this height, in tolerances of the plane,
+  constexpr double flat =
+      .05;  // high points are also above this share of the diagonal of the component's box
+  constexpr double connected = 3;    // neighbours closer than this, in local spacings, are in one component
   constexpr double high_share = .1;  // least share of high points in a figure
   // Size of the smallest part that is kept, as a share of the largest part.
   constexpr double debris_share = .03;
@@ -58,7 +57,7 @@ void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Sp
       if (j != no_index && is_left[j] &&
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
         sets.join(i, j);
-  std::unordered_map<Index, ComponentExtent> components;  // by their representatives
+  std::unordered_map<Index, ComponentExtent> components;  // by the representatives of their sets
   for (const Index i : visible) components[sets.find(i)].box.extend(cloud.points[i]);
   for (const Index i : visible) {
     ComponentExtent& component = components[sets.find(i)];
@@ -115,7 +114,7 @@ std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Inde
   return k;
 }
 
-// Stages 3 and 4: sets the surface's points, normals and colours.
+// Runs stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "visible points", .3));
   Cloud& cloud = viewed.cloud;
@@ -149,7 +148,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Stage 5, and `is_inside` of stage 6. put_points_on_outlines() sets the rest of the boundary.
+// Runs stage 5, and sets `is_inside` of stage 6. put_points_on_outlines() sets the rest of the boundary.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
@@ -180,14 +179,14 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
 
 namespace {
 
-// A surface that has points, but no triangles yet, and what finding them needs.
+// A surface with points, but without triangles yet, and the measures and outlines from which its triangles are found.
 struct FoundPoints {
   Surface surface;
   PointMeasures measures;
   std::vector<OutlineSegment> outlines;
 };
 
-// Stages 2 to 4, which need the whole cloud.
+// Runs stages 2 to 4, which need the whole cloud.
 Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
   ViewedCloud viewed = look_at(measured, surface, progress);
@@ -197,21 +196,21 @@ Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const Vie
   return FoundPoints{std::move(surface), std::move(measures), std::move(viewed.cloud.outlines)};
 }
 
-// Stage 5, the boundary of stage 6, and what depends on it.
+// Runs stages 5 and 6, and normalises the curvature.
 Result<Surface> connect_points(FoundPoints found, Progress* progress) {
   auto& [surface, measures, outlines] = found;
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));
   RELIEVO_CHECK(triangulate(surface, measures, progress));
   RELIEVO_CHECK(begin_stage(progress, "boundary", .65));
   if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
-  // The outline of a picture is that of its pixels, none of which may be replaced.
+  // The points of a picture are its pixels. All of them are kept, also those on its outline.
   if (!is_flat_picture(surface)) put_points_on_outlines(surface, measures, outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Vec2> xy = in_plane(surface.points);
   complete(surface.boundary, xy, surface.triangulation);
   surface.curvature =
       normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
-  // Only the boundary needs the neighbours, which take as much memory as the triangles.
+  // The neighbours take as much memory as the triangles, and only the boundary needed them.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return std::move(surface);
 }
@@ -231,7 +230,7 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
 Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
                              Progress* progress) {
   RELIEVO_TRY(FoundPoints found, find_points_in_view(*measured, view, progress));
-  measured.reset();  // leaves its memory to what follows
+  measured.reset();  // frees the memory before the next stages
   return connect_points(std::move(found), progress);
 }
 

@@ -1,5 +1,5 @@
-// Gaussian blur along a surface. It averages points that are close in space, so points beyond a depth jump do
-// not count, although they are close in the view plane.
+// Blurs values along a surface by a Gaussian. It averages points that are close in space. So points beyond a depth
+// jump do not count, although they are close in the view plane.
 #pragma once
 
 #include <algorithm>
@@ -55,10 +55,10 @@ class SurfaceBlur {
 
   std::size_t width_ = 0;  // columns per row
   std::vector<Place> places_;
-  std::vector<Column> columns_;  // the last one is empty and begins after the last cell
+  std::vector<Column> columns_;  // followed by an empty column that begins after the last cell
 };
 
-// Returns the averages of one number per point by a blur of that standard deviation.
+// Returns one blurred value per point. `sigma` > 0 is the standard deviation of the Gaussian.
 std::vector<float> blurred(std::span<const Vec3> points, std::span<const float> values, double sigma);
 
 }  // namespace relievo

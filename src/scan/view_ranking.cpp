@@ -56,7 +56,7 @@ Sides sides_around(const Side& front) {
 // Returns the area of the bounding box of the lowest points along an axis (or along its opposite), as a share
 // of the whole box's area. Both areas are perpendicular to the axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
-  constexpr double foot = .03;  // share of the height
+  constexpr double foot = .03;  // share of the height; points within it belong to the foot
   const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];
   Box low;
   for (const Vec3& p : cloud.points)
@@ -67,8 +67,8 @@ double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   return share;
 }
 
-// Returns the front of an upright model: +Z, with Y upwards. If the model has a much wider foot there, the
-// front is -Y with Z upwards, or -Z with -Y upwards as in the coordinates of cameras.
+// Returns the front of an upright model. Usually it is +Z, with Y upwards. If the model has a much wider foot at its
+// least z, the front is -Y with Z upwards; if at its largest y, -Z with -Y upwards, as in the coordinates of cameras.
 Side front_of(const Cloud& cloud) {
   constexpr double wide = .3, wider = 3;
   const Box box = bounds(cloud);
@@ -85,7 +85,8 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns how much of a side is an outside: from the signs of its normals or, without signs, from its shape.
+// Returns a factor for the rank of a side that is small if the side is a hollow back: from the signs of the normals
+// or, without signs, from the shape.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   if (has_signs) return seen.facing_share;
   return seen.outside < 0 ? perhaps_hollow : 1;

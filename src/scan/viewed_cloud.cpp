@@ -28,8 +28,8 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
   return out;
 }
 
-// Removes noise at points that may be visible. First estimates their normals again, from more neighbours because of
-// the noise, and keeps the signs.
+// Removes noise at points that may be visible. Before that, estimates their normals again from more neighbours,
+// because noise disturbs the first estimate; the signs are kept.
 void remove_noise_in_front(Cloud& cloud, const Spacing& spacing, double noise) {
   constexpr double neighbours = 16, more_neighbours = 48;
   const std::vector<Index> front = points_near_front(cloud.normals, Vec3f::UnitZ(), spacing);
@@ -45,8 +45,8 @@ void remove_noise_in_front(Cloud& cloud, const Spacing& spacing, double noise) {
     cloud.points[front[k]] = clean.points[k], cloud.normals[front[k]] = clean.normals[k];
 }
 
-// Gives estimated normals the signs that the view implies. Then measures the noise, which needs the signs,
-// and removes it.
+// Gives estimated normals the signs that the view implies. Then measures the noise, for which the signs must be
+// known, and removes it.
 void sign_normals(ViewedCloud& viewed, Surface& surface) {
   give_signs(viewed.cloud, viewed.spacing());
   surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());

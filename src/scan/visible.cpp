@@ -15,18 +15,18 @@ namespace relievo {
 namespace {
 
 constexpr double pixel_side = 0.5;  // width of the depth buffer's pixels, in rho; discs are wider
-// In rho. Of points closer together than this in the view plane, only the nearest to the viewer is kept.
+// Of points closer together than this in the view plane, in rho, only the nearest to the viewer is kept.
 constexpr double coincidence_distance = .01;
 // Connected sets of fewer visible points count as floating noise.
 constexpr std::size_t smallest_fragment = 32;
-// In local spacings. Neighbours farther apart are not connected. A disc of this radius contains 9 pi = 28
+// Neighbours farther apart than this, in local spacings, are not connected. A disc of this radius contains 9 pi = 28
 // points.
 constexpr double connection_length = 3;
 // A set is a fragment only if it has fewer points than the number of visible points divided by this.
 // Otherwise all of a small cloud would be fragments.
 constexpr std::size_t fragment_divisor = 8;
-// In rho: the largest local spacing of points that may become hole-fill points, because only densely sampled
-// surfaces supply them, and the least distance between hole-fill points.
+// Lengths in rho. Only points with at most the first local spacing may become hole-fill points, because only densely
+// sampled surfaces supply them. The second is the least distance between hole-fill points.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {
@@ -40,8 +40,8 @@ class Visibility {
     std::vector<Index> visible = in_front(facing);
     std::size_t removed = mark_fragments(visible);
     if (removed > 0) {
-      // Without the fragments other points become visible. New fragments among these points are removed, but
-      // the search is not repeated again.
+      // Without the fragments other points become visible. Fragments among these are removed, too, but then the
+      // search ends.
       leave_out_fragments(facing);
       visible = in_front(facing);
       removed += mark_fragments(visible);
@@ -96,8 +96,8 @@ class Visibility {
     return points;
   }
 
-  // Unless the pixels move, because fragments lie outside the box of the other points, only those where fragments
-  // were drawn change.
+  // Removes the fragments from the points and the buffer. If the box of the points shrinks, the buffer's pixels move
+  // and all points are drawn again; otherwise only the places where fragments were drawn are.
   void leave_out_fragments(Facing& facing) const {
     std::vector<Disc> gone;
     Box box;

@@ -10,9 +10,8 @@
 namespace relievo::solver {
 namespace {
 
-// Share of the vertices that is assigned to each side in advance. The remaining 30 % in the middle form the
-// band in which the separator is sought. A wider band allows a shorter separator, but sides of less equal
-// size.
+// The share of the vertices that is assigned to each side in advance. The remaining 30 % in the middle form the band
+// in which the separator is sought. A wider band allows a shorter separator, but sides that differ more in size.
 constexpr double core_share = .35;
 
 // The positions of the vertices along a direction, and the limits of the band.
@@ -102,8 +101,8 @@ void count_sides(Bisection& cut) {
     ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
 }
 
-// Edges that cross the whole band are not part of its graph, so they may still connect the two sides. Their
-// ends on the first side are moved to the separator.
+// Edges that cross the whole band are not in the band's graph, so they may still connect the two sides. Their ends on
+// the first side are moved to the separator.
 void close_gaps(const Graph& graph, Bisection& cut) {
   for (Index v = 0; v < graph.size(); ++v) {
     if (cut.side[v] != Side::first) continue;
@@ -165,8 +164,8 @@ std::vector<Index> wave(const Graph& graph, Index start) {
   return order;
 }
 
-// Bisects by breadth-first rank, which replaces a coordinate. The search starts at a vertex at the rim of the
-// graph.
+// Bisects by the order in which a breadth-first search visits the vertices, which replaces a coordinate. The search
+// starts at a vertex at the rim of the graph.
 Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());

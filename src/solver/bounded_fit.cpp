@@ -18,7 +18,8 @@ Vector laplacian(const BoundedFit& fit, const Vector& x) {
   return fit.A.selfadjointView<Eigen::Lower>() * x;
 }
 
-// Returns H x for `misfit` = A x, and the gradient for A x - load. H is the Hessian of the energy.
+// Returns H x if `misfit` is A x, where H is the Hessian of the energy; returns the gradient of the energy if
+// `misfit` is A x - load.
 Vector hessian(const BoundedFit& fit, const Vector& misfit) {
   return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
 }
@@ -44,7 +45,7 @@ class NewtonMatrix {
     return NewtonMatrix(fit, std::move(D), std::move(factor));
   }
 
-  // Reduces the residual to a hundredth; the next Newton step corrects the rest.
+  // Solves until the residual is a hundredth of that at the start; the next Newton step corrects the rest.
   Vector solve(const Vector& b) {
     constexpr int most_iterations = 200;
     constexpr double reduction = 1e-2;
@@ -94,7 +95,7 @@ double step_that_keeps(const Vector& values, const Vector& change) {
   return step;
 }
 
-// The iterate: the field, and the multipliers of its lower and its upper bounds.
+// The iterate of the method: the field, and the multipliers of its lower and its upper bounds.
 class InteriorPoint {
  public:
   explicit InteriorPoint(const BoundedFit& fit) : fit_(fit), x_((fit.lowest + fit.highest) / 2) {
@@ -136,7 +137,7 @@ class InteriorPoint {
   const BoundedFit& fit_;
   Vector x_, below_, above_, g_, lower_, upper_;
   double energy_ = 0;
-  // Share of the mean product of distance and multiplier that is the target of the next step.
+  // The next step aims at products of distance and multiplier that are this share of their present mean.
   double centring_ = .2;
 };
 

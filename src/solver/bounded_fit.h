@@ -26,15 +26,15 @@ struct BoundedFit {
 struct BoundedFitResult {
   Eigen::VectorXd x;  // strictly between the bounds
   double energy = 0;  // E(x)
-  // No field within the bounds has an energy below E(x) - gap. The gap is the sum over all unknowns of (x -
-  // lowest) max(g, 0) + (highest - x) max(-g, 0), where g is the gradient of E. A term is 0 if its unknown
-  // satisfies the conditions of Karush, Kuhn and Tucker.
+  // No field within the bounds has an energy below E(x) - gap. The gap is the sum over all unknowns of (x - lowest)
+  // max(g, 0) + (highest - x) max(-g, 0), where g is the gradient of E. If x satisfies the conditions of Karush, Kuhn
+  // and Tucker, all terms are 0.
   double gap = 0;
   int steps = 0;  // number of factorisations
 };
 
-// Ends when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100 steps. Errors:
-// those of Cholesky::factor(), also if the tolerance is below the level of rounding errors.
+// Minimises the energy. Stops when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100
+// steps. Errors: those of Cholesky::factor(), also if the tolerance is below the level of rounding errors.
 Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

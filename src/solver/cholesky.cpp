@@ -34,8 +34,8 @@ void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
       if (entry.row() > j) f(static_cast<Index>(j), static_cast<Index>(entry.row()), entry.value());
 }
 
-// Returns the graph of A in which unknown `order[v]` is vertex v. Diagonal entries that are stored several
-// times are summed.
+// Returns the graph of A in which vertex v is the unknown `order[v]`. Diagonal entries that are stored several times
+// are summed.
 WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A, std::span<const Index> order) {
   WeightedGraph result;
   const auto n = static_cast<Index>(A.cols());

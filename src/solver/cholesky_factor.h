@@ -1,4 +1,4 @@
-// The data of a Cholesky object: the structure of the factor, divided into tasks, its values, and the matrix.
+// Defines the data of a Cholesky object: the structure of the factor, divided into tasks, its values, and the matrix.
 // Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 
@@ -12,34 +12,33 @@
 
 namespace relievo::solver {
 
-// Consecutive columns that one thread processes without interruption: either whole subtrees of the assembly
-// tree, or a single supernode above them. The division into tasks depends only on the matrix, not on the
-// number of threads.
+// Consecutive columns that one thread processes without interruption: either whole subtrees of the assembly tree, or
+// a single supernode above them. The division into tasks depends only on the matrix, not on the number of threads.
 //
-// Each task has a work vector with one number per column of its own, then one per boundary row. A boundary
-// row is a row of the task's supernodes that is a column of a task above. A task writes only to its own work
-// vector. The parent reads the amounts that the task added to its boundary rows. So results do not depend on
-// the number of threads.
+// Each task has a work vector with one number per column of its own, then one per boundary row. A boundary row is a
+// row of the task's supernodes that is a column of another task, an ancestor. A task writes only to its own work
+// vector. Its parent reads the amounts that it added to its boundary rows. So results do not depend on the number of
+// threads.
 struct Task {
   Index first_column = 0, end_column = 0;
-  Index first_node = 0, end_node = 0;      // supernodes
-  Index parent = no_index;                 // always has a higher number
-  Index first_child = 0, end_child = 0;    // in `children`
-  Index first_boundary = 0, boundary = 0;  // in `boundary` and `to_parent`
+  Index first_node = 0, end_node = 0;      // range of the task's supernodes
+  Index parent = no_index;                 // number of the parent task, always higher than that of this task
+  Index first_child = 0, end_child = 0;    // range in Factor::children
+  Index first_boundary = 0, boundary = 0;  // start and size of the range in boundary and to_parent
   std::size_t work_begin = 0;              // start of the task's work vector in the workspace
-  std::size_t values = 0, end_values = 0;  // range of the task's values
-  std::size_t rows = 0, end_rows = 0;      // range of the task's part of `rows`
+  std::size_t values = 0, end_values = 0;  // range in Factor::values
+  std::size_t rows = 0, end_rows = 0;      // range in Factor::rows
   bool is_subtree = false;
 
   Index own() const { return end_column - first_column; }
 };
 
-// The largest work vector of a task that is a subtree, whose positions are stored in 16 bits.
+// The largest size of the work vector of a task that is a subtree, because positions in it are stored in 16 bits.
 inline constexpr Index largest_subtree_work_vector = 0xFFFF;
 
-// The off-diagonal entries of the matrix in compressed sparse rows, by task. An entry within a task is stored
-// once, at the earlier column. An entry between two tasks is stored in both, so that a task can compute its
-// rows of a product without writing to the rows of another.
+// The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is stored
+// once, at the earlier column. An entry between two tasks is stored in both, so that a task can compute its rows of a
+// product without writing to the rows of the other task.
 struct TaskMatrix {
   std::vector<double> diagonal;
   std::vector<Index> begin = {0};
@@ -58,10 +57,10 @@ struct Cholesky::Factor {
   std::vector<Index> order;  // per column: the unknown that is eliminated there
   std::vector<Task> tasks;   // children before parents
   std::vector<Index> children;
-  std::vector<Index> boundary;   // columns
+  std::vector<Index> boundary;   // columns that are the boundary rows of the tasks
   std::vector<Index> to_parent;  // per boundary column: its row in the parent's work vector
   std::vector<NodeSize> nodes;
-  std::vector<std::uint16_t> rows;  // work rows of the supernodes in subtrees (Subtree)
+  std::vector<std::uint16_t> rows;  // see Subtree::rows
   LargeArray values;                // the panels of W, task by task
   std::size_t value_count = 0, work_count = 0;
   TaskMatrix matrix;

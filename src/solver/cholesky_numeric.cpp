@@ -1,8 +1,7 @@
-// Numeric factorisation by the multifrontal method (Duff and Reid 1983). Each supernode assembles a dense
-// frontal matrix from its entries of A and the contribution blocks of its children. It eliminates its columns
-// in double precision and stores them in single precision. The Schur complement of the remaining rows is its
-// own contribution block for its parent. Declared in cholesky_factor.h, tested by
-// tests/solver/cholesky_test.cpp.
+// Factors a matrix numerically by the multifrontal method (Duff and Reid 1983). Each supernode assembles a dense
+// frontal matrix from its entries of A and the contribution blocks of its children. It eliminates its columns in
+// double precision and stores them in single precision. The Schur complement of the remaining rows is the supernode's
+// contribution block for its parent. Declared in cholesky_factor.h, tested by tests/solver/cholesky_test.cpp.
 #include <algorithm>
 
 #include "core/lists.h"
@@ -13,7 +12,7 @@
 namespace relievo::solver {
 namespace {
 
-// A pivot smaller than this fraction of its diagonal entry is a rounded 0. Double precision resolves 1e-16,
+// A pivot smaller than this fraction of its diagonal entry counts as a rounded 0: double precision resolves 1e-16,
 // and the sums over the fill lose about two digits.
 constexpr double relative_pivot = 1e-14;
 
@@ -41,11 +40,11 @@ class Multifrontal {
   const WeightedGraph& A_;
   Cholesky::Factor& factor_;
   std::vector<Index> position_;
-  std::vector<Packed> contribution_;  // per task: the block of its boundary rows
+  std::vector<Packed> contribution_;  // per task: the contribution block of its boundary rows
   std::vector<Index> failed_;         // per task: the column whose pivot failed
 };
 
-// Returns whether the entry is stored at `column` of the task, see TaskMatrix.
+// Returns whether the task stores the entry in row or column `other` at `column`, by the rule of TaskMatrix.
 bool is_kept(const Task& task, Index column, Index other) {
   return other > column || other < task.first_column;
 }
@@ -131,8 +130,8 @@ std::size_t packed_size(std::size_t rows) {
   return rows * (rows + 1) / 2;
 }
 
-// Eliminates a task that is a single supernode. The rows of the supernode are the task's work vector, in
-// order.
+// Eliminates a task that is a single supernode. The rows of its frontal matrix are the elements of the task's work
+// vector, in order.
 void Multifrontal::eliminate_supernode(std::size_t t) {
   const Task& task = factor_.tasks[t];
   FrontalMatrix front;
@@ -179,7 +178,7 @@ class Multifrontal::Subtree {
 
  private:
   struct Pending {
-    std::span<const std::uint16_t> rows;  // positions in the work vector; the first is a column of the parent
+    std::span<const std::uint16_t> rows;  // positions in the work vector; the first one belongs to the parent
     std::size_t begin;
   };
 
@@ -205,12 +204,12 @@ class Multifrontal::Subtree {
     pop();
   }
 
-  // The parent of this supernode belongs to another task, so its block is added to the block of the whole
-  // task.
+  // Adds the contribution block of a supernode whose parent belongs to another task to the block of this task.
   void add_to_boundary() {
     child_slots_.clear();
     for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());
-    // A packed column c begins with row c. Subtracting packed_size(c) makes row r of column c position r.
+    // Column c of a packed triangle begins with row c. Subtracting packed_size(c) moves row r of column c to position
+    // r.
     add_packed(stack_.data() + pending_.back().begin, child_slots_, [&](Index c) {
       return contribution_.data() + std::size_t{c} * task_.boundary - packed_size(c);
     });
@@ -226,7 +225,7 @@ class Multifrontal::Subtree {
   std::size_t t_;
   const Task& task_;
   Packed& contribution_;
-  std::vector<Index> slot_, child_slots_;  // slot_: row of the frontal matrix per row of the work vector
+  std::vector<Index> slot_, child_slots_;  // slot_: per row of the work vector, that of front_
   float* values_;
   FrontalMatrix front_;
   std::vector<double> stack_;

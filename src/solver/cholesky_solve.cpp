@@ -84,10 +84,9 @@ struct Substitution {
   }
 };
 
-// Solves for one right-hand side. load(column) returns its elements; store(column, value) receives the
-// elements of the solution. A single parallel call goes forward from the leaves through all tasks, and back
-// from the roots. Flags make a task wait only for its children or its parent, so no barrier is needed in
-// between.
+// Solves for one right-hand side. load(column) returns its elements; store(column, value) receives the elements of
+// the solution. A single parallel call goes through all tasks forward, from the leaves to the roots, and then back.
+// Flags make a task wait only for its children or its parent, so no barrier is needed in between.
 template <typename Load, typename Store>
 void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& store) {
   const std::size_t n = s.factor.tasks.size();
@@ -222,10 +221,11 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& 
   const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
   double last = refinement.start(b), rate = 1;
   const double enough = 1e-13 * last;
-  const int most_steps = 6;  // each gains about seven digits; two suffice unless A is ill-conditioned
+  const int most_steps = 6;  // each step gains about seven digits; two suffice unless A is ill-conditioned
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
-    // The steps converge at a constant rate, so the last residual need not be computed.
+    // All steps reduce the residual by about the same factor. If the next residual is small enough by this estimate,
+    // it need not be computed.
     if (rate * last < enough) break;
     const double now = refinement.find_residual(b);
     if (!(now < last / 4)) break;

@@ -63,8 +63,8 @@ class MinimumDegree {
     return static_cast<Index>(std::lower_bound(outside_.begin(), outside_.end(), vertex) - outside_.begin());
   }
 
-  // Connects all neighbours of v with each other, which is the fill of eliminating v. Only vertices of the
-  // piece have bit sets, so the loop ends at the first neighbour outside.
+  // Connects all neighbours of v with each other, because eliminating v causes this fill. Only vertices of the piece
+  // have bit sets, so the loop ends at the first neighbour outside.
   void eliminate(Index v) {
     degree_[v] = no_index;
     const std::uint64_t* eliminated = set(v);
@@ -92,7 +92,7 @@ class MinimumDegree {
   std::vector<Index> outside_;  // vertices adjacent to the piece, ascending
   std::vector<std::uint64_t>
       sets_;  // per vertex of the piece: its neighbours, first within the piece, then in outside_
-  std::vector<Index> degree_;  // no_index once eliminated
+  std::vector<Index> degree_;  // number of remaining neighbours; no_index once eliminated
   std::size_t words_ = 0;
 };
 
@@ -182,8 +182,8 @@ class Dissection {
   void order_leaf(const Part& part) {
     const std::span<Index> places = std::span(order_).subspan(part.begin, part.vertices.size());
     std::copy(part.vertices.begin(), part.vertices.end(), places.begin());
-    // The bit sets of MinimumDegree grow with the square of the size (2 MB at 4,096 vertices). A larger part
-    // that cannot be bisected, such as a complete graph, keeps the order it has.
+    // The bit sets of MinimumDegree grow with the square of the size (2 MB at 4,096 vertices). A larger part that
+    // cannot be bisected, such as a complete graph, keeps its given order.
     constexpr std::size_t largest_leaf = 4096;
     if (places.size() <= largest_leaf) MinimumDegree(graph_, slots_).order(places);
   }
@@ -193,8 +193,8 @@ class Dissection {
   std::vector<Index> slots_;
 };
 
-// Returns a substitute for the angle of a vector: a number from 0 to 4 that increases with the angle, without
-// an arc tangent.
+// Returns a number from 0 to 4 that increases with the angle of a vector. It replaces the angle, and needs no arc
+// tangent.
 float pseudo_angle(const Eigen::Vector2f& step) {
   const float sum = std::abs(step.x()) + std::abs(step.y());
   const float turn = sum > 0 ? step.x() / sum : 0;

@@ -1,4 +1,4 @@
-// Elimination orders of planar graphs by geometric nested dissection. A separator, a short line of vertices,
+// Finds elimination orders of planar graphs by geometric nested dissection. A separator, a short line of vertices,
 // divides a graph in two. A maximum flow finds the shortest separator inside a band. Tested by
 // tests/solver/dissection_test.cpp and tests/solver/vertex_separator_test.cpp.
 #pragma once
@@ -53,10 +53,10 @@ struct Bisection {
   Index first = 0, second = 0, separator = 0;  // numbers of vertices
 };
 
-// Returns a bisection with few vertices in the separator and sides of similar size. The separator is sought
-// in a straight band perpendicular to the direction in which the positions spread most. `positions`, one per
-// vertex, only guide the search. If they are useless (coincident, or unrelated to the graph), distances in
-// the graph replace them. A side may be empty if no better bisection was found.
+// Returns a bisection with few vertices in the separator and sides of similar size. The separator is sought in a
+// straight band perpendicular to the direction in which the positions spread most. `positions`, one per vertex, only
+// guide the search. If they are useless (coincident, or unrelated to the graph), distances in the graph replace them.
+// A side may be empty if no better bisection is found.
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
 // Returns the vertices in an elimination order that causes little fill. The order is computed recursively:

@@ -29,7 +29,8 @@ RELIEVO_INLINE const Double4& at(const double* p) {
   return *reinterpret_cast<const Double4*>(p);
 }
 
-// Updates 4 * Height rows and Width columns of C, which stay in registers, for depths from `from` to `to`.
+// Subtracts the product from 4 * Height rows and Width columns of C, which stay in registers. Sums over the columns
+// of A and B from `from` to `to`.
 template <int Height, int Width>
 RELIEVO_INLINE void subtract_tile(const Product& p, Index i, Index j, Index from, Index to) {
   Double4 sum[Height][Width] = {};
@@ -129,8 +130,9 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
   return std::min(failed, failed_later);
 }
 
-// Let the columns be [La; Lb; Ld] on the left and [Lc; Le] on the right. The right ones are replaced by [Wc;
-// We] first. Then the rows below La become [Wc Lb; Ld + We Lb], and the left columns are inverted.
+// Inverts the right half of the columns, then the left half. If the left columns are [La; Lb; Ld] and the right ones
+// [Lc; Le], the right ones are replaced by [Wc; We] first. Then the rows below La become [Wc Lb; Ld + We Lb], and the
+// left columns are inverted.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;
@@ -152,8 +154,7 @@ void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vec
 
 void FrontalMatrix::reset(Index new_rows) {
   rows = new_rows;
-  stride =
-      (new_rows + 3 + 3) / 4 * 4;  // whole vectors of four elements, with at least three elements of padding
+  stride = (new_rows + 3 + 3) / 4 * 4;  // whole vectors of four elements, at least three of them padding
   data.assign(std::size_t{stride} * new_rows + 8, 0.0);
 }
 

@@ -8,16 +8,15 @@
 namespace relievo::solver {
 namespace {
 
-// Sweeps per level, from fine to coarse. Long waves converge slowly on fine levels, so coarse levels solve
-// for them. A sweep costs a quarter of a sweep on the next finer level, so all these sweeps take about as
-// long as 14 sweeps of the finest level. For the choice of these numbers see
-// docs/decisions/height-correction.md.
+// Sweeps per level, from fine to coarse. Errors of long wavelength converge slowly on fine levels, so coarse levels
+// remove them. A sweep costs a quarter of a sweep on the next finer level, so all these sweeps take about as long as
+// 14 sweeps of the finest level. For the choice of these numbers see docs/decisions/height-correction.md.
 constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
-// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 with the number of
-// nodes per side. 1.6 suits the short waves that remain on the finer levels.
+// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 as the number of nodes per
+// side grows. 1.6 suits the errors of short wavelength that remain on the finer levels.
 constexpr float over_relaxation = 1.6F;
-// Sweeps between updates of the pull of pairs, per level from fine to coarse. More updates improve no measure
-// (docs/decisions/near-order.md).
+// The number of sweeps between updates of the forces between pairs of nodes, per level from fine to coarse. More
+// updates improve none of the measures (docs/decisions/near-order.md).
 constexpr std::array<int, ObstacleSolver::levels> sweeps_per_update{8, 2, 2, 2};
 
 // Returns the weights of bilinear interpolation at a position within a cell, one per node of the cell, row by
@@ -45,7 +44,8 @@ ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector
     if (is_free(n)) couple(n, tie_of);
 }
 
-// Replaces the ties of each coarse cell by one tie at their mean position, weighted by stiffness.
+// Returns the ties of the coarser level: one for each coarse cell with ties, at their mean position weighted by
+// stiffness.
 std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   std::vector<Tie> coarse;
   std::vector<Index> tie_of(diagonal_.size(), no_index);
@@ -63,7 +63,7 @@ std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   return coarse;
 }
 
-// Assigns a free node to its colour, together with its weights in the ties of the four cells around it.
+// Adds a free node to the nodes of its colour, together with its weights in the ties of the four cells around it.
 void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of) {
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];
@@ -97,9 +97,9 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Keeps every other node of every other row. A coarse node gets the least bending stiffness of the fine node
-// at its position and of that node's free neighbours, and the harmonic mean of the tensions of that node and
-// its four neighbours. So thin hinges between stiff regions remain.
+// Returns the next coarser level, with every other node of every other row. A coarse node gets the least bending
+// stiffness of the fine node at its position and of that node's free neighbours. Its tension is the harmonic mean of
+// the tensions of that node and its four neighbours. So thin hinges between stiff regions remain.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
@@ -157,9 +157,9 @@ void ObstacleSolver::Level::start(Fields& f) const {
   }
 }
 
-// One step of projected over-relaxation at a node. Moves b towards the minimum of the energy by
-// over_relaxation times the distance, clamps it to its bounds, and updates the moments of the node and its
-// neighbours. Returns the change.
+// Makes one step of projected over-relaxation at a node. Moves b towards the minimum of the energy by over_relaxation
+// times the distance, clamps it to its bounds, and updates the moments of the node and its neighbours. Returns the
+// change.
 inline float ObstacleSolver::Level::move(Index n, const Slope& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
@@ -256,8 +256,8 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     // A node of level l represents 4^l nodes of the finest level.
     Springs here = springs;
     here.order.stiffness *= static_cast<float>(1 << 2 * l);
-    // With the sum of their stiffnesses, the joined ties of a coarse cell would be too stiff for the sweeps
-    // to converge.
+    // The tie of a coarse cell has the sum of the stiffnesses of several ties. With this stiffness the sweeps would
+    // not converge, so the factors of the ties are reduced.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);

@@ -11,17 +11,17 @@
 
 namespace relievo::solver {
 
-// Strengths of the forces on the field b. At ties, b is pulled towards zero, and up to a least value. Forces
-// between pairs of nodes have their strengths in `order`.
+// Strengths of the forces on the field b. A tie pulls b towards zero, and up to `least_at_ties` if b is lower.
+// `order` has the strengths of the forces between pairs of nodes.
 struct Springs {
   float tie_stiffness = 1;  // factor of the ties, >= 0
-  // A tie pulls b up to this value if b is lower at the tie.
+  // The least value of b at ties, below which a second force pulls b upwards.
   float least_at_ties = -std::numeric_limits<float>::infinity();
-  float stop_stiffness = 10;  // factor of that force, >= 0
+  float stop_stiffness = 10;  // factor of the force towards least_at_ties, >= 0
   OrderLimits order = {};
 };
 
-// Ties the field to zero at a position within a cell, for curves between the nodes.
+// Pulls the field to zero at a position within a cell. Ties represent curves that run between the nodes.
 struct Tie {
   std::size_t cell;  // number of the cell's first node
   Vec2f at;          // position within the cell, in [0, 1]
@@ -52,9 +52,9 @@ class ObstacleSolver {
   // Data of one level. Each vector except at_ties has an element per node.
   struct Fields {
     std::vector<float> lowest, highest, load, hold, b;
-    std::vector<float> heights, lack;  // for pairs: the heights to which b is added; scratch memory
+    std::vector<float> heights, lack;  // for pairs: the heights without b; scratch memory
     std::vector<float> moment;         // bending times lap b
-    std::vector<float> at_ties;        // per tie: b at the tie; then a 0 per tied node, see TiedNode
+    std::vector<float> at_ties;        // per tie: the value of b there; then a 0 per tied node, see TiedNode
 
     std::size_t memory() const;
   };
@@ -102,8 +102,8 @@ class ObstacleSolver {
       }
     }
 
-    // Computes bounds and load from those of the next finer level. If a node's lower bound exceeds its upper
-    // bound, both are set to their mean.
+    // Computes bounds, load, hold and heights from those of the next finer level. If a node's lower bound exceeds its
+    // upper bound, both are set to their mean.
     void restrict_from(const Level& finer, const Fields& from, Fields& to) const;
     // Interpolates b from the next coarser level, bilinearly.
     void prolong_from(const Level& coarser, const Fields& from, Fields& to) const;
@@ -118,16 +118,16 @@ class ObstacleSolver {
       // First and second derivative of the energy with respect to a node's value.
       float first = 0, second = 0;
     };
-    // A node's part of a tie. The value at the tie is the sum of weight * b over the four nodes of its cell.
+    // A node's part in a tie. The value at a tie is the sum of weight * b over the four nodes of its cell.
     struct Share {
       Index tie;
       float weight = 0, stiffness = 0;  // weight of the node; stiffness of the tie times this weight
     };
     struct TiedNode {
       Index node;
-      // If a cell has no tie, its share has weight 0, and `tie` is the index of a dummy value in at_ties that
-      // only this node uses. With a common dummy, each update would have to wait for the write of the
-      // previous one.
+      // The parts in the ties of the four cells around the node. If a cell has no tie, the weight is 0, and `tie` is
+      // the index of an unused value in at_ties that belongs to this node alone. If nodes shared that value, each
+      // update would have to wait for the write of the previous one.
       std::array<Share, 4> shares;
     };
     struct Colour {
@@ -145,9 +145,9 @@ class ObstacleSolver {
     Stiffness stiffness_;
     std::vector<Tie> ties_;
     std::size_t tied_nodes_ = 0;
-    // The free nodes, divided into five colours. No update reads a value that another update of the same
-    // colour changes. So the processor can overlap the updates of a colour, which is 2.6 times as fast as row
-    // by row.
+    // The free nodes, divided into five colours. No update reads a value that another update of the same colour
+    // changes. So the processor can overlap the updates of a colour, which is 2.6 times as fast as updating row by
+    // row.
     std::array<Colour, 5> colours_;
     OrderPull order_;
     std::vector<float> diagonal_;  // per node: diagonal of the energy's Hessian without springs

@@ -29,7 +29,8 @@ OrderPull::OrderPull(std::size_t width, const OrderedPairs& pairs) {
         const long x = n % columns + dx;
         const float share = pairs.share[n] * pairs.share[n + offset];
         if (x < 0 || x >= columns || share == 0) continue;
-        // Standard libraries differ in the last bit of tanh in single precision.
+        // tanh is computed in double precision, because standard libraries differ in its last bit in single
+        // precision.
         direction.wanted[n] = share * static_cast<float>(std::tanh(static_cast<double>(
                                           (pairs.depth[n] - pairs.depth[n + offset]) / pairs.saturation)));
       }
@@ -43,8 +44,8 @@ std::size_t OrderPull::memory() const {
   return sum;
 }
 
-// If both nodes of a pair move, k (x - y)^2 <= 2 k (x^2 + y^2). So each node gets a spring of twice the
-// stiffness.
+// The energy of a pair contains (x - y)^2, where x and y are the moves of its nodes. As (x - y)^2 <= 2 (x^2 + y^2), a
+// spring of twice the stiffness at each node gives an upper bound.
 void OrderPull::write_bound(std::span<const float> b, std::span<const float> heights,
                             const OrderLimits& limits, const Bound& bound) const {
   const std::size_t nodes = b.size();

@@ -1,4 +1,4 @@
-// Forces between nodes of a lattice that raise near parts above farther ones.
+// Computes forces between nodes of a lattice that raise near parts above farther ones.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace relievo::solver {
 
-// The pairs of nodes with these distances, in cells, along rows, columns and both diagonals. The nearer node
-// of a pair should be higher by OrderLimits::height * tanh(|difference of depth| / saturation) * the shares
-// of both nodes.
+// Pairs of nodes with the given distances, in cells, along rows, columns and both diagonals. The nearer node of a
+// pair should be higher by OrderLimits::height * tanh(|difference of depth| / saturation), times the shares of both
+// nodes.
 struct OrderedPairs {
   std::span<const float> depth;  // per node, larger is nearer
   std::span<const float> share;  // per node, in [0, 1]; nodes with share 0 are in no pair
@@ -23,9 +23,9 @@ struct OrderLimits {
   float stiffness = 0;  // stiffness of the forces, >= 0
 };
 
-// The energy is 1/2 stiffness times the sum over all pairs of (missing height difference)^2. It is convex,
-// and 0 if the order is right. write_bound() replaces it by a quadratic upper bound, with which relaxation
-// converges although all nodes move at the same time.
+// An energy that is small if nearer nodes are higher: 1/2 stiffness times the sum over all pairs of (missing height
+// difference)^2. It is convex, and 0 if the order is right. write_bound() replaces it by a quadratic upper bound,
+// with which relaxation converges although all nodes move at the same time.
 class OrderPull {
  public:
   OrderPull() = default;
@@ -46,8 +46,8 @@ class OrderPull {
  private:
   struct Direction {
     std::size_t offset;  // > 0; from the first node of a pair to the second
-    // Holds for each first node how far it should be above the second, as a share of OrderLimits::height. It
-    // is 0 where a node is in no pair.
+    // For each first node, the wanted height above the second node, as a share of OrderLimits::height. It is 0 if a
+    // node is in no pair.
     std::vector<float> wanted;
   };
   std::vector<Direction> directions_;

@@ -94,7 +94,7 @@ RELIEVO_INLINE void with_width(Index width, F&& f) {
   }
 }
 
-// Adds W b to `out`. Returns the end of the supernode's values.
+// Adds W b to `out`. Returns a pointer to the end of the supernode's values.
 RELIEVO_INLINE const float* add_product(NodeSize node, const float* values, const float* b, float* out) {
   const Index rows = padded_rows(node.width, node.below);
   Index c = 0;
@@ -146,8 +146,8 @@ RELIEVO_INLINE void forward(const Subtree& subtree) {
   }
 }
 
-// Copies work[rows[i]] to x[i]. The vectors are assembled in registers, because loading a vector right after
-// storing its single elements would stall.
+// Copies work[rows[i]] to x[i]. Vectors are put together in registers: loading a vector from memory right after
+// storing its elements one by one would stall.
 RELIEVO_INLINE void gather(const float* work, const std::uint16_t* rows, Index count, float* x) {
   Index i = 0;
   for (; i + 8 <= count; i += 8, rows += 8)

@@ -1,11 +1,11 @@
-// Dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal method, and on the
-// panels that substitutions multiply by. The panel of a supernode is its dense part of W. Tested by
-// tests/solver/cholesky_test.cpp.
+// Provides the dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal method, and on
+// panels. The panel of a supernode is its dense part of the inverted factor W, by which substitutions multiply.
+// Tested by tests/solver/cholesky_test.cpp.
 //
-// A panel consists of strips of eight columns. Each strip begins at its own first row, because a supernode is
-// lower triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are stored in
-// blocks of eight, and blocks by columns; if four rows remain, the last block has four. Forward substitution
-// reads the values from front to back, backward substitution from back to front.
+// A panel consists of strips of eight columns. Each strip begins at its own first row, because a supernode is lower
+// triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are stored in blocks of eight,
+// and blocks by columns; if four rows remain, the last block has four. Forward substitution reads the values from
+// front to back, backward substitution from back to front.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,12 @@ struct FrontalMatrix {
   std::vector<double> data;
 
   double* column(Index c) { return data.data() + std::size_t{stride} * c; }
-  // Makes it a zero matrix with that many rows.
+  // Sets all elements to zero, for a matrix with that many rows.
   void reset(Index new_rows);
 };
 
-// Factors the first `width` columns, A = L L^T, and subtracts their outer product from the other columns,
-// which become the Schur complement. Returns no_index, or the first column whose pivot is not above its
+// Factors the first `width` columns, A = L L^T. Subtracts the outer product of these columns of L from the other
+// columns, which become the Schur complement. Returns no_index, or the first column whose pivot is not above its
 // element of `smallest_pivot`; then the contents are meaningless.
 Index eliminate_columns(FrontalMatrix& front, Index width, std::span<const double> smallest_pivot);
 
@@ -68,13 +68,13 @@ struct Subtree {
 // the elements of the rows below.
 void substitute_forward(const Subtree& subtree);
 
-// Backward substitution: computes the elements of the subtree's columns by multiplying these and the elements
-// of the rows below by L^-T. Goes from the last supernode to the first, so `values` and `rows` of `end` point
-// to the end of the last supernode; `work` is the same as for the forward direction.
+// Backward substitution: computes the elements of the subtree's columns by multiplying these and the elements of the
+// rows below by L^-T. Goes from the last supernode to the first. So `values` and `rows` of `end` must point to the
+// end of the last supernode's; `work` is the same as for the forward direction.
 void substitute_backward(const Subtree& end);
 
-// These two substitute for a single supernode of any size whose rows are the whole work vector, in order. The
-// work vector is padded to a multiple of four with finite numbers. `scratch` has width + 8 floats.
+// Forward and backward substitution for a single supernode of any size whose rows are the whole work vector, in
+// order. The work vector is padded to a multiple of four with finite numbers. `scratch` has width + 8 floats.
 void substitute_forward(NodeSize node, const float* values, float* work, float* scratch);
 void substitute_backward(NodeSize node, const float* values, float* work, float* scratch);
 

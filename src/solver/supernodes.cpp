@@ -12,7 +12,7 @@ std::vector<Index> inverse(std::span<const Index> order) {
   return place;
 }
 
-// Returns the elimination tree: the parent of a column is the first row below its diagonal, including fill.
+// Returns the elimination tree: the parent of a column is the first row below its diagonal, including fill. Uses
 // Liu's algorithm (1990), with path compression in `ancestor`.
 std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> order,
                                     std::span<const Index> place) {
@@ -58,8 +58,8 @@ std::vector<Index> postorder(std::span<const Index> parent) {
   return order;
 }
 
-// Finds the fundamental supernodes, which store no zeros. The rows of each are in no particular order; all
-// are below its last column.
+// Finds the fundamental supernodes, which store no zeros. The rows of each supernode are not sorted; all are below
+// its last column.
 class Fundamental {
  public:
   Fundamental(const Graph& graph, std::vector<Index> order) : graph_(graph), order_(std::move(order)) {
@@ -152,7 +152,7 @@ class Fundamental {
 
   const Graph& graph_;
   std::vector<Index> order_, column_parent_, children_, mark_, owner_;
-  // Per column, the supernodes whose parent is this column, as a linked list.
+  // Per column, a linked list of the supernodes whose parent is this column.
   std::vector<Index> first_child_, next_sibling_;
   Supernodes result_;
 };
@@ -170,8 +170,8 @@ std::vector<Index> amalgamate(const Supernodes& nodes) {
   const Index n = nodes.size();
   std::vector<Index> width(n), group(n);
   for (Index s = 0; s < n; ++s) width[s] = nodes.width(s);
-  // In postorder a child is final before its parent is considered. The last child, which is the most similar
-  // in structure, is considered first.
+  // In postorder the merging of a child is final before its parent is considered. The last child is considered first,
+  // because its structure is the most similar to that of the parent.
   std::vector<Index> first_child(n, no_index), sibling(n, no_index);
   for (Index s = 0; s < n; ++s) {
     group[s] = s;
@@ -226,8 +226,8 @@ std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, 
   return moved;
 }
 
-// Merges each group into one supernode. Its rows are those of the topmost member, which include the others'
-// rows outside the group.
+// Merges each group into one supernode. Its rows are those of the topmost member, which include all rows of the
+// others that are outside the group.
 Supernodes merged(const Supernodes& nodes, std::span<const Index> group) {
   const Groups groups = number_groups(nodes, group);
   Supernodes result;

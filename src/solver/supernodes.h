@@ -6,9 +6,9 @@
 
 namespace relievo::solver {
 
-// The columns in elimination order, grouped into supernodes: consecutive columns that are stored as one dense
-// panel. The rows of a panel are its columns and the rows in `rows`. Supernodes are in postorder of the
-// assembly tree.
+// The columns in elimination order, grouped into supernodes: consecutive columns that are stored as one dense panel.
+// The rows of a panel are the supernode's columns and the rows in `rows`. Supernodes are in postorder of the assembly
+// tree.
 struct Supernodes {
   std::vector<Index> order;        // per column: the vertex that is eliminated there
   std::vector<Index> first = {0};  // supernode s has the columns first[s] up to first[s + 1]

@@ -133,8 +133,8 @@ class TaskTreeBuilder {
       // A supernode above the subtrees needs a copy of its columns, padded to vectors of eight.
       const Index scratch = task.is_subtree ? 0 : task.own() + 8;
       task.work_begin = result_->work_count;
-      // Whole cache lines of 16 floats, with at least eight floats of padding, so that no two threads write
-      // to the same line.
+      // The size is rounded up to whole cache lines of 16 floats, with at least eight floats of padding, so that no
+      // two threads write to the same line.
       result_->work_count += (task.own() + task.boundary + scratch + 23) / 16 * 16;
       task.values = result_->value_count;
       for (Index s = task.first_node; s < task.end_node; ++s)
@@ -161,8 +161,8 @@ class TaskTreeBuilder {
           work_row(*result_, result_->tasks[task.parent], result_->boundary[task.first_boundary + i]));
   }
 
-  // Lists the work rows of each supernode of a subtree. They are padded with the supernode's first row, as
-  // the products require.
+  // Lists, for each supernode of a subtree, the positions of its rows in the work vector. The list is padded with the
+  // supernode's first row, as the products require.
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
     std::vector<std::uint16_t>& rows = result_->rows;

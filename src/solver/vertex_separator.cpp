@@ -26,9 +26,9 @@ class PathFlow {
     queue_.reserve(level_.size());
   }
 
-  // Finds most paths greedily, before maximise(). Each path begins at the uppermost unused start and always
-  // takes the leftmost turn. If a walk turns back at a vertex, that vertex lies above the walk. In a planar
-  // graph a lower path would have to cross the walk to reach it, so no vertex is visited twice.
+  // Finds most paths greedily, before maximise(). Each path begins at the uppermost unused start and always takes the
+  // leftmost turn. Vertices at which a walk turns back lie above the walk. In a planar graph a lower path would have
+  // to cross the walk to reach them, so no vertex is visited twice.
   void take_uppermost_paths() {
     std::vector<std::uint8_t> is_seen(graph_.size(), 0);
     for (const Index start : starts_from_above())
@@ -44,9 +44,8 @@ class PathFlow {
     }
   }
 
-  // Returns the sides from the final flow, after maximise(). Vertices that can still be reached are on the
-  // near side. A vertex whose entrance is reachable, but whose exit is not, is saturated, so it belongs to
-  // the separator.
+  // Returns the sides that follow from the final flow, after maximise(). Vertices whose exit can be reached are on
+  // the near side. If only the entrance can be reached, the vertex is saturated and belongs to the separator.
   std::vector<Side> cut(Side near, Side far) const {
     std::vector<Side> side(graph_.size(), far);
     for (Index v = 0; v < graph_.size(); ++v) {
@@ -80,8 +79,8 @@ class PathFlow {
     return order;
   }
 
-  // Returns the first neighbour to try at the start of a walk: the next one clockwise from the backward
-  // direction, which is the leftmost turn.
+  // Returns the first neighbour to try at the start of a walk, the leftmost turn: the next neighbour clockwise from
+  // the direction opposite to that of the band.
   Index first_turn(Index v) const {
     const auto nearby = graph_.neighbours(v);
     Index best = 0;
@@ -90,8 +89,8 @@ class PathFlow {
       const Eigen::Vector2f step = band_.positions[nearby[i]] - band_.positions[v];
       const float x = -step.dot(band_.direction);
       const float y = step.x() * band_.direction.y() - step.y() * band_.direction.x();
-      // A substitute for the angle, without an arc tangent. It increases clockwise to 4, from 0 in the
-      // backward direction (x = 1, y = 0).
+      // A number that increases clockwise to 4, from 0 in the backward direction (x = 1, y = 0). It replaces the
+      // angle, and needs no arc tangent.
       const float sum = std::abs(x) + std::abs(y), turn = sum > 0 ? x / sum : 1;
       const float angle = -y >= 0 ? 1 - turn : 3 + turn;
       if (angle < best_angle) best = i, best_angle = angle;
@@ -231,7 +230,7 @@ MinimumSeparators minimum_separators(const SeparatorBand& band) {
   MinimumSeparators cuts;
   cuts.near_first = flow.cut(Side::first, Side::second);
   flow.reverse();
-  // The flow is already maximal; this only finds the vertices that can be reached from the other side.
+  // The flow is already maximal. This call only finds the vertices that can be reached from the other side.
   flow.maximise();
   cuts.near_second = flow.cut(Side::second, Side::first);
   return cuts;

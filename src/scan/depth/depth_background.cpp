@@ -7,9 +7,9 @@
 namespace relievo {
 namespace {
 
-// A background covers at least `least_border` of the image's border, and at least `least_jumps` of its
-// contacts with the figure are depth jumps. If missing values are more than `most_missing` of the figure's
-// contacts, the missing pixels are its background.
+// A background covers at least `least_border` of the image's border, and at least `least_jumps` of its contacts with
+// the figure are depth jumps. If more than `most_missing` of the figure's contacts are with missing pixels, these
+// pixels are its background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
 constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
 // Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
@@ -26,7 +26,7 @@ constexpr int none = -1;
 // A part of the image, separated from other parts by depth jumps.
 struct Part {
   std::size_t points = 0, border = 0;
-  // Contacts in which this part is in front; contacts in which it is behind.
+  // `before`: contacts with other parts in which this part is in front; `behind`: those in which it is behind.
   std::size_t before = 0, behind = 0;
   float nearest = -std::numeric_limits<float>::infinity();
 };
@@ -64,8 +64,8 @@ class Parts {
   }
 
  private:
-  // Only neighbours with similar heights belong to the same part. A criterion that allowed ever steeper
-  // slopes would connect the figure with its background across a blurred outline.
+  // Only neighbours with similar heights belong to the same part. If the allowed slope grew along a path, a blurred
+  // outline would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());
@@ -113,7 +113,7 @@ std::vector<float> sorted_heights(const DepthGrid& grid, const GridMask& mask, b
   return heights;
 }
 
-// Counts the evidence for and against a background.
+// Counts the contacts that speak for and against a background.
 class Evidence {
  public:
   Evidence(const DepthGrid& grid, const GridMask& is_rear) : grid_(grid), is_rear_(is_rear) {
@@ -131,8 +131,7 @@ class Evidence {
  private:
   bool is_figure(std::size_t i) const { return grid_.bounds.is_known[i] && !is_rear_[i]; }
 
-  // Counts the contact between grid point i, if it belongs to the figure, and its neighbour opposite to
-  // `inwards`.
+  // If grid point i belongs to the figure, counts its contact with the neighbour on the side opposite to `inwards`.
   void look(const GridLine& line, int i, int inwards) {
     const std::size_t beside = line.at(i - inwards);
     if (!is_figure(line.at(i))) return;
@@ -142,8 +141,8 @@ class Evidence {
     jumps_ += is_jump(line, i, inwards);
   }
 
-  // Returns whether the heights between the background and some point of the figure rise several times as
-  // steeply as behind that point.
+  // Returns whether, at some point of the figure, the mean slope from the background up to this point is several
+  // times as steep as the slope beyond it.
   bool is_jump(const GridLine& line, int i, int inwards) const {
     const float ground = grid_.height[line.at(i - inwards)];
     for (int k = 1; k <= widest_outline; ++k, i += inwards) {
@@ -178,8 +177,7 @@ GridMask far_group(const DepthGrid& grid) {
   GridMask is_far(grid.height.size(), 0);
   const std::vector<float> heights = sorted_heights(grid, is_far, false);
   if (heights.size() < 16) return is_far;
-  // Otsu's method: the threshold with the largest variance between the groups, hence the least variance
-  // within them.
+  // Finds the threshold by Otsu's method: the variance between the groups is largest, hence that within them least.
   double sum = 0, total = 0, total_sq = 0;
   for (const float h : heights) total += double{h}, total_sq += double{h} * double{h};
   const auto n = static_cast<double>(heights.size());
@@ -192,7 +190,7 @@ GridMask far_group(const DepthGrid& grid) {
     if (between > best && heights[i] > heights[i - 1]) best = between, split = i;
   }
   const double variance = total_sq / n - total / n * (total / n);
-  // With less than 70 % of the variance between the groups, there is no clear gap.
+  // If the variance between the groups is less than 70 % of the whole variance, no clear gap separates them.
   if (split == 0 || best < .7 * variance) return is_far;
   const float threshold = (heights[split] + heights[split - 1]) / 2;
   std::size_t border = 0, far_border = 0;

@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 constexpr float least_jump =
-    8;  // least height difference of two surfaces with blur between them, in grid points
+    8;  // least height difference of two surfaces with blur between them, in distances of grid points
 
 // Returns whether a run of the steps from `first` to `last` contains a surface of its own: a step that is
 // small compared with the steps before and after it.
@@ -40,8 +40,8 @@ class BlurFinder {
     return line.has_step(i) && !grid_.is_near(line.at(i), line.at(i + 1));
   }
 
-  // Returns whether the step i is a jump away from the surface on the side of step `next`. For depth cameras
-  // the surface's slope is ignored, because noise hides it.
+  // Returns whether step i jumps away from the surface to which step `next` belongs. For depth cameras the surface's
+  // slope is ignored, because noise hides it.
   bool leaves(const GridLine& line, int i, int next) const {
     return is_jump(line, i) && (grid_.is_sensor || !line.continues(i, next));
   }

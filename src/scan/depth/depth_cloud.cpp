@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns the mean of the differences to the connected neighbours on both sides; 0 if there are none.
+// Returns the mean height difference to the connected neighbours on both sides; 0 if there are none.
 float slope_between(float before, float here, float after, bool joins_before, bool joins_after) {
   const float sum = (joins_before ? here - before : 0) + (joins_after ? after - here : 0);
   return joins_before && joins_after ? sum / 2 : sum;
@@ -48,7 +48,7 @@ Cloud points_of(const DepthGrid& grid, const std::vector<float>& z) {
   return cloud;
 }
 
-// Counts the values that are not depths, and how many of them could be depths.
+// Counts the values that are not depths, and among these the values that could be depths.
 void count_missing(const DepthImage& image, const ValueRange& valid, DepthValues kind, DepthCloud& out) {
   for (const float v : image.values.pixels) {
     if (valid.contains(v)) continue;
@@ -74,7 +74,7 @@ std::optional<BlurLimits> blur_limits(const DepthGrid& grid, const DepthOptions&
   return options.blur == Removal::drop || grid.is_sensor ? wide : narrow;
 }
 
-// Stores the reason for removing points: those in the mask that were kept until now.
+// Stores the reason for which the points of the mask are removed, unless an earlier reason is stored.
 void note(const GridMask& is_left_out, PixelUse reason, Image<PixelUse>& uses) {
   for (std::size_t i = 0; i < is_left_out.size(); ++i)
     if (is_left_out[i] && uses[i] == PixelUse::kept) uses[i] = reason;

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper slopes are usually jumps.
+// Neighbours belong to one surface up to this slope, 76 degrees. Steeper slopes are usually jumps.
 constexpr float steepest = 4;
 // Noise grows with depth. So the pixels are sorted by depth and divided into this many equal bins, and the
 // noise of each is measured separately.
@@ -53,7 +53,8 @@ Noise measure_noise(const DepthGrid& grid) {
     noise.limit[bin] = (last - 1)->height;
     std::vector<float> sizes;
     for (auto it = first; it != last; ++it) sizes.push_back(it->twist);
-    noise.sigma[bin] = 1.4826F * median(sizes) / 2;  // 1.4826: median to deviation; / 2: sum of four heights
+    // 1.4826 turns the median into a standard deviation, which for the sum of four heights is twice that of one.
+    noise.sigma[bin] = 1.4826F * median(sizes) / 2;
   }
   return noise;
 }
@@ -203,7 +204,8 @@ bool GridLine::continues(int i, int next) const {
 bool GridLine::is_smooth(int i) const {
   if (!has_step(i)) return false;
   if (grid.is_near(at(i), at(i + 1))) return true;
-  // With the noise of depth cameras, jumps could seem to continue a slope.
+  // For depth cameras, a steep step never counts as the continuation of a slope, because a jump with noise beside it
+  // can look like one.
   return !grid.is_sensor && (continues(i, i - 1) || continues(i, i + 1));
 }
 

@@ -1,5 +1,5 @@
-// A depth image as a grid of heights, before it becomes points. Each height has bounds within which it may be
-// smoothed. Tested by tests/scan/depth_image_test.cpp.
+// Represents a depth image as a grid of heights, before it becomes points. Each height has bounds within which it may
+// be smoothed. Tested by tests/scan/depth_image_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ std::vector<float> smoothest(const BoundedGrid& grid);
 struct DepthGrid {
   BoundedGrid bounds;          // an interval around each height
   std::vector<float> height;   // heights of known grid points
-  double units_per_value = 0;  // as in Cloud
+  double units_per_value = 0;  // ratio of the heights to the image's values, see Cloud
   double noise = 0;
   // Whether the image is from a depth camera: its values have coarser steps than the file allows.
   bool is_sensor = false;
@@ -45,7 +45,6 @@ struct DepthGrid {
   bool is_near(std::size_t i, std::size_t j) const;
 };
 
-// A mask of grid points.
 using GridMask = std::vector<std::uint8_t>;
 
 // Makes grids of an image, reduced to about options.points points.
@@ -56,9 +55,9 @@ class GridMaker {
   int reduction() const { return reduction_; }
   const ValueRange& valid() const { return valid_; }
 
-  // Returns the grid, without connections yet. The bounds account for noise and for the step of the values.
-  // `is_left_out` is a mask or empty. Its points are in the grid, but do not count for the range of depths
-  // and for the steps.
+  // Returns the grid; its points are not connected yet. The bounds account for noise and for the step of the values.
+  // `is_left_out` is a mask of grid points, or empty. The points in the mask are in the grid, but do not count for
+  // the range of depths and for the step.
   DepthGrid make(const GridMask& is_left_out) const;
 
  private:
@@ -103,10 +102,9 @@ void each_line(const DepthGrid& grid, F&& f) {
 // Connects neighbouring grid points unless there is a depth jump between them. Terrain has no depth jumps.
 void join(DepthGrid& grid);
 
-// Returns a mask of the background: parts behind depth jumps all around the figure that cover most of the
-// image's border. Without strong evidence the mask is empty. In that case, if `is_wanted`, it has the points
-// behind the threshold that best separates two groups of depths, provided that the far group covers most of
-// the border.
+// Returns a mask of the background: the parts behind depth jumps all around the figure that cover most of the image's
+// border. Without strong evidence of a background the mask is empty or, if `is_wanted`, contains the points behind
+// the threshold that best separates two groups of depths, provided that the far group covers most of the border.
 GridMask find_background(const DepthGrid& grid, bool is_wanted);
 
 struct BlurLimits {
@@ -114,13 +112,13 @@ struct BlurLimits {
   float least_share = 0;  // least height difference between the two surfaces, as a share of all depths
 };
 
-// Makes structures unknown that are thinner than 3 grid points, such as the teeth on outlines of depth
-// cameras. A point stays known if a square of 3 x 3 known points contains it; positions outside the grid
-// count as known. Returns the number of points that became unknown.
+// Makes structures unknown that are thinner than 3 grid points, such as the thin teeth that depth cameras make along
+// outlines. A point stays known if a square of 3 x 3 known points contains it; positions outside the grid count as
+// known. Returns the number of points that became unknown.
 std::size_t drop_teeth(BoundedGrid& grid);
 
-// Adds to the mask the grid points that are blur in a row or a column: points between two surfaces that
-// continue neither of them. Returns the number of added points.
+// Finds blur along rows and columns: runs of points between two surfaces that continue neither of them. Adds these
+// points to the mask, and returns the number of added points.
 std::size_t add_blur(const DepthGrid& grid, const BlurLimits& limits, GridMask& is_left_out);
 
 }  // namespace relievo

@@ -9,7 +9,7 @@ namespace relievo {
 namespace {
 
 constexpr int smallest_side = 8;  // least width and height of a grid
-constexpr int steps = 150;        // steps of descent on each grid; coarser grids solve for the long waves
+constexpr int steps = 150;        // steps on each grid; coarser grids remove long waves of the error
 constexpr float step_size =
     1 / 64.F;  // below 2 / 64, the limit of convergence; 64 is the largest eigenvalue of the bending energy
 constexpr std::size_t rows_per_task = 16;

@@ -6,7 +6,7 @@
 namespace relievo {
 namespace {
 
-// Teeth are narrower than a square with this reach around its centre: 3 x 3 points.
+// The square extends this many points to each side of its centre, so it has 3 x 3 points. Teeth are narrower.
 constexpr int reach = 1;
 
 // Calls f for the points of the square around a point that are in the grid, until f returns true.

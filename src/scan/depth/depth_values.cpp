@@ -18,11 +18,10 @@ constexpr double farthest_inverse = .05;
 // Depths (as floating-point numbers) that are more than this many times the nearest ones are not depths.
 // Renderers write values such as 1e10 where a ray hits nothing, and mix them with depths along outlines.
 constexpr double farthest_depth = 1e5;
-// A far value that is neither the type's largest value nor a usual marker counts as missing only if its
-// distance from all other depths is this many times their range.
+// The highest depth counts as a marker if its distance from all other depths is this many times their range. A
+// smaller distance suffices if it is the largest value of its type.
 constexpr double widest_gap = 100;
 
-// The two lowest and the two highest values.
 struct Extremes {
   double lowest = infinite, second = infinite, last_but_one = -infinite, highest = -infinite;
 

@@ -1,5 +1,5 @@
-// The values of a depth image: which of them are depths, how uncertain they are, and which heights they
-// represent. Tested by tests/scan/depth_image_test.cpp.
+// Finds which values of a depth image are depths, how uncertain they are, and which heights they represent. Tested by
+// tests/scan/depth_image_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -17,19 +17,19 @@ struct ValueRange {
   static ValueRange none();  // empty; extend() makes it the range of one value
 };
 
-// Returns the range of the values that are depths. Values outside mark pixels without measurement or without
-// object: 0 or less in depths, the largest value of the file's type, the far value of a renderer, or the
-// usual markers of terrain models. These markers are recognised only if a wide gap separates them from all
-// other values.
+// Returns the range of the values that are depths. Values outside mark pixels without measurement or without object:
+// 0 or less in depths, the largest value of the file's type, the value with which a renderer marks pixels without
+// object, or the usual markers of terrain models. The latter three are recognised only if a wide gap separates them
+// from all other values.
 ValueRange valid_values(const DepthImage& image, DepthValues kind);
 
 // Converts values into heights towards the viewer, in pixels of the image.
 class HeightScale {
  public:
-  // Without a camera, options.range is the height difference of the range's ends, in widths of the image.
+  // Without a camera, options.range is the height difference between the ends of `range`, in widths of the image.
   HeightScale(const DepthImage& image, const DepthOptions& options, const ValueRange& range);
 
-  // As Cloud::units_per_value, but in pixels of the image.
+  // Returns the ratio of heights to values, like Cloud::units_per_value, but in pixels of the image.
   double units_per_value() const { return is_log_ ? 0 : scale_; }
   double height(double v) const { return scale_ * (is_log_ ? std::log(std::max(v, floor_)) : v); }
 
@@ -38,7 +38,8 @@ class HeightScale {
   double scale_ = 1, floor_ = 0;
 };
 
-// Estimates the uncertainty of values from their steps. It is at least half a step of the file.
+// Estimates the uncertainty of values from the steps between them. The uncertainty is at least half the step of the
+// file's number format.
 class ValueSteps {
  public:
   explicit ValueSteps(const DepthImage& image);

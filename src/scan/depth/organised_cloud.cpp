@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// The rays of a camera at the origin: that of the pixel (c, r) is start + c right + r down. Its component
-// along `forward` is 1.
+// The rays of a camera at the origin. The ray of the pixel in column c and row r is start + c right + r down. The
+// component of a ray along `forward` is 1.
 struct OrganisedCamera {
   Vec3 start, right, down, forward;
 
@@ -23,7 +23,6 @@ struct OrganisedCamera {
   double focal() const { return 1 / std::sqrt(right.norm() * down.norm()); }
 };
 
-// A measured pixel.
 struct Pixel {
   double c = 0, r = 0;
   Vec3 at;
@@ -49,9 +48,8 @@ std::vector<Pixel> some_pixels(const OrganisedCloud& scan) {
   return pixels;
 }
 
-// Returns the camera whose rays are nearest to the pixels' points, in the sense of least squares of the
-// products of rays and points, which are 0 where both have one direction. Nothing if the rays span no
-// picture.
+// Returns the camera whose rays fit the pixels' points best: the sum of squares of the components of the rays
+// perpendicular to the directions of their points is least. Returns nothing if the rays span no picture.
 std::optional<OrganisedCamera> nearest_camera(const std::vector<Pixel>& pixels, double scale) {
   using Unknowns = Eigen::Matrix<double, 9, 9>;
   Unknowns squares = Unknowns::Zero();
@@ -75,7 +73,8 @@ std::optional<OrganisedCamera> nearest_camera(const std::vector<Pixel>& pixels, 
   return camera;
 }
 
-// Depths are exact only along the axis of the file that the camera looks along, if it does.
+// If the camera looks almost exactly along an axis of the file, makes `forward` this axis, because only the
+// coordinates along it are exact depths.
 void snap_to_axis(OrganisedCamera& camera) {
   constexpr double slant = 2e-3;
   Eigen::Index axis = 0;
@@ -84,7 +83,7 @@ void snap_to_axis(OrganisedCamera& camera) {
   camera.forward = std::copysign(1., camera.forward[axis]) * Vec3::Unit(axis);
 }
 
-// Returns the camera of which nine in ten points miss their pixel's ray by less than half a pixel.
+// Returns the camera, provided that nine in ten points are less than half a pixel away from their pixel's ray.
 std::optional<OrganisedCamera> find_camera(const OrganisedCloud& scan) {
   constexpr double farthest_px = .5, share = .9;
   const std::vector<Pixel> pixels = some_pixels(scan);
@@ -102,8 +101,8 @@ std::optional<OrganisedCamera> find_camera(const OrganisedCloud& scan) {
   return camera;
 }
 
-// Returns the step of values, of which each occurs many times, as of a camera that counts: the least
-// difference between two of them. 0 for other values.
+// Returns the step of a camera's depths: the least difference between two values, if each value occurs many times;
+// otherwise 0.
 double step_of(const std::vector<float>& values) {
   constexpr std::size_t least_pixels_per_value = 32;
   constexpr float rounding = 1e-6F;
@@ -131,8 +130,8 @@ DepthImage depths_of(const OrganisedCloud& scan, const OrganisedCamera& camera) 
   return image;
 }
 
-// Returns the normal in space at the point on a ray. `in_picture` is the normal of the heights -f log(depth)
-// over the picture.
+// Returns the normal in space at the point on a ray. `in_picture` is the normal of the height field -f log(depth)
+// over the pixels; f is the focal length.
 Vec3f normal_in_space(const OrganisedCamera& camera, const Vec3& ray, const Vec3f& in_picture) {
   const Vec3 n = in_picture.cast<double>() / double{in_picture.z()};
   const Vec3 along = camera.right + n.x() / camera.focal() * ray;
@@ -141,7 +140,7 @@ Vec3f normal_in_space(const OrganisedCamera& camera, const Vec3& ray, const Vec3
   return (normal.dot(ray) > 0 ? Vec3(-normal) : normal).cast<float>();
 }
 
-// Puts the points of the smoothed picture back onto their rays.
+// Moves the points back onto their rays, at the depths of the smoothed picture.
 void put_back(const DepthCloud& smoothed, const OrganisedCamera& camera, OrganisedCloud& scan) {
   constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
   const auto columns = static_cast<double>(scan.columns);
@@ -176,7 +175,7 @@ std::optional<OrganisedSmoothing> smooth_organised(OrganisedCloud& scan) {
   options.camera = DepthCamera{camera->focal(), camera->focal()};
   options.background = Removal::keep;
   if (scan.keeps_blur) options.blur = Removal::keep;
-  options.points = 1e7;  // no pixels are put together
+  options.points = 1e7;  // so many that pixels are not merged
   const auto smoothed = depth_cloud(depths_of(scan, *camera), options);
   if (!smoothed || smoothed->reduction != 1) return std::nullopt;
   put_back(*smoothed, *camera, scan);

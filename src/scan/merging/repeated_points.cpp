@@ -37,7 +37,7 @@ constexpr double gap_by_chance = .002;
 constexpr std::size_t most_by_nature = 3;
 constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
 constexpr double least_sure = .05,
-                 least_near = .4;  // shares of the tested points; clouds with repeats have at least as many
+                 least_near = .4;  // least shares of tested points with a sure or near gap
 // Points are merged within three times the distance that three quarters of the repeats do not exceed, but at
 // most within a quarter of the distance to other points. The last quarter of the repeats is ignored, because
 // it may contain gaps by chance around points of several positions.
@@ -49,9 +49,9 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the first wide gap in the distances to the nearest points. Later gaps may be due to chance, because
-// among repeats a search finds many points at few positions. For points scattered on a surface, the distance
-// to the m-th is less than s times the distance to the next one with probability s^(2 m).
+// Returns the first wide gap in the distances to the nearest points. Later gaps may be due to chance, because among
+// repeats a search finds many points at few positions. Of points scattered on a surface, the m-th nearest is closer
+// than s times the distance to the next one with probability s^(2 m).
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
@@ -108,7 +108,7 @@ class Merging {
       has_one_normal = has_one_normal && (!cloud_.has_normals() || cloud_.normals[i] == cloud_.normals[j]);
     }
     to_.points.push_back(cloud_.points[i]);
-    // The mean of equal normals would differ from them by rounding.
+    // Equal normals are kept, because their mean would differ from them by rounding.
     if (cloud_.has_normals())
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());

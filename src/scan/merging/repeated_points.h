@@ -1,6 +1,6 @@
-// Repeated points, as in a scan that was exported twice and merged, or in a mesh file in which each face has
-// its own copies of its corners. A search for neighbours would find only a point's repeats instead of its
-// surroundings.
+// Merges repeated points, which occur in a scan that was exported twice, or in a mesh file in which each face has its
+// own copies of its corners. Among repeated points, a search for neighbours would find only a point's copies instead
+// of its surroundings.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// Like the function in cloud.h. `tree` contains the points of the cloud. Returns nothing if hardly any points
-// are repeated.
+// Does the same as the function in cloud.h; `tree` contains the points of the cloud. Returns nothing if hardly any
+// points are repeated.
 std::optional<Cloud> without_repeated_points(const Cloud& cloud, const KdTree<Vec3>& tree);
 
 // Returns a subset of the points of a cloud with normals. The spacing of the subset, as measured by

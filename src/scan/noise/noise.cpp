@@ -17,18 +17,18 @@ constexpr std::size_t enough_places = 4000;
 constexpr std::size_t fewest_places = 100;
 // The largest number of points in two_rings(): a point, its neighbours, and their neighbours.
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
-// The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile
-// to the standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square
-// distribution with 15 degrees of freedom, about as many as a fit leaves.
+// The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile to the
+// standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square distribution with 15
+// degrees of freedom. A fit leaves about so many.
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho; clean scans with fine details scatter up to this much
-// The scatter of normals that a point scatter of one sampling distance causes at least. It was measured for
-// normals estimated from 16 neighbours on spheres and planes.
+// Noise of one sampling distance makes estimated normals scatter by at least this much. It was measured for normals
+// estimated from 16 neighbours on spheres and planes.
 constexpr double normal_scatter_per_noise = to_radians(11);
 
 struct LocalScatter {
-  double points;   // in rho
-  double normals;  // in radians, per component
+  double points;   // scatter of the points, in rho (sampling distances)
+  double normals;  // scatter of each component of the normals, in radians
 };
 
 // Returns the indices of a point, its neighbours and their neighbours, each one once.

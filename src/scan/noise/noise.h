@@ -15,7 +15,6 @@ namespace relievo {
 // than 100 points or without normals.
 double measure_noise(const Cloud& cloud, const Spacing& spacing);
 
-// The points of a cloud, and their normals.
 struct CleanPoints {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
@@ -36,9 +35,9 @@ struct NoiseRemoval {
 // cancelled.
 CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal, const Progress* progress);
 
-// Returns the points, ascending, that may be visible in a view once noise is removed, and those around them that
-// their curvature depends on: points that face the viewer, or nearly do, and three rings of neighbours.
-// `towards_viewer` is a unit vector. If it is 0, all points are returned.
+// Returns the points that may be visible in a view once noise is removed: those that face the viewer or are turned
+// away by little. Also returns three rings of neighbours, on which the curvature of these points depends. Indices
+// ascend. `towards_viewer` is a unit vector. If it is 0, all points are returned.
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing);
 

@@ -17,12 +17,12 @@
 namespace relievo {
 namespace {
 
-constexpr int fits = 3;  // each fit is weighted by the deviations from the previous one
+constexpr int fits = 3;  // number of fits; each is weighted by the deviations from the previous one
 constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 noise)
 constexpr double least_deviation = to_radians(8),
-                 more_deviation = to_radians(30);  // normals: constant part, and factor of the noise
+                 more_deviation = to_radians(30);  // normals: the greater of 8 degrees and 30 degrees * noise
 constexpr float facing = .2F;  // least cosine between the normals of neighbours on the same side of a wall
-constexpr double stiffness = .01;  // keeps the field almost constant if the neighbours are collinear
+constexpr double stiffness = .01;  // keeps the fitted normals almost constant if the neighbours are collinear
 constexpr std::size_t lanes = 8;
 
 // Eight vectors: positions in units of the radius, or unit normals.
@@ -36,7 +36,6 @@ struct Neighbours {
   Float8 deviation_sq = {};  // squared distance of each normal from the last fit's normal
 };
 
-// An orthonormal frame: an axis and two tangents.
 struct Frame {
   Vec3f axis, t1, t2;
 
@@ -48,16 +47,16 @@ struct Frame {
   }
 };
 
-// Weighted sums over the neighbours: of 1, u and v, their products, and the products of these with p, q and
-// the height. u and v are coordinates in the tangent plane, p and q the slopes of the normals.
+// Weighted sums over the neighbours: of 1, u and v and their products, of 1, u and v times p and q, and of the
+// heights. u and v are coordinates in the tangent plane, p and q the slopes of the normals.
 struct Sums {
   Float8 w = {}, wu = {}, wv = {}, wuu = {}, wuv = {}, wvv = {};
   Float8 p = {}, pu = {}, pv = {}, q = {}, qu = {}, qv = {};
   Float8 height = {};
 };
 
-// The fitted surface in a frame. p and q are linear functions of u and v, given by the coefficients of 1, u
-// and v. The height is in units of the radius.
+// The fitted surface in a frame. The slopes p and q are linear functions of u and v, given by their coefficients of
+// 1, u and v. The height is in units of the radius.
 struct LocalSurface {
   Vec3f p = Vec3f::Zero(), q = Vec3f::Zero();
   float height = 0;
@@ -67,7 +66,8 @@ struct LocalSurface {
   }
 };
 
-// Neighbours that deviate lose weight by Gaussians, exp(-factor * deviation^2). The factors are 1 / (2 variance).
+// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2). Each factor is 1 /
+// (2 variance).
 struct Tolerances {
   float normals;  // the factor for the deviation of normals
   float heights;  // the factor for the deviation of heights, which is in units of the radius
@@ -219,8 +219,8 @@ CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& remov
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing) {
   constexpr float least_facing =
-      -.1F;  // cosine of 96 degrees; beyond it removing noise turns few normals to front
-  constexpr std::uint8_t rings = 3;  // of neighbours, which reach farther than the fits of curvature
+      -.1F;  // cosine of 96 degrees; removing noise turns few points beyond this to the viewer
+  constexpr std::uint8_t rings = 3;  // rings of neighbours; they reach farther than the fits of curvature
   std::vector<std::uint8_t> level(normals.size(), 0);
   for (std::size_t i = 0; i < normals.size(); ++i)
     if (normals[i].dot(towards_viewer) > least_facing) level[i] = rings + 1;

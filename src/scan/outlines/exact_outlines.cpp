@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Lengths in rho.
+// Lengths in rho, the sampling distance.
 constexpr double grid_cell = 1.5;
 constexpr double most_distant = 1.5;   // largest distance of the exact outline from the sampled one
 constexpr double node_spacing = .25;   // distance between nodes; small, because nodes are exact

@@ -15,20 +15,20 @@
 namespace relievo {
 namespace {
 
-// Lengths in rho.
+// Lengths in rho, the sampling distance.
 constexpr double change_radius = 3.0, stride = .75, line_window = 3, shortest = 8;
-constexpr double least_step = .3;  // mean step, below which a line is a crease
-// Lines nearer to each other or to outlines would leave too few points between them.
+constexpr double least_step = .3;  // in rho; a line with a smaller mean step is a crease
+// The least distance of lines from each other and from outlines. Closer lines would leave too few points between
+// them.
 constexpr double apart = 2;
-constexpr std::size_t least_points = 4;  // on each side of a line
+constexpr std::size_t least_points = 4;  // least number of points on each side of a line
 // A line may begin at an edge of a triangle if the cosine between the normals at the two ends of the edge is
 // below this.
 constexpr float bent_below = .75F;
 
-// The change of a surface across a line through a position. The normals on each side are fitted by a linear
-// function.
+// How a surface changes across a line through a position. The normals on each side are fitted by a linear function.
 struct Change {
-  double left_over = 1;  // misfit of both fits, as a share of the misfit of one common fit
+  double left_over = 1;  // misfit of the fits of both sides, as a share of the misfit of one common fit
   // Scatter around the means of both sides, as a share of the scatter around the common mean.
   double scatter = 1;
   double angle_deg = 0;  // between the fitted normals of both sides
@@ -36,7 +36,7 @@ struct Change {
   double step = 0;
 };
 
-// Limits that the change of a surface must satisfy, for the begin of a line and for its continuation.
+// The limits that the change of a surface must satisfy at the start of a line and where a line goes on.
 struct Limits {
   double left_over, angle_deg, step;
 
@@ -81,9 +81,9 @@ class ChangeFinder {
   }
 
  private:
-  // Four points around a place. A missing one has no weight.
+  // Four points around a place. Unused entries have no weight.
   struct FourSamples {
-    Double4 x = {}, y = {};  // from the place, as a share of the radius
+    Double4 x = {}, y = {};  // position relative to the place, in units of the radius
     Double4 weight = {}, is_left = {};
     Double4 n_x = {}, n_y = {}, n_z = {}, z = {};
   };
@@ -110,12 +110,12 @@ class ChangeFinder {
     return std::min(on_left, on_right) >= least_points;
   }
 
-  // The sums of samples, and what a linear fit to their normals finds at the place.
+  // The sums over the samples of one side, and the linear fit to their normals at the position of the line.
   struct Part {
     Mat3 moments = Mat3::Zero(), products = Mat3::Zero();
     Vec3 normal = Vec3::UnitZ();  // fitted normal at the position of the line
     double of_normals = 0, around_mean = 0;
-    double depths = 0, squared_depths = 0;  // in rho
+    double depths = 0, squared_depths = 0;  // weighted sums, in rho
 
     Part operator+(const Part& other) const {
       Part sum;
@@ -124,11 +124,12 @@ class ChangeFinder {
       return sum;
     }
 
-    // Fits the normals. The position lies at the edge of each side's samples, so stiffness keeps the fits
-    // from extrapolating too far.
+    // Fits the normals. The position is at the edge of each side's samples, so stiffness keeps the fits from
+    // extrapolating too far.
     void fit() {
       constexpr double stiffness = .03;
-      // Normals have unit length, so this is also the sum of their squares.
+      // The sum of the weights is also the sum of the weighted squares of the normals, because these have unit
+      // length.
       const double weights = moments(0, 0);
       Mat3 stiff = moments;
       stiff(1, 1) += stiffness * weights, stiff(2, 2) += stiffness * weights;
@@ -139,18 +140,19 @@ class ChangeFinder {
       around_mean = weights - products.row(0).squaredNorm() / weights;
     }
 
-    double depth() const { return depths / moments(0, 0); }  // at the position of the line
+    double depth() const { return depths / moments(0, 0); }  // mean depth, at the position of the line
     double of_depths() const {
-      constexpr double share = .1;  // factor of the squared scatter of depths relative to that of normals
+      constexpr double share = .1;  // weight of the squared scatter of depths relative to that of normals
       return share * std::max(0.0, squared_depths - depths * depth());
     }
-    // Both return the squared deviations of depths plus those of normals, which misfit() takes from the fit and
-    // scatter() from the mean.
+    // misfit() returns the sum of the squared deviations of the normals from their fit and of the depths from their
+    // mean. scatter() uses the deviations of the normals from their mean instead.
     double misfit() const { return of_normals + of_depths(); }
     double scatter() const { return around_mean + of_depths(); }
   };
 
-  // The weighted moments of 1, x and y, and their products with the normals.
+  // Weighted sums of 1, x and y and their products, and of 1, x and y times the normals. Each entry sums every fourth
+  // sample.
   struct FourSums {
     Double4 w = {}, x = {}, y = {}, xx = {}, xy = {}, yy = {};
     Double4 n_x = {}, n_y = {}, n_z = {}, x_n_x = {}, x_n_y = {}, x_n_z = {}, y_n_x = {}, y_n_y = {},
@@ -183,7 +185,7 @@ class ChangeFinder {
     of_right.put_into(right);
   }
 
-  // Weighted sums of the depths of one part, in rho, and of their squares, by four points at a time.
+  // Weighted sums of the depths of one part, in rho, and of their squares. Each entry sums every fourth sample.
   struct FourDepths {
     Double4 sum = {}, squares = {};
 
@@ -193,8 +195,8 @@ class ChangeFinder {
     void put_into(Part& part) const { part.depths = total(sum), part.squared_depths = total(squares); }
   };
 
-  // Returns depths, continued to the place along chords, which are perpendicular to the mean of the normals at
-  // their ends.
+  // Returns the depths of samples, extrapolated to the position of the line. Assumes that the chord from a sample to
+  // this position is perpendicular to the mean of the normals at its ends.
   RELIEVO_INLINE Double4 depths_at_place(const FourSamples& s, const Vec3& normal) const {
     const Double4 n_z = s.n_z + normal.z(), least = Double4{} + .2;
     const Double4 rise = (s.n_x + normal.x()) * s.x + (s.n_y + normal.y()) * s.y;
@@ -218,7 +220,7 @@ class ChangeFinder {
   const Surface& surface_;
   const PlanePoints& plane_;
   double radius_;
-  std::vector<FourSamples> samples_;  // around the last place
+  std::vector<FourSamples> samples_;  // around the position of the last call
 };
 
 // The positions of a line, and the sum of the steps across it.
@@ -239,7 +241,7 @@ class LineFinder {
         lines_(2 * rho_),
         starts_(2 * rho_) {}
 
-  // Continues jumps. Starts a little before their ends, because these are inaccurate.
+  // Continues jumps beyond their ends. Starts a few points before the ends, because these are inaccurate.
   void continue_jumps() {
     constexpr std::size_t before_end = 4, least_length = 8;
     for (Index c = 0; c < outlines_.size(); ++c) {
@@ -256,7 +258,7 @@ class LineFinder {
     }
   }
 
-  // Adds lines. Begins with the edges whose normals differ most.
+  // Adds new lines. Starts at the edges across which the normals differ most.
   void add_lines() {
     for (const auto& [a, b] : bent_edges()) {
       const Vec2 place = (plane_.places[a] + plane_.places[b]) / 2;
@@ -311,11 +313,11 @@ class LineFinder {
     return line;
   }
 
-  // Adds positions to a line, each at the largest change of the surface, until the change is too small or
-  // another line is too near. `own` is the outline to be continued, if any.
+  // Adds positions to a line until the change is too small or another line is too near. Each position is where the
+  // surface changes most. `own` is the outline that the line continues, if any.
   void follow(Line& line, Vec2 direction, Index own) {
     constexpr double turn_deg = 12;
-    constexpr double least_gain = .03;  // least improvement of left_over for which the direction changes
+    constexpr double least_gain = .03;  // least decrease of the scatter for which the direction changes
     direction.normalize();
     while (true) {
       const Vec2 from = line.places.back();
@@ -343,7 +345,7 @@ class LineFinder {
 
   // Returns whether a position is near an earlier part of its own line.
   bool returns(const std::vector<Vec2>& places, const Vec2& to) const {
-    constexpr std::size_t latest = 8;  // number of latest positions that may be near
+    constexpr std::size_t latest = 8;  // the last positions, which are always near, are not tested
     for (std::size_t k = 0; k + latest < places.size(); ++k)
       if ((places[k] - to).norm() < apart * rho_) return true;
     return false;

@@ -7,9 +7,9 @@
 namespace relievo {
 namespace {
 
-constexpr double widest_break = 4;     // in rho
-constexpr double likeness = .5;        // least cosine between the directions of both ends, and of the gap
-constexpr std::size_t end_points = 4;  // at each end, which show its direction
+constexpr double widest_break = 4;     // widest gap that is closed, in rho
+constexpr double likeness = .5;        // least cosine between the directions of both ends and of the gap
+constexpr std::size_t end_points = 4;  // number of points that give the direction of an end
 
 // A place where a jump begins or ends, and the jump's direction there.
 struct End {
@@ -36,7 +36,8 @@ class JumpJoiner {
   }
 
  private:
-  // Returns the gaps that can be closed as width, jump before and jump after, the narrowest first.
+  // Returns the gaps that can be closed, the narrowest first: squared width, the jump before the gap, and the jump
+  // after it.
   std::vector<std::tuple<double, Index, Index>> gaps() const {
     std::vector<End> ends, begins;
     std::vector<Vec2> places;
@@ -72,7 +73,7 @@ class JumpJoiner {
     return c;
   }
 
-  // Returns the fair curve through all points of a jump and of those that follow it.
+  // Returns the fair curve through all points of a jump and of the jumps linked after it.
   OutlineCurve joined(Index first) const {
     std::vector<CurveNode> nodes;
     bool is_crease = true;
@@ -85,7 +86,7 @@ class JumpJoiner {
 
   std::vector<OutlineCurve>& outlines_;
   double rho_;
-  std::vector<Index> next_, previous_;  // per outline; no_index for none
+  std::vector<Index> next_, previous_;  // per outline: the next and the previous one; no_index for none
 };
 
 }  // namespace

@@ -12,11 +12,11 @@
 namespace relievo {
 namespace {
 
-// In pixels; edges are divided into segments of this length, each of which is visible or hidden.
+// The length, in pixels, of the segments into which edges are divided. Each segment is visible or hidden as a whole.
 constexpr double segment_length = .5;
 constexpr double just_beyond =
     1e-3;                         // in pixels; distance from an edge at which the surface behind it is sought
-constexpr double least_jump = 1;  // in pixels
+constexpr double least_jump = 1;  // least depth difference at a jump, in pixels
 
 // An edge that has more triangles on its left than on its right, as seen by the viewer.
 struct ContourEdge {

@@ -1,4 +1,4 @@
-// The exact outlines of a mesh in a view.
+// Finds the exact outlines of a mesh in a view.
 #pragma once
 
 #include <span>

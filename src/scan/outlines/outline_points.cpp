@@ -19,9 +19,9 @@
 namespace relievo {
 namespace {
 
-// Lengths in rho.
+// Lengths in rho, the sampling distance.
 constexpr double rows_end = 3.2;         // only points nearer than this to an outline are replaced
-constexpr double replaced_within = .65;  // least distance of kept points from points of rows
+constexpr double replaced_within = .65;  // least distance between kept points and points of rows
 constexpr double widest_gap = 1.6;       // radius of the largest empty circle inside the surface
 constexpr double sliver_width = .02;
 constexpr double widest_sample = 1.9;  // radius of the largest gap that a single point at its centre fills
@@ -104,8 +104,7 @@ class NewSurface {
     return segments;
   }
 
-  // Returns for each point of the surface whether it is kept: it is inside the surface, and no point of a row
-  // replaces it.
+  // Returns for each old point whether it is kept: it is inside the surface, and no point of a row replaces it.
   std::vector<std::uint8_t> kept(const PointSet& rows) {
     outline_distance_.assign(surface_.points.size(), std::numeric_limits<float>::infinity());
     std::vector<std::uint8_t> is_kept(surface_.points.size(), 0);
@@ -170,8 +169,8 @@ class NewSurface {
     }
   }
 
-  // A triangle that has a corner on the silhouette or a long edge is inside if its centre is inside the
-  // silhouette. All other triangles are inside.
+  // Sets which triangles are inside. Only a triangle with a corner on the silhouette or with a long edge may be
+  // outside: it is inside if its centre is inside the silhouette.
   void set_boundary(Surface& surface, const std::vector<Vec2>& plane,
                     const std::vector<Place>& places) const {
     Boundary& boundary = surface.boundary;
@@ -218,7 +217,7 @@ class NewSurface {
   const PointMeasures& measures_;
   const std::vector<OutlineCurve>& outlines_;
   SegmentGrid grid_, silhouettes_;
-  std::vector<float> outline_distance_;  // per old point; infinity far from all outlines
+  std::vector<float> outline_distance_;  // per old point; infinity if no outline is near
   std::vector<Vec3> points_;
   std::vector<Vec3f> normals_;
   std::vector<Colour> colours_;
@@ -228,7 +227,8 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
-// The least length of (n_x, n_y) at which a surface turns away from the viewer; the same as in outlines.cpp.
+// The least length of (n_x, n_y) of normals where a surface turns away from the viewer; as least_lean in
+// outlines.cpp.
 constexpr double least_turned = .75;
 
 // Returns whether there is a depth jump between two points and the surface behind ends there, with a normal
@@ -287,7 +287,7 @@ bool outlines_replace_points(Surface& surface, PointMeasures& measures,
 
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines) {
-  // Without outlines these triangles stay.
+  // If there are no outlines, the flags that the search for outlines has changed are restored.
   std::vector<std::uint8_t> is_inside = surface.boundary.is_inside;
   if (!outlines_replace_points(surface, measures, known_outlines))
     surface.boundary.is_inside = std::move(is_inside);

@@ -15,9 +15,10 @@
 namespace relievo {
 namespace {
 
-// Lengths and areas in rho.
+// Lengths and areas in rho and rho^2; rho is the sampling distance.
 constexpr double least_piece = 20, hole_area = 4;
-// Jumps scatter more than silhouettes, because the places between two surfaces are known to a rho at best.
+// Jumps get a wider window than silhouettes because they scatter more: where one of two surfaces ends is known to one
+// rho at best.
 constexpr double point_spacing = .75, fair_window = 3, jump_window = 6;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
@@ -61,7 +62,7 @@ class TriangleComponents {
   std::vector<std::uint8_t> is_open_;
 };
 
-// Finds the end of the surface beyond a point, from the normals near the point.
+// Estimates where the surface ends beyond a point, from the normals near the point.
 class EdgeFinder {
  public:
   EdgeFinder(const Surface& surface, const PlanePoints& plane)
@@ -84,7 +85,8 @@ class EdgeFinder {
     if (!(growth > 0)) return unknown;
     const double distance = (1 - fit.value.norm()) / growth;
     if (!(std::abs(distance) <= farthest)) return unknown;
-    // If a surface turns slowly, noise of its normals moves the estimated position far.
+    // If a surface turns away slowly, noise of its normals changes the estimated position much, so it gets less
+    // weight.
     const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
                  ratio = error / (trusted_error * surface_.rho);
     const double trust = 1 / (1 + ratio * ratio);
@@ -99,7 +101,7 @@ class EdgeFinder {
   const KdTree<Vec2>& tree_;
 };
 
-// Returns the exact outline near `places` or, without exact outlines, a fair curve through the nodes
+// Returns the exact outline near `places`. If there are no exact outlines, returns a fair curve through the nodes
 // guess(i).
 template <typename Guess>
 OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, const OutlineCurve& kind,
@@ -117,14 +119,14 @@ OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, con
   return outline;
 }
 
-// The sides of triangles, numbered 3 t + i: side i of triangle t is opposite to its corner i.
+// The sides of triangles. Side 3 t + i belongs to triangle t and is opposite to the triangle's corner i.
 struct Sides {
   const Surface& surface;
 
   Index from(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 1) % 3]; }
   Index to(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 2) % 3]; }
 
-  // Returns the same side as a side of the neighbouring triangle; no_index on the hull.
+  // Returns the number that the same edge has as a side of the neighbouring triangle; no_index on the hull.
   Index twin(Index side) const {
     const Index other = surface.triangulation.neighbours[side / 3][side % 3];
     if (other == no_index) return no_index;
@@ -138,7 +140,7 @@ struct Sides {
     return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
   }
 
-  // Returns the next boundary side around the same component.
+  // Returns the side that follows on the boundary of the same component of inside triangles.
   Index next_boundary(Index side) const {
     Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
     while (!is_boundary(turn)) {
@@ -169,8 +171,8 @@ void add_silhouettes(const Surface& surface, const EdgeFinder& finder, const Exa
   }
 }
 
-// The jumps as lines across the sides of triangles. Each crossed side is linked to the next one along the
-// line. The surface in front is on the left.
+// The jumps as lines that cross sides of triangles. Each crossed side is linked to the next one along the line. The
+// surface in front is on the left of the line.
 class JumpLines {
  public:
   JumpLines(const Surface& surface, const ExactOutlines& exact)
@@ -204,7 +206,7 @@ class JumpLines {
   }
 
  private:
-  // Returns a common number for both sides of an edge.
+  // Returns the number of an edge, which is the same for both of its sides.
   Index edge(Index side) const {
     const Index other = sides_.twin(side);
     return other == no_index ? side : std::min(side, other);
@@ -241,7 +243,7 @@ class JumpLines {
       if (count == 3 ? depth(corners[i]) > depth(corners[alone]) : !jumps[i]) alone = i;
     const Index after = (alone + 1) % 3, before = (alone + 2) % 3;
     const double z = depth(corners[alone]), u = depth(corners[after]), v = depth(corners[before]);
-    // Side from `alone` to `after`; side from `before` to `alone`.
+    // `leaving` is the side from `alone` to `after`, `arriving` the side from `before` to `alone`.
     const Index leaving = 3 * t + before, arriving = 3 * t + after;
     if (z > u && z > v) link(leaving, arriving);
     if (z < u && z < v) link(arriving, leaving);

@@ -1,4 +1,4 @@
-// Outlines of the visible surface as smooth curves: its silhouette, and the depth jumps inside it.
+// Finds the outlines of the visible surface as smooth curves: its silhouette, and the depth jumps inside it.
 #pragma once
 
 #include <optional>
@@ -58,8 +58,8 @@ struct OutlineCurve {
   bool is_crease = false;  // a jump without a step: the surface only bends there
 };
 
-// Returns how smooth the curves of jumps are, and how far apart their points. Points of creases are as far
-// apart as those of scans, because only steps need closer ones.
+// Returns the options for curves of jumps: smoothness and distance between points. Creases get points as far apart as
+// those of scans, because only steps need closer ones.
 FairCurveOptions jump_curve_options(double rho, bool is_crease = false);
 
 // The distance between the points of a crease, in rho.
@@ -73,16 +73,16 @@ struct PlanePoints {
   explicit PlanePoints(const Surface& surface) : places(in_plane(surface.points)), tree(places) {}
 };
 
-// Returns whether two neighbouring points lie on different surfaces: their depths differ by more than 3 rho
-// plus twice the difference that the mean of their normals explains. (The chord of a circle is perpendicular
-// to the mean of the normals at its ends.) is_jump() instead uses the steeper of the two normals. Where a
-// surface turns away from the viewer, that normal explains so large a difference that jumps would be missed.
+// Returns whether two neighbouring points lie on different surfaces: their depths differ by more than 3 rho plus
+// twice the difference that the mean of their normals explains. (The chord of a circle is perpendicular to the mean
+// of the normals at its ends.) Unlike this function, is_jump() uses the steeper of the two normals. Where a surface
+// turns away from the viewer, that normal explains so large a difference that is_jump() misses jumps.
 bool is_occlusion(const Surface& surface, Index a, Index b);
 
-// Removes connected parts of less than 0.5 % of the surface (crumbs of the scan), and closes holes of less
-// than 4 rho^2: changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only parts of less
-// than 20 rho^2 are removed, because they are too small for an outline. If the view limits the number of
-// parts, only the largest are kept. Returns whether any triangle is still inside.
+// Marks small connected parts of the surface (crumbs) as outside, and holes of less than 4 rho^2 as inside. Adds the
+// number of removed parts to surface.crumbs. Crumbs have less than 0.5 % of the surface's area. If the view shows
+// crumbs, only parts of less than 20 rho^2 are removed, which are too small for an outline. If the view limits the
+// number of parts, only the largest are kept. Returns whether any triangle is still inside.
 bool drop_crumbs(Surface& surface);
 
 // Returns the silhouettes, which are closed, then the depth jumps. The surface's triangulation must have

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Distances of the rows from an outline, in rho. Only jumps have a row at the first distance.
+// Distances of the rows from an outline, in rho, the sampling distance. Only jumps have a row at the first distance.
 constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
 // Least distances between points of rows, in rho. They are smaller on outlines and in the row next to an
 // outline.
@@ -72,7 +72,8 @@ class RowMaker {
     const OutlineCurve& outline = outlines_[c];
     const std::size_t n = outline.curve.points.size();
     const Place place = row > 0 ? Place::row : side > 0 ? Place::front : Place::back;
-    // Half edges of the curve, including its end.
+    // The number of positions beside which a row may have points: the points of the curve and the midpoints of its
+    // edges.
     const std::size_t halves = outline.is_closed ? 2 * n : 2 * n - 1;
     const std::size_t first = row % 2, stride = row == 0 ? 1 : 2;
     std::vector<Candidate> candidates((halves - first + stride - 1) / stride);
@@ -87,15 +88,15 @@ class RowMaker {
     }
   }
 
-  // A place for a point of a row.
+  // A possible position for a point of a row.
   struct Candidate {
     Vec2 at;
     bool is_free;
     bool is_corner;  // whether it is beside a corner of the outline
   };
 
-  // Returns the position in a row beside position `half` of the curve: even numbers are the curve's points,
-  // odd numbers the midpoints of its edges.
+  // Returns the position in a row beside position `half` of the curve. Even numbers are the curve's points, odd
+  // numbers the midpoints of its edges.
   Candidate candidate(Index c, std::size_t half, std::size_t row, double side) const {
     const OutlineCurve& outline = outlines_[c];
     const std::vector<Vec2>& p = outline.curve.points;
@@ -108,8 +109,8 @@ class RowMaker {
             !is_between && outline.curve.is_corner[k] != 0};
   }
 
-  // Returns whether a position in a row is free: no outline separates it from its own outline, and no outline
-  // is too close.
+  // Returns whether a row may have a point at `at`: no outline separates it from the row's own outline, and no
+  // outline is too close.
   bool is_free(Index c, const Vec2& from, const Vec2& at, std::size_t row) const {
     const double distance = row_distance[row] * rho_, nearest = .9 * distance;
     if (grid_.is_crossed(from, at) || grid_.nearest(at, nearest).segment != no_index) return false;
@@ -125,7 +126,7 @@ class RowMaker {
 };
 
 constexpr double fit_radius = 2.5;     // in rho; up to 2.56 times as large if there are few points
-constexpr float least_likeness = .8F;  // least cosine (37 degrees) between the normals of one face
+constexpr float least_likeness = .8F;  // least cosine (37 degrees) between normals of the same face
 constexpr int least_face_points = 5;
 
 }  // namespace
@@ -161,8 +162,8 @@ std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowP
   return values;
 }
 
-// Returns the values at a new point from the `matches` within the radius of a fit, or from farther points where
-// these are few.
+// Returns the values at a new point. `matches` has the points within the radius of a fit; if too few of them can be
+// used, points farther away are added.
 SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around) const {
   double radius = fit_radius * surface_.rho;
   std::vector<Match>& matches = around.matches;
@@ -181,9 +182,9 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around
   return interpolated(p, radius, matches);
 }
 
-// Keeps only the points, within the radius, on the same side of all outlines as p. Points on an outline are left
-// out, because they may belong to either side. Noise moves some points across an outline, so points are also left out if
-// there is a jump between them and the point that is farthest from all outlines.
+// Keeps only the points within the radius that are on the same side of all outlines as p. Points on an outline are
+// left out, because they may belong to either side. Noise moves some points across an outline. So points are also
+// left out if there is a jump between them and the point that is farthest from all outlines.
 void SideInterpolation::leave_same_side(const RowPoint& p, double radius, Around& around) const {
   std::vector<Match>& matches = around.matches;
   Index safest = no_index;
@@ -193,7 +194,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, double radius, Around
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    // The distance is infinite far from outlines and outside.
+    // The distance is infinite at points far from outlines and at points outside.
     const bool is_clear = std::isfinite(distance) &&
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && around.lines.is_crossed(place)) return true;
@@ -205,8 +206,7 @@ void SideInterpolation::leave_same_side(const RowPoint& p, double radius, Around
   leave_same_face(matches);
 }
 
-// Keeps only the face of the nearest point, if a crease separates the points and this face has enough of
-// them.
+// If a crease separates the points, keeps only those on the same face as the nearest point, unless they are too few.
 void SideInterpolation::leave_same_face(std::vector<Match>& matches) const {
   if (matches.empty()) return;
   const Index nearest = std::ranges::min_element(matches, {}, &Match::second)->first;

@@ -1,4 +1,4 @@
-// Rows of points beside outlines. Tested by tests/scan/outlines_test.cpp.
+// Makes rows of points beside outlines. Tested by tests/scan/outlines_test.cpp.
 #pragma once
 
 #include <span>
@@ -24,15 +24,15 @@ inline constexpr Index no_row = no_index;
 // A new point before its depth and normal are known.
 struct RowPoint {
   Vec2 at;
-  Vec2 seen_from;  // a position on the same side; values are interpolated from points on that side
+  Vec2 seen_from;  // values are interpolated from points that no outline separates from this position
   Place place;
-  Index row = no_row;  // index of the row; consecutive points of a row between two corners have the same one
+  Index row = no_row;  // index of the row; a corner of the outline begins a new row
 };
 
-// In rho: half the width of the wall at a jump; the distance of the last row from its outline.
+// Lengths in rho: half the width of the wall at a jump, and the distance of the last row from its outline.
 inline constexpr double half_wall = .15, last_row = 2.95;
 
-// n_z of normals at new points is at least this, which is 88.9 degrees.
+// The least n_z of normals at new points, so they are tilted by at most 88.9 degrees.
 inline constexpr double least_nz = .02;
 
 // Returns the unit normal with this (n_x, n_y), shortened if n_z would be less than least_nz.
@@ -42,10 +42,10 @@ inline Vec3 normal_with(Vec2 lean) {
   return {lean.x(), lean.y(), std::sqrt(1 - lean.squaredNorm())};
 }
 
-// Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points
-// on the silhouette come first, then points on both sides of each jump, then parallel rows in the order of
-// their distance from the outline. A point is left out if it would be nearer to another outline, behind one,
-// or too close to a point of an earlier row.
+// Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points on the
+// silhouette come first, then points on both sides of each jump, then parallel rows in the order of their distance
+// from the outline. A point is left out if another outline is nearer to it than its own or separates it from its own,
+// or if a point of an earlier row is too close.
 std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
                                  double rho, PointSet& taken);
 
@@ -55,12 +55,13 @@ struct PointMeasures {
   std::vector<float> spacing;  // Spacing::local for clouds of uneven density, else empty
 };
 
-// Keeps views of its arguments, which must outlive it.
+// Interpolates values at new points from points on the same side of all outlines. Keeps references to its arguments,
+// which must outlive it.
 class SideInterpolation {
  public:
   struct Input {
     const Surface& surface;
-    const PlanePoints& plane;  // the points of the surface
+    const PlanePoints& plane;  // the surface's points in the view plane
     const PointMeasures& measures;
     const SegmentGrid& grid;
     std::span<const float> outline_distance;  // per point: distance from the nearest outline
@@ -84,7 +85,7 @@ class SideInterpolation {
  private:
   using Match = KdTree<Vec2>::Match;
 
-  // The points around a new point, and lines from the place that it is seen from.
+  // The points around a new point, and the lines from RowPoint::seen_from to these points.
   struct Around {
     std::vector<Match> matches;
     LinesFrom lines;

@@ -14,8 +14,8 @@ namespace {
 using Value = SideInterpolation::Value;
 using Numbers = Double4;  // depth in rho, n_x, n_y, curvature
 
-constexpr double window = 3;                            // in rho
-constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a point has half of its weight
+constexpr double window = 3;                            // largest distance of samples, in rho
+constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a sample's weight is halved
 constexpr double stiffness = .001;                      // keeps fits to few points regular
 constexpr double other_face = .35;  // least difference of (n_x, n_y) between the two faces at a crease
 constexpr int passes = 3;
@@ -44,27 +44,27 @@ class RowSmoother {
 
  private:
   struct Sample {
-    double share;  // way along the row from the smoothed point, as a share of the window
+    double share;  // distance along the row from the smoothed point, as a share of the window
     Numbers numbers;
     double share_sq = share * share, trust = 1;
   };
 
-  // A point before any is smoothed.
+  // The values of a point before smoothing.
   struct Before {
     Numbers numbers;
     bool is_known;
   };
 
-  // A curve of second degree fitted to samples: begin + slope * share + bend * share^2. `begin` has the
-  // numbers at the smoothed point.
+  // A quadratic fitted to the samples: begin + slope * share + bend * share^2. `begin` is the value at the smoothed
+  // point.
   struct Curve {
     Numbers begin, slope, bend;
   };
 
   static double length_of_lean(const Numbers& numbers) { return Vec2(numbers[1], numbers[2]).norm(); }
 
-  // Returns the samples of the point's row within the window, its own one included. Where a crease crosses the
-  // row, only those on the point's side are returned, unless they are so few that the point is an outlier.
+  // Returns the samples within the window in the row of the point, the point included. If a crease crosses the row,
+  // only the samples on the point's side are returned, unless they are so few that the point is an outlier.
   std::vector<Sample> samples_near(std::size_t point) const {
     std::vector<Sample> samples;
     samples.reserve(24);

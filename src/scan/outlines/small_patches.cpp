@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t least_patch = 60;
 constexpr double least_behind = .7;  // share of the jumps around a patch at which the patch is behind
 
-// In rho. Longer edges cross regions without points, so they do not connect points.
+// The longest edge that connects points, in rho (sampling distances). Longer edges cross regions without points.
 constexpr double connection_length = 3;
 
 // The number of jumps and gaps between points of a patch and other points, and how many of them have the

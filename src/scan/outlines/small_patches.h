@@ -1,4 +1,4 @@
-// Removes surfaces that are visible only through slits.
+// Removes patches of a surface that are visible only through slits.
 #pragma once
 
 #include "relievo/scan/surface.h"

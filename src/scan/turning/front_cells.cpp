@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// A point as a disc in view coordinates; the unit is a cell, the origin the grid's corner.
+// A point drawn as a disc in view coordinates. The unit is the width of a cell, the origin the corner of the grid.
 struct FrontDisc {
   // Radius, in spacings, of the discs that hide points behind them.
   static constexpr float hiding_radius{ScanLimits::disc_radius};
@@ -24,7 +24,7 @@ struct FrontDisc {
   float spacing;
 };
 
-// The rows of one band. After each row there is space for the last vector of cells that a disc covers.
+// The rows of one band. Each row has extra space at its end, because discs are drawn eight cells at a time.
 class DiscBand {
  public:
   DiscBand(int columns, int first_row, int rows);
@@ -55,12 +55,12 @@ constexpr int lanes = 8;
 // Radius, in spacings, of the discs that average normals. With 1.5, discs of scattered points leave a
 // thousandth of the surface uncovered.
 constexpr float mean_radius = 1.5F;
-constexpr float least_mean_radius = .8F;  // in cells
+constexpr float least_mean_radius = .8F;  // least radius, in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
 constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
-// For eight cells of a row: the squared distance in the view plane from a disc's centre to the cells'
-// centres, and the height of the disc's plane above the disc's centre there.
+// Two values for each of eight cells of a row: the squared distance in the view plane from a disc's centre to the
+// cell's centre, and the height of the disc's plane at the cell's centre above the disc's centre.
 struct Steps {
   Float8 distance_sq, rise;
 };
@@ -156,8 +156,8 @@ void DiscBand::write(FrontCells& cells) const {
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws
-constexpr float least_cell = .6F;       // in spacings; smaller cells would show no more detail
-constexpr float steepest = 20;          // slope of a disc
+constexpr float least_cell = .6F;       // least width, in spacings; smaller cells would show no more detail
+constexpr float steepest = 20;          // largest slope of a disc
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct FlatBox {
@@ -190,7 +190,7 @@ FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
           box.least + size.cwiseProduct(most.cast<float>())};
 }
 
-// Per band of rows: the discs that touch it, of one block of points.
+// The discs of one block of points, per band of rows: entry b has the discs that touch band b.
 using Bands = std::vector<std::vector<FrontDisc>>;
 
 class FrontDrawing {

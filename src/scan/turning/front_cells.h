@@ -1,5 +1,6 @@
-// The visible side of a cloud on a grid of square cells over the view plane: a fast image of depths and
-// normals, from which reliefs are made while the user turns the model. Tested by tests/scan/turning_test.cpp.
+// Draws the visible side of a cloud on a grid of square cells over the view plane. The result is a fast image of
+// depths and normals, from which reliefs are made while the user turns the model. Tested by
+// tests/scan/turning_test.cpp.
 #pragma once
 
 #include <limits>
@@ -18,7 +19,7 @@ struct FrontPoint {
   float spacing;  // spacing of the surrounding points
 };
 
-// Rows of cells, from the lowest upwards.
+// Images of the visible side, one pixel per cell. The lowest row is the first.
 struct FrontCells {
   static constexpr float no_depth = -std::numeric_limits<float>::infinity();
 
@@ -48,7 +49,6 @@ void clear_small_pieces(FrontCells& front, std::size_t least);
 // Fills holes of at most `most` cells from the surrounding cells.
 void fill_small_holes(FrontCells& front, std::size_t most);
 
-// Sets `is_edge`.
 void mark_edges(FrontCells& front);
 
 }  // namespace relievo

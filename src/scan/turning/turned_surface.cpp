@@ -35,8 +35,8 @@ class CellChoice {
     rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
   }
 
-  // spacing() returns the mean distance between chosen points, in cells. reach() returns a similar integer,
-  // at least 2 unless all cells are chosen.
+  // spacing() returns the mean distance between chosen cells. reach() returns a whole number close to it, which is at
+  // least 2 unless all cells are chosen. Both are in cells.
   double spacing() const { return std::sqrt(columns_ * rows_); }
   int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
@@ -77,8 +77,8 @@ class CellChoice {
   int columns_ = 1, rows_ = 1, hole_reach_;
 };
 
-// Measures normal and curvature of the front at a cell. The normal is averaged over the cells within step /
-// 2. `step` is about the distance between points of the surface, in cells.
+// Measures normal and curvature of the front at a cell. `step` is about the distance between points of the surface,
+// in cells. The normal is averaged over the cells within step / 2.
 class CellMeasures {
  public:
   CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}

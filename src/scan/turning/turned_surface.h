@@ -1,4 +1,4 @@
-// Surfaces of about 18,000 points, from which reliefs are made while the user turns the model. Tested by
+// Makes surfaces of about 18,000 points, from which reliefs are made while the user turns the model. Tested by
 // tests/scan/turning_test.cpp.
 #pragma once
 
@@ -16,7 +16,7 @@ struct TurningScan {
 
   std::vector<FrontPoint> points;
   bool do_normals_face_viewer = false;  // true if signs are unknown; each normal is then turned to the viewer
-  Vec3 centre = Vec3::Zero();           // as in Surface
+  Vec3 centre = Vec3::Zero();           // see Surface::centre
   double rho = 0, diagonal = 0;
 
   // Returns the scan without the points on and behind the support plane of `surface`, a surface of this scan
