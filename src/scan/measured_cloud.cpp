@@ -189,12 +189,17 @@ std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Ve
 }
 
 bool MeasuredCloud::serves(const View& view) const {
-  // A new field of View breaks this line on purpose: decide here whether the field needs other measurements.
-  const auto& [R_view_model, crop, has_crumbs, most_pieces, has_plane, gap, denoise, is_paper, is_best] =
-      view;
-  if (denoise != view_.denoise || crop != view_.crop) return false;
-  const bool is_of_any_view = crop == Crop{} && cloud().outlines.empty();
-  return is_of_any_view || R_view_model == view_.R_view_model;
+  View same = view_;
+  // These fields need no other measurements. A new field does, unless it is added here.
+  same.has_crumbs = view.has_crumbs;
+  same.most_pieces = view.most_pieces;
+  same.has_plane = view.has_plane;
+  same.gap = view.gap;
+  same.is_paper = view.is_paper;
+  same.is_best = view.is_best;
+  const bool is_of_any_view = view.crop == Crop{} && cloud().outlines.empty();
+  if (is_of_any_view) same.R_view_model = view.R_view_model;
+  return same == view;
 }
 
 std::vector<double> MeasuredCloud::curvature(const Scan& clean, std::span<const Index> points,
