@@ -146,9 +146,11 @@ export class EngineProcess {
   }
 }
 
+// Runs the program, and returns what it prints.
 export function run(...args) {
   const made = spawnSync(PROGRAM, args.map(String));
   assert.equal(made.status, 0, String(made.stderr));
+  return String(made.stdout);
 }
 
 export const writeSample = (sample, points, file) => run("sample", sample, "-o", file, "--points", points);
