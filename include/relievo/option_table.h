@@ -38,21 +38,22 @@ inline constexpr std::array<Choice<OptionStage>, 7> option_stages{{{"input", Opt
                                                                    {"body", OptionStage::body},
                                                                    {"triangles", OptionStage::triangles}}};
 
-// A value as users enter it; an empty text means no value. A length may also be a text with a unit, see
-// parse_length().
+// A value as users enter it; an empty text means that the option is not given. A length may also be a text
+// with a unit, see parse_length().
 using OptionValue = std::variant<std::string, double>;
 
 // Values by option name. Missing options have their defaults.
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-// The functions that read a value of an option, and return its effective number.
+// Functions that read an option's value, and that return its effective number, which is the given value or
+// the default.
 struct OptionTargets;
 struct OptionAccess {
   // Reads a value of the option's type into `to`. The input of an error may be empty; then the caller sets
   // it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Returns the effective number, given or default; nothing if there is none. Null for options that are
-  // texts.
+  // Returns the effective number of the option; nothing if it has none. The pointer is null for options that
+  // are texts.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 
@@ -93,8 +94,9 @@ std::string_view expected_type(const OptionRow& option);
 Result<void> check_range(const OptionRow& option, double number);
 
 // Reads and checks the values. Returns the options. Options of depth images are ignored, see parse_depth(). A
-// base of kind image has no height map yet. Errors: kind option, naming the option, for unknown names and for
-// values of the wrong type; those of check() and of the functions that parse texts.
+// base of kind image is returned without its height map, which the caller reads. Errors: kind option, naming
+// the option, for unknown names and for values of the wrong type; those of check() and of the functions that
+// parse texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
 // Returns the options of depth images in the values, without the camera. Other options are ignored. Errors:

@@ -48,7 +48,8 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return an error of kind input, option, geometry or cancelled, to be returned from a function with a Result.
+// Return errors of kind input, option, geometry and cancelled. A function that returns a Result can return
+// them as they are.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }
@@ -65,7 +66,7 @@ inline std::unexpected<Error> cancelled_error() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
-// Macros, because a function could not return from its caller.
+// These are macros, because a function cannot return from its caller.
 #define RELIEVO_JOIN_(a, b) a##b
 #define RELIEVO_JOIN(a, b) RELIEVO_JOIN_(a, b)
 

@@ -80,8 +80,8 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
   return start;
 }
 
-// One flag per block, for blocks that need the results of earlier blocks. A block may wait only for a lower
-// block of the same parallel call. There is no deadlock, because blocks are started in order, so the lower
+// One flag per block of a parallel call, for blocks that need the results of earlier blocks. A block may wait
+// only for a lower block of the same call. There is no deadlock: blocks are started in order, so the lower
 // block is running or done.
 class BlockFlags {
  public:

@@ -21,7 +21,7 @@ struct Triangulation {
 
 // Returns the Delaunay triangulation of `points`.
 //
-// - Of points with equal coordinates the one with the lowest index is used; the others are in no triangle.
+// - Among points with equal coordinates, only the one with the lowest index is in triangles.
 // - If there are fewer than three distinct points, or all points are collinear, there are no triangles and no
 // hull.
 // - Cocircular points are triangulated in one of the valid ways, which is the same for the same input on
