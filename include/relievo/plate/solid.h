@@ -66,9 +66,10 @@ struct PlateOptions {
   std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
   // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
-  // make_plate() expects a front that already has the form, see forms.h, and gives it to the ornaments.
+  // make_plate() expects a front that is already mirrored or inverted, see forms.h. It applies these two
+  // members to the ornaments.
   bool is_mirrored = false;  // whether left and right are swapped
-  bool is_die = false;       // whether what is raised in the relief is sunk, and the reverse
+  bool is_die = false;       // whether what is raised in the relief is sunk, and vice versa
 
   bool operator==(const PlateOptions&) const = default;
 };
@@ -87,7 +88,7 @@ struct Solid {
   std::vector<Region> regions = {};  // regions of front triangles, for pictures; empty if all are relief
   Vec3 shift = Vec3::Zero();         // added to the front's coordinates to get the solid's, for flat ground
   double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
-  double error_mm = 0;  // largest distance from the exact surface, due to curving and simplifying
+  double error_mm = 0;  // largest distance from the exact surface, due to bending and simplifying
   OrnamentFacts ornaments = {};
   // Unit of the coordinates; only in_unit() and files use other units than mm.
   LengthUnit unit = LengthUnit::mm;
@@ -102,13 +103,13 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // thickness_mm. Its extent in z is the thickness plus the difference between the highest and the lowest point
 // of the front, including ground and rim. The front's points and triangles come first, in their order. The
 // ground adds as points only the corners of the outline and of the rim's edges; ornaments add theirs. If two
-// points coincide in single precision, the second is raised or lowered by the smallest step that separates
-// them.
+// points would coincide in single precision, z of the second one is changed by the smallest step that
+// separates them.
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the
-// bottom has as many. Triangles that are connected only by a corner, and parts smaller than a thousandth of
-// the whole, are left out.
+// bottom has as many points and triangles. Triangles that are connected only by a corner, and parts smaller
+// than a thousandth of the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
 // bevel wider than its rim, a rim or ornaments with the outline `none`, or ornaments without sufficient

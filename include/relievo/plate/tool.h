@@ -25,11 +25,11 @@ struct Tool {
   bool operator==(const Tool&) const = default;
 };
 
-// Returns the tool described by a text: "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in
-// degrees and lengths, see parse_length(). Errors: kind option, naming tool.
+// Returns the tool described by a text: "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP". ANGLE
+// is in degrees; DIAMETER and TIP are lengths for parse_length(). Errors: kind option, naming tool.
 Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns the text of the tool for parse_tool(), in millimetres.
+// Returns the tool as a text that parse_tool() reads, in millimetres.
 std::string text_of(const Tool& tool);
 
 // Returns the height of the tool's surface above its lowest point, in mm, at that distance from its axis;
@@ -49,7 +49,7 @@ Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const
 struct ToolReach {
   double reached_share = 1;        // share of the front's area that the tool reaches within the tolerance
   double largest_residual_mm = 0;  // largest height of material that is left on the front
-  double tolerance_mm = 0;         // 0.01, or an eighth of a sample if that is more
+  double tolerance_mm = 0;         // 0.01, or an eighth of mm_per_sample if that is more
   double mm_per_sample = 0;  // a twelfth of the tool's radius, but in [1/4096, 1/2048] of the longer side
   Image<float> heights_mm;   // heights of the front above its lowest point; NaN where there is no front
   Image<float> residual_mm;  // height of material that is left on the front; NaN where there is no front

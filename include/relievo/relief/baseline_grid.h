@@ -1,6 +1,6 @@
-// Baselines at their best: each relief uses the parameters of a grid that give it the best shading. The
-// program's command `compare` and docs/quality.md show these. The methods with the same names have fixed
-// parameters.
+// Finds the best reliefs of the baselines: each relief uses the parameters of a grid that give it the best
+// shading. The program's command `compare` and docs/quality.md show these reliefs. Methods with the same
+// names as baselines have fixed parameters.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace relievo {
 
 class ReliefMetrics;
 
-// Four of them are also methods; docs/quality.md describes the others.
+// Four of these baselines are also methods; docs/quality.md describes the others.
 inline constexpr std::array<std::string_view, 7> baseline_names{
     "linear", "equalise", "gradient", "detail", "mimicking", "normal-layers", "bounded"};
 
@@ -30,9 +30,10 @@ struct TunedRelief {
   double shading = 0;  // Measures::shading
 };
 
-// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names; `system`
-// is the system of all points of the surface. Errors: kind geometry if the baseline has no height that could
-// be scaled. Messages give heights in millimetres; one unit is `unit_mm`.
+// best_baseline() returns the relief of the baseline's grid with the best shading. `name` is one of
+// baseline_names; `system` is the system of all points of the surface. Errors: kind geometry if the
+// baseline's relief is flat and cannot be scaled. Messages give heights in millimetres; `unit_mm` is the
+// number of millimetres per unit of the surface.
 struct BaselineInput {
   const Surface& surface;
   const HeightSystem& system;
