@@ -1,6 +1,6 @@
-// Our subspace mode, after the paper's (stages 7, 8 and 10): reliefs from a few thousand control points. The
-// time for a relief depends little on the size of the cloud. The source file src/paper/mapping.h has the
-// paper's mapping.
+// Our subspace mode, which follows the paper's (stages 7, 8 and 10), makes reliefs from a few thousand
+// control points. The time for a relief depends little on the size of the cloud. src/paper/mapping.h has the
+// paper's own mapping.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,8 @@ struct SubspaceOptions {
   double max_slope = 4;  // slope limit of the reference heights, see Shape
 };
 
-// Returns z_ref: the heights of all points from (9) with w_k = 1. `system` is the system of all points.
+// Returns z_ref: the heights of all points from equation (9) with w_k = 1. `system` is the system of all
+// points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
 // Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
@@ -55,7 +56,7 @@ class SubspaceModel {
 
   // Results that the caller may already have. prepare() computes those that are empty.
   struct Known {
-    std::span<const double> reference = {};    // reference_heights() for the same max_slope
+    std::span<const double> reference = {};    // reference_heights() for the same max_slope as in the options
     std::span<const PointLayers> layers = {};  // normal_layers() of the surface
   };
 
@@ -92,7 +93,8 @@ class SubspaceModel {
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c * own + (common ratio of all control points) * overall.
+  // The ratio of a control point is z_c * own + common * overall, where `common` is the same for all control
+  // points.
   struct RatioTerm {
     float own = 0, overall = 0;
   };
