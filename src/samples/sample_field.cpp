@@ -65,7 +65,8 @@ std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
 }
 
 Cells cover(const Solid& solid) {
-  // 256 cells along the box; finer than the distance between any two sheets of a sample
+  // The cells divide the longest side of the box by 256. They are smaller than the distance between any two
+  // sheets of a sample's surface.
   const int levels = 8;
   Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
   for (int level = 0; level < levels; ++level)

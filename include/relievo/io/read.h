@@ -28,7 +28,7 @@ std::vector<std::string> readable_endings();
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
 // Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content
-// or, if the content fits several formats, by the extension of `name`. Any other file is read as a text of
+// or, where the content does not show it, by the extension of `name`. Any other file is read as a text of
 // numbers. src/io/formats.h lists the supported parts of each format. Errors contain `name`.
 //
 // Convex and concave polygons are triangulated as if they were flat. A polygon that intersects itself becomes
