@@ -15,8 +15,8 @@
 namespace relievo::io {
 
 // Iterates over the fields of a line: words if `separator` is ' ', otherwise the texts between separators,
-// without surrounding blanks and quotation marks. A separator at the end of the line ends the last field; no
-// further field follows.
+// without surrounding blanks and quotation marks. A separator at the end of the line ends the last field, and
+// is not followed by an empty field.
 class Fields {
  public:
   Fields(std::string_view line, char separator) : line_(line), words_(line), separator_(separator) {}
@@ -37,7 +37,7 @@ using ColumnNames = std::vector<std::string_view>;
 struct XyzLayout {
   static constexpr std::size_t most_wanted = 9, first_normal = 3, first_colour = 6;
   char separator = ' ';
-  bool has_decimal_commas = false;                          // instead of decimal points
+  bool has_decimal_commas = false;                          // whether commas replace decimal points
   std::size_t columns = 0;                                  // number of columns in every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
   bool has_names = false;                                   // whether a line has names of the columns
@@ -59,10 +59,11 @@ bool has_coordinates(const ColumnNames& names);
 // Returns whether the only coordinates among the names are longitude and latitude.
 bool has_degrees(const ColumnNames& names);
 
-// Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
-// find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
-// first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
-// with a number, or the three after a scanner's row and column or after the point's number.
+// Set the columns of coordinates, normals and colours. take_columns() finds the columns by their names.
+// find_columns() finds normals and colours by their values in lines from the whole file. Its coordinates are
+// the first three columns; but if the lines begin with a scanner's row and column, with the point's number,
+// or with a name (`has_name` is set, and no sampled line begins with a number), they are the three columns
+// after these.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
@@ -87,7 +88,7 @@ std::string columns_text(const XyzLayout& layout);
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
 
 // Sets the separator, the decimal mark and the number of columns from a line of data, whose number is
-// layout.first_line. Errors: kind input, for a comma that could be both.
+// layout.first_line. Errors: kind input if a comma could be a separator or a decimal comma.
 Result<void> take_separators(const Source& source, std::string_view line, XyzLayout& layout);
 
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data

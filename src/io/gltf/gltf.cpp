@@ -19,7 +19,7 @@ using Transform = Eigen::Affine3d;
 
 constexpr std::size_t most_vertices = 100'000'000;  // limit, because small files can repeat a mesh many times
 
-constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of application
+constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of their application
 
 constexpr const char* draco = "KHR_draco_mesh_compression";
 
@@ -79,8 +79,8 @@ class GltfReader {
     if (has_lines_) raw.remarks.emplace_back("left out the lines");
   }
 
-  // The transforms of a mesh's copies, or the number of the mesh's skin; a skin determines the position
-  // alone.
+  // The placement of a mesh in the scene: the transforms of its copies, or the number of its skin. A mesh
+  // with a skin needs no transform, because the skin alone determines the positions.
   struct Placement {
     std::vector<Transform> copies;
     std::size_t skin = no_index;

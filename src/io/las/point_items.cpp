@@ -100,7 +100,7 @@ void PositionItem::decode_attributes(ArithmeticDecoder& decoder, std::uint32_t c
         decoder, intensities_[context], static_cast<std::uint32_t>(std::min<std::size_t>(context, 3))));
   }
   if ((changes & 8) != 0) classification_models_.next(decoder, classification_);
-  if ((changes & 4) != 0) decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // the angle is not used
+  if ((changes & 4) != 0) decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // decoded only to advance
   if ((changes & 2) != 0) user_data_models_.next(decoder, user_data_);
   if ((changes & 1) != 0) source_ = static_cast<std::uint16_t>(source_decoder_.next(decoder, source_));
 }
